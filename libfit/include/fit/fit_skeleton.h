@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Poses a skeleton so that its bones run through the middle of the garment's parts.
+//
+// Method   skeleton-based error metric [wu_2018_garment_fitting], equations (1)-(4): translation, rotation and bones in
+//          turn, coarse to fine; nearest garment vertex by a KD-tree.
+// Units    metres, radians. The garment stays where it is; the body comes to it.
+// Cost     O(e log n): e evaluations of five samples a bone, n garment vertices.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "fit/mesh.h"
+#include "fit/progress.h"
+#include "fit/skeleton.h"
+
+namespace fit {
+
+enum class GarmentType {
+    automatic, tshirt, longsleeve, blouse, hoodie, jacket, coat, vest, trousers, shorts, skirt, dress, jumpsuit, suit
+};
+
+/// "auto", "tshirt", ... all of them, in the order of GarmentType.
+FIT_API const std::vector<std::string_view>& garment_type_names();
+/// @throws InvalidInput listing the known names.
+FIT_API GarmentType garment_type_of(std::string_view name);
+FIT_API std::string_view name_of(GarmentType type);
+
+struct TypeGuess {
+    GarmentType type = GarmentType::automatic;
+    double margin = 0;  ///< 0 (a toss-up) to 1 (all evidence agrees)
+};
+
+/// Reads the type off the garment's openings and tubes. Cost O(n log n).
+FIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
+
+/// The bones that a type covers.
+FIT_API std::vector<Bone> bones_covered_by(GarmentType type);
+
+struct FitOptions {
+    GarmentType type = GarmentType::automatic;
+    int iterations = 6;         ///< rounds of translation, rotation and bones; each halves spacing and extent
+};
+
+struct FitResult {
+    Pose pose;                                  ///< takes the body from its own pose into the garment
+    GarmentType type = GarmentType::automatic;  ///< as given, or as found
+    double type_margin = 1;                     ///< 1 when the type was given
+    std::vector<Bone> covered;
+    std::array<double, bone_count> scores {};   ///< E_B of equation (1), metres; 0 for bones that take no part
+    double score_before = 0, score_after = 0;   ///< E of equation (4)
+};
+
+/// @pre    The garment hangs upright (+y up), somewhere; the body may be anywhere.
+/// @post   Every bone, covered or not, and every extremity keeps clear of the garment's surface: no bone passes through cloth.
+/// @throws InvalidInput when no bone fits into the garment, saying which came closest. Cancelled.
+FIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
+                               const Progress& progress = {});
+
+}  // namespace fit

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Brings a dressed body from one pose to another, cloth along, contact kept.
+//
+// Method   slerp of every joint [wu_2018_garment_fitting, step 5]; the cloth is carried by the body's own skinning as a
+//          prediction, cut to its intersection-free part, and relaxed.
+// Units, cost and promise as in drape_garment.h.
+
+#include <vector>
+
+#include "fit/drape_garment.h"
+
+namespace fit {
+
+struct RecoverOptions {
+    ClothOptions cloth;
+    int largest_steps = 200;         ///< give up after this many
+    double step_length = 0.015;      ///< m; no body vertex near the cloth moves further in a step
+    int settling_steps = 20;         ///< time steps under gravity, at the end
+};
+
+struct RecoverResult {
+    std::vector<WornGarment> garments;
+    Positions body;         ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
+    double pose_reached = 0;  ///< 1 = arrived
+    bool certified = false;   ///< arrived, and every garment's certificate is clean
+};
+
+/// @param from, to  poses of the rig; Pose() is the body's own
+/// @throws InvalidInput when the garments cross the body in pose `from`. Cancelled.
+FIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
+                                   const std::vector<WornGarment>& worn, const RecoverOptions& options = {},
+                                   const Progress& progress = {});
+
+}  // namespace fit
