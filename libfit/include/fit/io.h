@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fit/export.h"
@@ -49,5 +50,9 @@ FIT_API void write_ply(const std::filesystem::path& path, const Positions& posit
 
 /// Scalar vertex properties of a PLY file by name. @throws InvalidInput.
 FIT_API std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& path);
+
+/// Writes beside the place, then renames: a reader sees the old file or the whole new one, never a half.
+/// @throws InvalidInput when the place cannot be written.
+FIT_API void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace fit

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A file in memory: where in it something is wrong, and how it is written again with pieces exchanged.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace fit {
+
+/// Bytes [begin, end) of a file.
+struct Span {
+    std::size_t begin = 0, end = 0;
+};
+
+struct FileBytes {
+    std::string name;   ///< the path as the user gave it, for messages
+    std::string bytes;
+
+    std::string_view text(Span span) const { return std::string_view(bytes).substr(span.begin, span.end - span.begin); }
+
+    [[noreturn]] void fail(const std::string& what) const;
+    [[noreturn]] void fail_at_line_of(std::size_t offset, const std::string& what) const;
+    [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& what) const;
+};
+
+/// @throws InvalidInput when there is no such regular, readable, non-empty file.
+FileBytes read_file(const std::filesystem::path& path);
+
+/// Copies a file, putting other bytes in the place of some. Replacements come in the order of the file.
+class Rewriter {
+public:
+    explicit Rewriter(const std::string& original);
+    void replace(Span span, std::string_view bytes);
+    std::string finish();
+
+private:
+    const std::string& original_;
+    std::string result_;
+    std::size_t copied_ = 0;
+};
+
+}  // namespace fit

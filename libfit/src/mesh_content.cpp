@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_content.h"
+
+namespace fit {
+
+void FanBuilder::add(const std::vector<int>& corners)
+{
+    const std::size_t count = corners.size() / columns_;
+    for (std::size_t k = 1; k + 1 < count; ++k)
+        for (const std::size_t corner : { std::size_t(0), k, k + 1 })
+            for (int column = 0; column < columns_; ++column)
+                fans_[column].push_back(corners[corner * columns_ + column]);
+}
+
+Triangles FanBuilder::triangles(int column) const
+{
+    return Eigen::Map<const Triangles>(fans_[column].data(), static_cast<Eigen::Index>(fans_[column].size() / 3), 3);
+}
+
+}  // namespace fit

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "turned_normals.h"
+
+namespace fit {
+namespace {
+
+Positions area_normals(Eigen::Index count, const Triangles& corners, const Triangles& triangles, const Positions& positions)
+{
+    Positions sums = Positions::Zero(count, 3);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)), c = positions.row(triangles(f, 2));
+        const Vec3 area = (b - a).cross(c - a);
+        for (int k = 0; k < 3; ++k)
+            if (corners(f, k) >= 0)
+                sums.row(corners(f, k)) += area;
+    }
+    return sums;
+}
+
+}  // namespace
+
+Positions turned_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
+                         const Positions& before, const Positions& after)
+{
+    const Positions from = area_normals(normals.rows(), corners, triangles, before);
+    const Positions to = area_normals(normals.rows(), corners, triangles, after);
+    Positions turned = normals;
+    for (Eigen::Index n = 0; n < normals.rows(); ++n) {
+        const Vec3 u = from.row(n), v = to.row(n);
+        if (u != v && u.norm() > 0 && v.norm() > 0)
+            turned.row(n) = Eigen::Quaterniond::FromTwoVectors(u, v) * Vec3(normals.row(n));
+    }
+    return turned;
+}
+
+}  // namespace fit

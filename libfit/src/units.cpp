@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/units.h"
+
+#include <array>
+#include <cmath>
+
+#include "fit/error.h"
+
+namespace fit {
+namespace {
+
+struct Unit {
+    std::string_view name;
+    double metres;
+};
+constexpr std::array<Unit, 6> k_units { { { "m", 1 }, { "dm", 0.1 }, { "cm", 0.01 }, { "mm", 0.001 }, { "in", 0.0254 }, { "ft", 0.3048 } } };
+
+}  // namespace
+
+Eigen::Matrix3d Frame::rotation() const
+{
+    // up along x turns about z; all others turn about x, so that left stays left
+    Eigen::Matrix3d metres_from_file;
+    metres_from_file.row(1) = up;
+    if (std::abs(up.x()) > 0.5) {
+        metres_from_file.row(2) = Vec3::UnitZ();
+        metres_from_file.row(0) = up.cross(Vec3::UnitZ());
+    } else {
+        metres_from_file.row(0) = Vec3::UnitX();
+        metres_from_file.row(2) = Vec3::UnitX().cross(up);
+    }
+    return metres_from_file;
+}
+
+Positions Frame::to_metres(const Positions& in_file) const
+{
+    return metres_per_unit * in_file * rotation().transpose();
+}
+
+Positions Frame::to_file(const Positions& in_metres) const
+{
+    return in_metres * rotation() / metres_per_unit;
+}
+
+double metres_per(std::string_view unit)
+{
+    for (const Unit& known : k_units)
+        if (known.name == unit)
+            return known.metres;
+    throw InvalidInput("unknown unit '" + std::string(unit) + "'; known are m, dm, cm, mm, in, ft");
+}
+
+Vec3 axis_of(std::string_view name)
+{
+    const bool is_signed = !name.empty() && (name[0] == '+' || name[0] == '-');
+    const std::string_view letter = name.substr(is_signed ? 1 : 0);
+    if (letter.size() != 1 || letter[0] < 'x' || letter[0] > 'z')
+        throw InvalidInput("unknown axis '" + std::string(name) + "'; known are +x, -x, +y, -y, +z, -z");
+    return (name[0] == '-' ? -1.0 : 1.0) * Vec3::Unit(letter[0] - 'x');
+}
+
+}  // namespace fit
