@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/filters.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+namespace fit {
+namespace {
+
+// ---- what each stage does to the scene -------------------------------------------------------------------------
+
+void rig(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    scene.rig = rig_body(*scene.body, p.rig, progress);
+}
+
+void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    scene.fits.clear();
+    const double n = double(scene.garments.size());
+    for (const GarmentInput& garment : scene.garments) {
+        FitOptions options = p.fit;
+        if (garment.type != GarmentType::automatic)
+            options.type = garment.type;
+        const double i = double(scene.fits.size());
+        scene.fits.push_back(fit_skeleton(*scene.rig, garment.mesh, options, progress.part(i / n, (i + 1) / n)));
+    }
+}
+
+Dressing dressing_of(const DrapeResult& result, const Pose& pose)
+{
+    return { result.garments, result.body, pose, result.size_reached, 1, result.too_tight, result.certified };
+}
+
+bool all_clean(const std::vector<WornGarment>& garments)
+{
+    return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });
+}
+
+/// Moves a dressed body to another pose. Where that ends in a state that is not clean, the start is the answer.
+Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const RecoverOptions& options,
+               const Progress& progress)
+{
+    const RecoverResult result
+        = recover_pose(*scene.rig, scene.body.value(), from.pose, to, from.garments, options, progress);
+    Dressing next = from;
+    next.certified = result.certified;
+    next.pose_reached = result.pose_reached;
+    if (!all_clean(result.garments)) {
+        next.pose_reached = 0;
+        return next;
+    }
+    next.garments = result.garments;
+    next.body = result.body;
+    next.pose = slerp(from.pose, to, result.pose_reached);
+    return next;
+}
+
+/// From the inside out. The garments already worn go along to the pose of the next one; ends where one cannot be put on.
+void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    Dressing dressing;
+    const double n = double(scene.garments.size());
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+        const Progress slice = progress.part(double(i) / n, double(i + 1) / n);
+        const Pose& pose = scene.fits[i].pose;
+        if (i > 0)
+            dressing = moved(scene, dressing, pose, p.recover, slice.part(0, 0.3));
+        if (i > 0 && !dressing.certified)
+            break;
+        const DrapeResult result = drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
+                                                 slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments);
+        dressing = dressing_of(result, pose);
+        if (!dressing.certified)
+            break;
+    }
+    scene.draped = dressing;
+}
+
+void recover(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    scene.recovered = moved(scene, *scene.draped, Pose(), p.recover, progress);
+}
+
+// ---- the tables ------------------------------------------------------------------------------------------------
+
+struct StageRow {
+    std::string_view name, progress_name;
+    void (*run)(Scene&, const Parameters&, const Progress&);
+    double share;  ///< of the time that dressing takes, for the progress bar
+};
+
+constexpr std::array<StageRow, stage_count> k_stages { {
+    { "rig", "rigging the body", rig, 0.08 },
+    { "fit", "fitting the skeleton", fit_all, 0.12 },
+    { "drape", "draping the garment", drape_all, 0.4 },
+    { "recover", "recovering the pose", recover, 0.4 },
+} };
+
+const StageRow& row(Stage stage) { return k_stages[static_cast<int>(stage)]; }
+
+void require(bool given, const Filter& filter, const char* what)
+{
+    if (!given)
+        throw InvalidInput(std::string(filter.label) + " needs " + what);
+}
+
+void require_inputs(const Filter& filter, const Scene& scene)
+{
+    for (const Data input : filter.inputs)
+        switch (input) {
+        case Data::body: require(scene.body.has_value(), filter, "a body"); break;
+        case Data::garments: require(!scene.garments.empty(), filter, "a garment"); break;
+        case Data::rig: require(scene.rig.has_value(), filter, "a rigged body; run Rig Body first"); break;
+        case Data::fits:
+            require(scene.fits.size() == scene.garments.size(), filter, "a fit for each garment; run Fit Skeleton first");
+            break;
+        case Data::draped: require(scene.draped.has_value(), filter, "a draped garment; run Drape Garment first"); break;
+        case Data::recovered: break;  // no filter reads it
+        }
+}
+
+bool ended_uncertified(const Scene& scene, Stage stage)
+{
+    return stage == Stage::drape && !scene.draped->certified;
+}
+
+/// A garment is the same cloth while it is put on and while its wearer moves.
+Parameters with_one_cloth(const Filter& filter, Parameters p)
+{
+    if (filter.has(Stage::drape))
+        p.recover.cloth = p.drape.cloth;
+    return p;
+}
+
+}  // namespace
+
+std::string_view name_of(Stage stage) { return row(stage).name; }
+
+const std::vector<Filter>& filters()
+{
+    static const std::vector<Filter> table {
+        { "rig", "Rig Body", "Finds the skeleton of a body and how the skin hangs on it",
+          { Data::body }, { Data::rig }, { Stage::rig } },
+        { "fit", "Fit Skeleton", "Poses the skeleton so that its bones run through the middle of the garment's parts",
+          { Data::body, Data::garments, Data::rig }, { Data::fits }, { Stage::fit } },
+        { "drape", "Drape Garment", "Puts the posed body into the garment without letting cloth and body cross",
+          { Data::body, Data::garments, Data::rig, Data::fits }, { Data::draped }, { Stage::drape } },
+        { "recover", "Recover Pose", "Brings the dressed body back to its own pose, the garment along",
+          { Data::body, Data::garments, Data::rig, Data::draped }, { Data::recovered }, { Stage::recover } },
+        { "dress", "Dress Body", "Dresses a body in garments made for somebody else: rig, fit, drape, recover",
+          { Data::body, Data::garments }, { Data::rig, Data::fits, Data::draped, Data::recovered },
+          { Stage::rig, Stage::fit, Stage::drape, Stage::recover } },
+    };
+    return table;
+}
+
+const Filter& filter_of(std::string_view name)
+{
+    std::string names;
+    for (const Filter& filter : filters()) {
+        if (filter.name == name)
+            return filter;
+        names += (names.empty() ? "" : ", ") + std::string(filter.name);
+    }
+    throw InvalidInput("no filter is called \"" + std::string(name) + "\"; there are " + names);
+}
+
+bool Filter::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
+
+void Filter::run(Scene& scene, const Parameters& parameters, const Progress& progress) const
+{
+    using Clock = std::chrono::steady_clock;
+    require_inputs(*this, scene);
+    describe(*this, parameters, CheckRanges());
+    const Parameters p = with_one_cloth(*this, parameters);
+
+    double total = 0, done = 0;
+    for (const Stage stage : stages)
+        total += row(stage).share;
+    for (const Stage stage : stages) {
+        const Clock::time_point start = Clock::now();
+        const double next = done + row(stage).share / total;
+        const Progress slice = progress.part(done, next, row(stage).progress_name);
+        slice.at(0);
+        row(stage).run(scene, p, slice);
+        slice.at(1);
+        scene.seconds[static_cast<int>(stage)] += std::chrono::duration<double>(Clock::now() - start).count();
+        done = next;
+        if (ended_uncertified(scene, stage))
+            break;
+    }
+}
+
+}  // namespace fit

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The table of filters that every host shows: command line, and whatever else wants to be one.
+//
+// A filter reads parts of a Scene and fills others. A host puts its meshes into the scene, its widgets into Parameters,
+// calls run, and takes out what `outputs` names. Metres, +y up, as everywhere in libfit.
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "filters/schema.h"
+
+namespace fit {
+
+enum class Stage { rig, fit, drape, recover };
+constexpr int stage_count = 4;
+/// "rig", "fit", "drape", "recover".
+std::string_view name_of(Stage stage);
+
+/// The options of all stages; a filter shows those of the stages it runs.
+struct Parameters {
+    RigOptions rig;
+    FitOptions fit;  ///< its type holds for garments that bring none
+    DrapeOptions drape;
+    RecoverOptions recover;  ///< its cloth counts only where draping is not part of the filter
+};
+
+struct GarmentInput {
+    GarmentMesh mesh;
+    GarmentType type = GarmentType::automatic;
+};
+
+/// Garments on the body, in one pose.
+struct Dressing {
+    std::vector<WornGarment> garments;  ///< the first of the scene's garments, from the inside out
+    Positions body;                     ///< of the user's vertices
+    Pose pose;
+    double size_reached = 1;  ///< of the body; less than 1 where the last garment is too small
+    double pose_reached = 1;  ///< of the last way between two poses
+    std::vector<TooTight> too_tight;
+    bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
+};
+
+struct Scene {
+    std::optional<BodyMesh> body;
+    std::vector<GarmentInput> garments;  ///< from the inside out
+    std::optional<Rig> rig;
+    std::vector<FitResult> fits;       ///< one for each garment
+    std::optional<Dressing> draped;    ///< in the pose of the last garment's fit
+    std::optional<Dressing> recovered; ///< in the body's own pose
+    std::array<double, stage_count> seconds {};  ///< wall clock spent in each stage
+};
+
+/// What a filter reads and makes; a host's ports.
+enum class Data { body, garments, rig, fits, draped, recovered };
+
+struct Filter {
+    std::string_view name;   ///< "dress": a command, a method
+    std::string_view label;  ///< "Dress Body": a menu entry
+    std::string_view help;
+    std::vector<Data> inputs;
+    std::vector<Data> outputs;
+    std::vector<Stage> stages;  ///< run one after another
+
+    bool has(Stage stage) const;
+
+    /// Checks inputs and ranges, then fills the outputs of each stage. A stage that ends uncertified is the last one.
+    /// @throws InvalidInput, SolverFailure, Cancelled; outputs of the stages before it stay in the scene.
+    void run(Scene& scene, const Parameters& parameters, const Progress& progress = {}) const;
+};
+
+/// Rig Body, Fit Skeleton, Drape Garment, Recover Pose, Dress Body.
+const std::vector<Filter>& filters();
+/// @throws InvalidInput listing the names.
+const Filter& filter_of(std::string_view name);
+
+/// The parameters of one filter, each once.
+template <class AnyParameters, class Visitor, IfOptionsOf<AnyParameters, Parameters>* = nullptr>
+void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
+{
+    if (filter.has(Stage::rig))
+        describe(p.rig, visit);
+    if (filter.has(Stage::fit))
+        describe(p.fit, visit);
+    if (filter.has(Stage::drape)) {
+        describe(p.drape, visit);
+        describe_motion(p.recover, visit);  // garments already worn move on to the pose of the next one
+    } else if (filter.has(Stage::recover)) {
+        describe(p.recover, visit);
+    }
+}
+
+}  // namespace fit
