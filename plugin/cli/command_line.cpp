@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command_line.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "fit/error.h"
+
+namespace fit::cli {
+namespace {
+
+struct CommandText {
+    std::string_view name, examples;
+};
+
+constexpr CommandText k_commands[] = {
+    { "dress",
+      "Examples:\n"
+      "  garmentfit dress woman.obj coat.obj -o dressed\n"
+      "  garmentfit dress man.ply shirt.glb trousers.obj --type tshirt --type trousers -o dressed\n"
+      "  garmentfit dress scan.stl dress.obj --unit mm --up +z --json -o dressed\n" },
+    { "rig",
+      "Examples:\n"
+      "  garmentfit rig man.ply -o rigged\n"
+      "  garmentfit rig woman.obj --unit dm --swap-sides -o rigged\n" },
+    { "fit",
+      "Examples:\n"
+      "  garmentfit fit man.ply coat.obj -o fitted\n"
+      "  garmentfit fit man.ply coat.obj --rig rigged/rig.json -o fitted\n" },
+    { "drape",
+      "Examples:\n"
+      "  garmentfit drape fitted -o draped\n"
+      "  garmentfit drape fitted --density 0.4 --bend-stiffness 1e-4 -o draped\n" },
+    { "recover",
+      "Examples:\n"
+      "  garmentfit recover draped -o dressed\n" },
+};
+
+/// One flag for each parameter of the schema; flags that exist already are left alone.
+class AddFlags {
+public:
+    explicit AddFlags(CLI::App& command) : command_(command) { }
+
+    template <class Value>
+    void operator()(Value& value, const About& about)
+    {
+        std::string flag = "--" + std::string(about.name);
+        std::replace(flag.begin(), flag.end(), '_', '-');
+        if (command_.get_option_no_throw(flag))
+            return;
+        const std::string help = std::string(about.help) + " (" + range_of<Value>(about) + ")";
+        if constexpr (std::is_same_v<Value, bool>)
+            command_.add_flag(flag, value, help)->group("Parameters");
+        else
+            command_.add_option_function<std::string>(
+                flag, [&value, about](const std::string& text) { set_from_text(value, about, text); }, help)
+                ->default_str(text_of(value, about))->type_name("")->group("Parameters");
+    }
+
+private:
+    CLI::App& command_;
+};
+
+bool starts_from_meshes(const Filter& filter) { return filter.has(Stage::rig) || filter.has(Stage::fit); }
+/// `fit` also rigs, unless it is given a rig.
+bool takes_a_rig(const Filter& filter) { return filter.has(Stage::fit) && !filter.has(Stage::rig); }
+
+void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
+{
+    command.add_option("BODY", call.body, "Body mesh: OBJ, PLY, OFF, STL, glTF, GLB")->required();
+    command.add_option("--unit", call.body_frame.unit, "Unit of the body's file: auto, m, dm, cm, mm, in, ft")
+        ->default_str("auto");
+    command.add_option("--up", call.body_frame.up, "Up axis of the body's file: auto, +x, -x, +y, -y, +z, -z")
+        ->default_str("auto");
+    if (!filter.has(Stage::fit))
+        return;
+    command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out")->required();
+    command.add_option("--type", call.types, "Type of a garment, once for each: " + range_of<GarmentType>({
+                           .name = {}, .label = {}, .unit = {}, .help = {}, .choices = &garment_type_names() }))
+        ->allow_extra_args(false)->default_str("auto");
+    command.add_option("--garment-unit", call.garment_frame.unit, "Unit of the garments' files")->default_str("auto");
+    command.add_option("--garment-up", call.garment_frame.up, "Up axis of the garments' files")->default_str("auto");
+    if (takes_a_rig(filter))
+        command.add_option("--rig", call.rig, "Take the skeleton from this rig.json (rigged.ply beside it)");
+}
+
+void add_command(CLI::App& app, const CommandText& text, Call& call)
+{
+    const Filter& filter = filter_of(text.name);
+    CLI::App& command = *app.add_subcommand(std::string(filter.name), std::string(filter.help));
+    command.footer(std::string(text.examples));
+    if (starts_from_meshes(filter))
+        add_mesh_options(command, filter, call);
+    else
+        command.add_option("DIR_IN", call.from, "What garmentfit " + std::string(filter.name == "drape" ? "fit" : "drape")
+                                                    + " wrote")->required();
+    command.add_option("-o,--output", call.out, "Folder for the results")->required();
+    command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
+        ->check(CLI::Range(0, 1024))->default_str("0");
+    command.add_option("--seed", call.seed, "Seed of random choices, kept in the report. No step draws any today")
+        ->default_str("0");
+    command.add_flag("--quiet", call.quiet, "Say nothing but errors");
+    command.add_flag("--json", call.json, "Print report.json on standard output");
+    if (takes_a_rig(filter))
+        describe(filter_of("rig"), call.parameters, AddFlags(command));
+    describe(filter, call.parameters, AddFlags(command));
+    command.callback([&call, &filter] { call.filter = &filter; });
+}
+
+std::string one_line(std::string text)
+{
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+void require_types(const Call& call)
+{
+    if (call.types.size() > call.garments.size())
+        throw InvalidInput(std::to_string(call.types.size()) + " types for " + std::to_string(call.garments.size())
+                           + " garments; give --type once for each garment at most");
+    for (const std::string& type : call.types)
+        garment_type_of(type);
+}
+
+}  // namespace
+
+std::optional<Call> parse(int argc, char** argv)
+{
+    auto call = std::make_unique<Call>();  // flags point into it
+    CLI::App app("Dresses a 3D body of any shape and pose in garments made for somebody else", "garmentfit");
+    app.set_version_flag("--version", "garmentfit " FIT_VERSION);
+    app.require_subcommand(1);
+    app.footer("Each command has its own help: garmentfit dress --help\n"
+               "Exit codes: 0 dressed and certified, 2 wrong input, 3 too small, 4 not certified, 130 stopped\n\n"
+               "Example:\n  garmentfit dress woman.obj coat.obj -o dressed\n");
+    for (const CommandText& text : k_commands)
+        add_command(app, text, *call);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+        app.exit(asked);
+        return {};
+    } catch (const CLI::Error& error) {
+        throw InvalidInput(one_line(error.what()) + "; see garmentfit --help");
+    }
+    require_types(*call);
+    return *call;
+}
+
+}  // namespace fit::cli

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the user typed.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "filters/filters.h"
+#include "session.h"
+
+namespace fit::cli {
+
+struct Call {
+    const Filter* filter = nullptr;
+    std::filesystem::path body, from, rig, out;  ///< `from`: the folder that drape and recover continue
+    std::vector<std::filesystem::path> garments;
+    std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
+    FrameChoice body_frame, garment_frame;
+    Parameters parameters;
+    int threads = 0;  ///< 0 = all cores
+    unsigned seed = 0;
+    bool quiet = false, json = false;
+};
+
+/// Nothing when the call only asked for help or the version, which are printed.
+/// @throws InvalidInput.
+std::optional<Call> parse(int argc, char** argv);
+
+}  // namespace fit::cli

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Ctrl-C, told to libfit through its Progress.
+
+namespace fit::cli {
+
+/// The first SIGINT or SIGTERM only raises a flag; a second one ends the program at once, as ever.
+void watch_interruption();
+bool interrupted();
+/// @throws Cancelled when interrupted.
+void stop_if_interrupted();
+
+}  // namespace fit::cli

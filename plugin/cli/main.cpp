@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// garmentfit: the filters on the command line. Exit codes and files are described in docs/command-line.md.
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <optional>
+
+#include <oneapi/tbb/global_control.h>
+#include <unistd.h>
+
+#include "command_line.h"
+#include "fit/error.h"
+#include "interruption.h"
+#include "output_folder.h"
+#include "progress_bar.h"
+#include "report.h"
+#include "session.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::cli;
+
+constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
+
+Session read(const Call& call)
+{
+    Session session;
+    if (call.filter->name == "drape") {
+        read_fitted(session, call.from);
+    } else if (call.filter->name == "recover") {
+        read_draped(session, call.from);
+    } else {
+        read_body(session, call.body, call.body_frame);
+        for (std::size_t i = 0; i < call.garments.size(); ++i)
+            add_garment(session, call.garments[i],
+                        i < call.types.size() ? garment_type_of(call.types[i]) : GarmentType::automatic,
+                        call.garment_frame);
+        if (!call.rig.empty())
+            read_rig(session, call.rig);
+    }
+    return session;
+}
+
+void compute(const Call& call, Session& session)
+{
+    ProgressBar bar(isatty(STDERR_FILENO) && !call.quiet);
+    const Progress progress = bar.progress();
+    const bool rig_first = call.filter->name == "fit" && !session.scene.rig;
+    if (rig_first)
+        filter_of("rig").run(session.scene, call.parameters, progress.part(0, 0.4));
+    call.filter->run(session.scene, call.parameters, progress.part(rig_first ? 0.4 : 0, 1));
+}
+
+void write(const Call& call, Session& session, OutputFolder& folder)
+{
+    const auto start = std::chrono::steady_clock::now();
+    write_results(session, call.filter->name, folder.draft());
+    session.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::string report = report_json(call, session);
+    std::ofstream file(folder.draft() / "report.json");
+    if (!(file << report << std::flush))
+        throw InvalidInput("cannot write report.json into " + folder.place().string() + "; is the disk full?");
+    file.close();
+    stop_if_interrupted();
+    folder.publish();
+    if (call.json)
+        std::cout << report;
+    else if (!call.quiet)
+        std::cout << summary(call, session);
+}
+
+int run(int argc, char** argv)
+{
+    const std::optional<Call> call = parse(argc, argv);
+    if (!call)
+        return 0;
+    std::optional<tbb::global_control> threads;
+    if (call->threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, call->threads);
+    OutputFolder folder(call->out);
+    Session session = read(*call);
+    stop_if_interrupted();
+    compute(*call, session);
+    write(*call, session, folder);
+    const Outcome outcome = outcome_of(session.scene);
+    if (outcome != Outcome::done)
+        std::cerr << "garmentfit: " << explain(session) << '\n';
+    return static_cast<int>(outcome);
+}
+
+int fail(int code, const std::string& message)
+{
+    std::cerr << "garmentfit: " << message << '\n';
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    watch_interruption();
+    try {
+        return run(argc, argv);
+    } catch (const Cancelled& stopped) {
+        return fail(k_stopped, stopped.what());
+    } catch (const InvalidInput& error) {
+        return fail(k_wrong_input, error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(k_wrong_input, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(k_not_certified, "out of memory; give a mesh with fewer vertices");
+    } catch (const std::exception& error) {
+        return fail(k_not_certified, error.what());
+    }
+}

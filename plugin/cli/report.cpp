@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/global_control.h>
+
+namespace fit::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double peak_memory_bytes()
+{
+    rusage usage {};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * double(usage.ru_maxrss);  // Linux counts kibibytes
+}
+
+Json stages_of(const Session& session)
+{
+    Json stages { { "read", session.read_seconds } };
+    for (int s = 0; s < stage_count; ++s)
+        stages[std::string(name_of(Stage(s)))] = session.scene.seconds[s];
+    stages["write"] = session.write_seconds;
+    return stages;
+}
+
+Json vector_of(const Vec3& v) { return Json { v.x(), v.y(), v.z() }; }
+
+Json guess_of(const FrameGuess& guess)
+{
+    return { { "metres_per_unit", guess.frame.metres_per_unit }, { "unit_margin", guess.unit_margin },
+             { "up", vector_of(guess.frame.up) }, { "up_margin", guess.up_margin }, { "why", guess.why } };
+}
+
+Json body_of(const Session& session)
+{
+    const BodyFile& body = session.body;
+    Json json { { "file", body.path.filename().string() }, { "vertices", body.file.positions().rows() },
+                { "repaired", session.scene.body->repaired } };
+    json.update(guess_of(body.frame));
+    if (const auto& rig = session.scene.rig) {
+        json["front"] = vector_of(body.frame.frame.rotation().transpose() * rig->front);
+        json["front_margin"] = rig->side_margin;
+    }
+    return json;
+}
+
+void put_certificate(Json& json, const Certificate& c, double metres_per_unit)
+{
+    json["crossings"] = { { "body", c.body_crossings }, { "self", c.self_crossings },
+                          { "self_input", c.input_self_crossings }, { "layers", c.layer_crossings } };
+    json["vertices_inside"] = c.vertices_inside;
+    json["smallest_gap"] = c.smallest_gap / metres_per_unit;
+    json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
+}
+
+/// Only the garment that was put on last can have been found too tight.
+Json too_tight_of(const Dressing& dressing, std::size_t garment, double metres_per_unit)
+{
+    Json parts = Json::array();
+    if (garment + 1 == dressing.garments.size())
+        for (const TooTight& tight : dressing.too_tight)
+            parts.push_back({ { "part", tight.part }, { "missing_girth", tight.missing_girth / metres_per_unit } });
+    return parts;
+}
+
+Json garment_of(const Session& session, std::size_t i)
+{
+    const Scene& scene = session.scene;
+    const double metres_per_unit = session.body.frame.frame.metres_per_unit;
+    Json json { { "file", session.garments[i].name() } };
+    if (i < scene.fits.size()) {
+        const FitResult& fit = scene.fits[i];
+        json["type"] = name_of(fit.type);
+        json["type_margin"] = fit.type_margin;
+        json["covered"] = Json::array();
+        for (const Bone bone : fit.covered)
+            json["covered"].push_back(bone_name(bone));
+        json["score"] = { { "before", fit.score_before / metres_per_unit }, { "after", fit.score_after / metres_per_unit } };
+    }
+    if (const Dressing* end = final_dressing(scene)) {
+        json["worn"] = i < end->garments.size();
+        if (i < end->garments.size()) {
+            put_certificate(json, end->garments[i].certificate, metres_per_unit);
+            json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
+        }
+    }
+    json["guesses"] = guess_of(session.garments[i].frame);
+    return json;
+}
+
+Json json_of(const Call& call, const Session& session)
+{
+    Json json { { "command", call.filter->name } };
+    if (const Dressing* end = final_dressing(session.scene)) {
+        json["certified"] = end->certified;
+        json["size_reached"] = end->size_reached;
+        json["pose_reached"] = end->pose_reached;
+        if (!end->certified)
+            json["note"] = explain(session);
+    }
+    json["stages"] = stages_of(session);
+    json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    json["seed"] = call.seed;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    json["body"] = body_of(session);
+    json["garments"] = Json::array();
+    for (std::size_t i = 0; i < session.garments.size(); ++i)
+        json["garments"].push_back(garment_of(session, i));
+    json["warnings"] = session.warnings;
+    return json;
+}
+
+std::string worn_line(const Session& session, const Dressing& end, std::size_t i)
+{
+    const Certificate& c = end.garments[i].certificate;
+    std::ostringstream text;
+    text << std::setprecision(3) << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type)
+         << "): " << c.body_crossings + c.self_crossings + c.layer_crossings << " crossings, smallest gap "
+         << 1000 * c.smallest_gap << " mm, strain " << 100 * c.strain.p95 << "% at the 95th percentile\n";
+    return text.str();
+}
+
+}  // namespace
+
+std::string report_json(const Call& call, const Session& session) { return json_of(call, session).dump(1) + "\n"; }
+
+std::string summary(const Call& call, const Session& session)
+{
+    std::ostringstream text;
+    const BodyFile& body = session.body;
+    text << body.path.filename().string() << ": " << body.frame.why << '\n';
+    if (const Dressing* end = final_dressing(session.scene))
+        for (std::size_t i = 0; i < end->garments.size(); ++i)
+            text << worn_line(session, *end, i);
+    else
+        for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
+            text << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type) << "): fitted\n";
+    for (const std::string& warning : session.warnings)
+        text << "note: " << warning << '\n';
+    text << "written to " << call.out.string() << '\n';
+    return text.str();
+}
+
+}  // namespace fit::cli

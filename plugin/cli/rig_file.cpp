@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rig_file.h"
+
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "fit/error.h"
+
+namespace fit::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_format = "garmentfit-rig";
+constexpr int k_version = 1;
+constexpr const char* k_tip_names[extremity_count] = { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip", "rfoot_tip" };
+
+// ---- values in the file's units and axes -----------------------------------------------------------------------
+
+Json json_of(const Vec3& v) { return Json { v.x(), v.y(), v.z() }; }
+
+Vec3 vector_of(const Json& json) { return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() }; }
+
+Json point(const Frame& frame, const Vec3& in_metres)
+{
+    return json_of(frame.to_file(Positions(in_metres.transpose())).row(0));
+}
+
+Vec3 point(const Frame& frame, const Json& json)
+{
+    return frame.to_metres(Positions(vector_of(json).transpose())).row(0);
+}
+
+Json direction(const Frame& frame, const Vec3& d) { return json_of(frame.rotation().transpose() * d); }
+Vec3 direction(const Frame& frame, const Json& json) { return frame.rotation() * vector_of(json); }
+
+Json displacement(const Frame& frame, const Vec3& d) { return direction(frame, Vec3(d / frame.metres_per_unit)); }
+Vec3 displacement(const Frame& frame, const Json& json) { return direction(frame, json) * frame.metres_per_unit; }
+
+/// (w, x, y, z): a turn about an axis in the file's axes.
+Json turn(const Frame& frame, const Eigen::Quaterniond& q)
+{
+    const Vec3 axis = frame.rotation().transpose() * q.vec();
+    return Json { q.w(), axis.x(), axis.y(), axis.z() };
+}
+
+Eigen::Quaterniond turn(const Frame& frame, const Json& json)
+{
+    const Vec3 axis = frame.rotation() * Vec3(json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>());
+    return Eigen::Quaterniond(json.at(0).get<double>(), axis.x(), axis.y(), axis.z()).normalized();
+}
+
+void put_frame(Json& json, const Frame& frame)
+{
+    json["metres_per_unit"] = frame.metres_per_unit;
+    json["up"] = json_of(frame.up);
+}
+
+Frame frame_of(const Json& json)
+{
+    return { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) };
+}
+
+// ---- the parts of the file ---------------------------------------------------------------------------------------
+
+Json ends(const Frame& frame, const Skeleton& skeleton, int bone)
+{
+    return { { "head", point(frame, skeleton.head(bone)) }, { "tail", point(frame, skeleton.tail(bone)) } };
+}
+
+Json bones_of(const Frame& frame, const Skeleton& skeleton)
+{
+    Json bones = Json::array();
+    for (int b = 0; b < bone_count; ++b) {
+        Json bone { { "name", bone_name(b) }, { "parent", parent_of(b) < 0 ? "root" : bone_name(parent_of(b)) } };
+        bone.update(ends(frame, skeleton, b));
+        bones.push_back(bone);
+    }
+    return bones;
+}
+
+Json tips_of(const Frame& frame, const Skeleton& skeleton)
+{
+    Json tips;
+    for (int e = 0; e < extremity_count; ++e)
+        tips[k_tip_names[e]] = point(frame, skeleton.tips[e]);
+    return tips;
+}
+
+Json fitted_joints(const Frame& frame, const Skeleton& skeleton)
+{
+    Json joints;
+    for (int b = 0; b < bone_count; ++b)
+        joints[std::string(bone_name(b))] = ends(frame, skeleton, b);
+    return joints;
+}
+
+Json pose_of(const Frame& frame, const Pose& pose)
+{
+    Json json { { "root_translation", displacement(frame, pose.root_translation) },
+                { "root_rotation", turn(frame, pose.root_rotation) } };
+    for (int b = 0; b < bone_count; ++b)
+        json["rotations"][std::string(bone_name(b))] = turn(frame, pose.rotations[b]);
+    return json;
+}
+
+Pose pose_of(const Frame& frame, const Json& json)
+{
+    Pose pose;
+    pose.root_translation = displacement(frame, json.at("root_translation"));
+    pose.root_rotation = turn(frame, json.at("root_rotation"));
+    for (int b = 0; b < bone_count; ++b)
+        pose.rotations[b] = turn(frame, json.at("rotations").at(std::string(bone_name(b))));
+    return pose;
+}
+
+Json garment_of(const Frame& body_frame, const FittedGarment& garment)
+{
+    Json json { { "file", garment.file }, { "type", name_of(garment.fit.type) }, { "type_margin", garment.fit.type_margin } };
+    put_frame(json, garment.frame);
+    json["covered"] = Json::array();
+    for (const Bone bone : garment.fit.covered)
+        json["covered"].push_back(bone_name(bone));
+    json["pose"] = pose_of(body_frame, garment.fit.pose);
+    return json;
+}
+
+FittedGarment garment_of(const Frame& body_frame, const Json& json)
+{
+    FittedGarment garment { json.at("file").get<std::string>(), frame_of(json), {} };
+    garment.fit.type = garment_type_of(json.at("type").get<std::string>());
+    garment.fit.type_margin = json.at("type_margin").get<double>();
+    garment.fit.pose = pose_of(body_frame, json.at("pose"));
+    for (const Json& name : json.at("covered"))
+        if (const int bone = bone_of(name.get<std::string>()); bone >= 0)
+            garment.fit.covered.push_back(static_cast<Bone>(bone));
+    return garment;
+}
+
+Skeleton skeleton_of(const Frame& frame, const Json& json)
+{
+    Skeleton skeleton;
+    skeleton.root = point(frame, json.at("root"));
+    for (const Json& bone : json.at("bones")) {
+        const auto name = bone.at("name").get<std::string>();
+        if (bone_of(name) < 0)
+            throw InvalidInput("unknown bone \"" + name + "\"");
+        skeleton.tails[bone_of(name)] = point(frame, bone.at("tail"));
+    }
+    if (json.at("bones").size() != bone_count)
+        throw InvalidInput(std::to_string(json.at("bones").size()) + " bones instead of " + std::to_string(bone_count));
+    for (int e = 0; e < extremity_count; ++e)
+        skeleton.tips[e] = point(frame, json.at("tips").at(k_tip_names[e]));
+    return skeleton;
+}
+
+RigFile rig_file_of(const Json& json)
+{
+    if (json.at("format") != k_format || json.at("version") != k_version)
+        throw InvalidInput("not a " + std::string(k_format) + " of version " + std::to_string(k_version));
+    RigFile contents;
+    contents.frame = frame_of(json);
+    contents.rig.skeleton = skeleton_of(contents.frame, json);
+    contents.rig.up = direction(contents.frame, json.at("trunk_up"));
+    contents.rig.front = direction(contents.frame, json.at("front"));
+    contents.rig.side_margin = json.at("side_margin").get<double>();
+    for (const Json& garment : json.value("garments", Json::array()))
+        contents.garments.push_back(garment_of(contents.frame, garment));
+    return contents;
+}
+
+}  // namespace
+
+void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
+{
+    const Skeleton& skeleton = contents.rig.skeleton;
+    Json json { { "format", k_format }, { "version", k_version } };
+    put_frame(json, contents.frame);
+    json["front"] = direction(contents.frame, contents.rig.front);
+    json["trunk_up"] = direction(contents.frame, contents.rig.up);
+    json["side_margin"] = contents.rig.side_margin;
+    json["root"] = point(contents.frame, skeleton.root);
+    json["bones"] = bones_of(contents.frame, skeleton);
+    json["tips"] = tips_of(contents.frame, skeleton);
+    if (!contents.garments.empty())
+        json["fitted"] = fitted_joints(contents.frame, posed(skeleton, contents.garments.back().fit.pose));
+    for (const FittedGarment& garment : contents.garments)
+        json["garments"].push_back(garment_of(contents.frame, garment));
+    std::ofstream file(path);
+    if (!(file << json.dump(1) << '\n' << std::flush))
+        throw InvalidInput("cannot write " + path.string() + "; is the disk full?");
+}
+
+RigFile read_rig_file(const std::filesystem::path& path)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw InvalidInput("cannot read " + path.string() + "; give what garmentfit wrote");
+    try {
+        return rig_file_of(Json::parse(file));
+    } catch (const Json::exception& error) {
+        throw InvalidInput(path.string() + ": " + error.what() + "; write it again with garmentfit");
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(path.string() + ": " + error.what() + "; write it again with garmentfit");
+    }
+}
+
+}  // namespace fit::cli

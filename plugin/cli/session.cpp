@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "fit/certificate.h"
+#include "fit/error.h"
+#include "rig_file.h"
+
+namespace fit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stopwatch {
+public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds) { }
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_ = Clock::now();
+};
+
+// ---- reading ---------------------------------------------------------------------------------------------------
+
+/// The user's word goes before the guess.
+FrameGuess chosen(FrameGuess guess, const FrameChoice& choice)
+{
+    if (choice.unit != "auto") {
+        guess.frame.metres_per_unit = metres_per(choice.unit);
+        guess.unit_margin = 1;
+    }
+    if (choice.up != "auto") {
+        guess.frame.up = axis_of(choice.up);
+        guess.up_margin = 1;
+    }
+    return guess;
+}
+
+FrameGuess known(const Frame& frame) { return { frame, 1, 1, "as written in rig.json" }; }
+
+bool same(const Frame& a, const Frame& b) { return a.metres_per_unit == b.metres_per_unit && a.up == b.up; }
+
+void make_scene_body(Session& session)
+{
+    const MeshFile& file = session.body.file;
+    session.scene.body = make_body(session.body.frame.frame.to_metres(file.positions()), file.triangles());
+    if (session.scene.body->repaired)
+        session.warnings.push_back(session.body.path.filename().string()
+                                   + " is not one closed surface; its geometry was read from a repaired copy");
+}
+
+/// A dressed garment, body.ply and the like stand in one folder.
+void require_own_name(const Session& session, const std::string& name)
+{
+    for (const char* taken : { "body.ply", "rigged.ply", "rig.json", "report.json", "fitted", "rest" })
+        if (name == taken)
+            throw InvalidInput("a garment may not be called " + name + ", as a result file is; rename it");
+    for (const GarmentFile& garment : session.garments)
+        if (garment.name() == name)
+            throw InvalidInput("two garments are called " + name + "; rename one, results are named after them");
+}
+
+void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
+{
+    require_own_name(session, garment.name());
+    const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
+    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type });
+    if (!same(garment.frame.frame, session.body.frame.frame))
+        session.warnings.push_back(garment.name() + " has other units or axes than the body; it is written in the body's ("
+                                   + garment.frame.why + ")");
+    session.garments.push_back(std::move(garment));
+}
+
+RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
+{
+    const RigFile contents = read_rig_file(rig_json);
+    const fs::path rigged = rig_json.parent_path() / "rigged.ply";
+    const std::vector<VertexProperty> properties = read_ply_properties(rigged);
+    const auto column = [&](const std::string& name) -> const std::vector<double>& {
+        for (const VertexProperty& property : properties)
+            if (property.name == name)
+                return property.values;
+        throw InvalidInput(rigged.string() + " has no vertex property " + name + "; write it again with garmentfit rig");
+    };
+    const std::size_t n = column("weight0").size();
+    Rig rig = contents.rig;
+    rig.weights.bones.resize(n, 4);
+    rig.weights.weights.resize(n, 4);
+    for (int k = 0; k < 4; ++k) {
+        const auto& bones = column("joint" + std::to_string(k));
+        const auto& weights = column("weight" + std::to_string(k));
+        for (std::size_t v = 0; v < n; ++v) {
+            if (!(bones[v] >= 0 && bones[v] < int(bone_count) && weights[v] >= 0 && weights[v] <= 1))
+                throw InvalidInput(rigged.string() + ": vertex " + std::to_string(v)
+                                   + " has a bone or weight out of range; write it again with garmentfit rig");
+            rig.weights.bones(v, k) = static_cast<int>(bones[v]);
+            rig.weights.weights(v, k) = weights[v];
+        }
+    }
+    session.scene.rig = std::move(rig);
+    return contents;
+}
+
+/// Body, rig and fits as `fit` and `drape` leave them; the garments as given lie in `rest`.
+void read_continued(Session& session, const fs::path& folder, const fs::path& rest)
+{
+    const RigFile contents = read_rig_with_weights(session, folder / "rig.json");
+    session.body.path = folder / "rigged.ply";
+    session.body.file = MeshFile::read(session.body.path);
+    session.body.frame = known(contents.frame);
+    make_scene_body(session);
+    if (contents.garments.empty())
+        throw InvalidInput((folder / "rig.json").string() + " names no garment; give a folder that garmentfit fit wrote");
+    for (const FittedGarment& garment : contents.garments) {
+        const fs::path path = rest / fs::path(garment.file).filename();
+        add_garment_file(session, { path, MeshFile::read(path), known(garment.frame) }, garment.fit.type);
+        session.scene.fits.push_back(garment.fit);
+    }
+}
+
+WornGarment worn_garment(const Session& session, std::size_t i, const fs::path& folder, const TriangleMesh& body,
+                         const std::vector<TriangleMesh>& under)
+{
+    const GarmentMesh& rest = session.scene.garments[i].mesh;
+    const fs::path path = folder / session.garments[i].name();
+    const Positions positions = session.body.frame.frame.to_metres(MeshFile::read(path).positions());
+    if (positions.rows() != rest.positions.rows())
+        throw InvalidInput(path.string() + " has " + std::to_string(positions.rows()) + " vertices, as given it has "
+                           + std::to_string(rest.positions.rows()) + "; give a folder that garmentfit drape wrote");
+    return { rest, positions, certify(body, rest, positions, under) };
+}
+
+// ---- writing ---------------------------------------------------------------------------------------------------
+
+void write_rigged(const Session& session, const fs::path& path)
+{
+    const SkinWeights& weights = session.scene.rig->weights;
+    std::vector<VertexProperty> properties;
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::VectorXd bones = weights.bones.col(k).cast<double>(), values = weights.weights.col(k);
+        properties.push_back({ "joint" + std::to_string(k), { bones.begin(), bones.end() }, true });
+        properties.push_back({ "weight" + std::to_string(k), { values.begin(), values.end() }, false });
+    }
+    write_ply(path, session.body.file.positions(), session.body.file.triangles(), properties,
+              { "garmentfit: the body in its own pose, joint0..3 are rows of bones in rig.json" });
+}
+
+RigFile rig_file_of(const Session& session)
+{
+    RigFile contents { session.body.frame.frame, *session.scene.rig, {} };
+    for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
+        contents.garments.push_back({ session.garments[i].name(), session.garments[i].frame.frame, session.scene.fits[i] });
+    return contents;
+}
+
+std::vector<std::string> comments_of(const Dressing& dressing)
+{
+    if (dressing.certified)
+        return { "garmentfit: certified" };
+    std::ostringstream text;
+    text << "garmentfit: NOT certified; last certified state, body at " << 100 * dressing.size_reached
+         << "% of its size, pose reached " << 100 * dressing.pose_reached << '%';
+    return { text.str() };
+}
+
+/// The user's own numbers where the body is where it was.
+Positions body_in_file(const Session& session, const Positions& in_metres)
+{
+    return in_metres == session.scene.body->surface.positions ? session.body.file.positions()
+                                                              : session.body.frame.frame.to_file(in_metres);
+}
+
+void write_dressing(const Session& session, const Dressing& dressing, const fs::path& folder)
+{
+    fs::create_directories(folder);
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        session.garments[i].file.write(folder / session.garments[i].name(),
+                                       session.body.frame.frame.to_file(dressing.garments[i].positions));
+    write_ply(folder / "body.ply", body_in_file(session, dressing.body), session.body.file.triangles(), {},
+              comments_of(dressing));
+}
+
+void write_garments_as_given(const Session& session, const fs::path& folder)
+{
+    fs::create_directories(folder);
+    for (const GarmentFile& garment : session.garments)
+        garment.file.write(folder / garment.name(), garment.file.positions());
+}
+
+void write_fitted_body(const Session& session, const fs::path& folder)
+{
+    const Rig& rig = *session.scene.rig;
+    const Pose& pose = session.scene.fits.back().pose;
+    const Positions fitted
+        = skin(session.scene.body->surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
+    write_ply(folder / "body.ply", session.body.frame.frame.to_file(fitted), session.body.file.triangles(), {},
+              { "garmentfit: the body in the pose fitted to " + session.garments.back().name() });
+}
+
+// ---- judging ---------------------------------------------------------------------------------------------------
+
+std::string tight_parts(const Dressing& dressing)
+{
+    std::ostringstream text;
+    for (const TooTight& tight : dressing.too_tight)
+        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth) << " mm";
+    return text.str();
+}
+
+}  // namespace
+
+void read_body(Session& session, const fs::path& path, const FrameChoice& choice)
+{
+    const Stopwatch watch(session.read_seconds);
+    BodyFile body { path, MeshFile::read(path), {} };
+    body.frame = chosen(guess_body_frame(body.file.positions(), body.file.triangles()), choice);
+    session.body = std::move(body);
+    make_scene_body(session);
+}
+
+void add_garment(Session& session, const fs::path& path, GarmentType type, const FrameChoice& choice)
+{
+    const Stopwatch watch(session.read_seconds);
+    GarmentFile garment { path, MeshFile::read(path), {} };
+    garment.frame = chosen(
+        guess_garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame), choice);
+    add_garment_file(session, std::move(garment), type);
+}
+
+void read_rig(Session& session, const fs::path& rig_json)
+{
+    const Stopwatch watch(session.read_seconds);
+    const RigFile contents = read_rig_with_weights(session, rig_json);
+    const auto rigged = session.scene.rig->weights.weights.rows(), given = session.body.file.positions().rows();
+    if (rigged != given)
+        throw InvalidInput(rig_json.string() + " belongs to a body of " + std::to_string(rigged) + " vertices, "
+                           + session.body.path.string() + " has " + std::to_string(given) + "; rig this body");
+    if (!same(contents.frame, session.body.frame.frame))
+        throw InvalidInput(rig_json.string() + " has other units or axes than were found for "
+                           + session.body.path.string() + "; give the same --unit and --up as to garmentfit rig");
+}
+
+void read_fitted(Session& session, const fs::path& folder)
+{
+    const Stopwatch watch(session.read_seconds);
+    read_continued(session, folder, folder);
+}
+
+void read_draped(Session& session, const fs::path& folder)
+{
+    const Stopwatch watch(session.read_seconds);
+    if (!fs::is_directory(folder / "rest"))
+        throw InvalidInput(folder.string() + " has no folder rest; give a folder that garmentfit drape wrote");
+    read_continued(session, folder, folder / "rest");
+
+    const Scene& scene = session.scene;
+    Dressing draped;
+    draped.pose = scene.fits.back().pose;
+    draped.body = skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, draped.pose));
+    const TriangleMesh body { draped.body, scene.body->surface.triangles };
+    std::vector<TriangleMesh> under;
+    for (std::size_t i = 0; i < session.garments.size(); ++i) {
+        draped.garments.push_back(worn_garment(session, i, folder, body, under));
+        under.push_back({ draped.garments[i].positions, draped.garments[i].rest.triangles });
+    }
+    draped.certified = all_clean(draped);
+    session.scene.draped = std::move(draped);
+}
+
+const Dressing* final_dressing(const Scene& scene)
+{
+    return scene.recovered ? &*scene.recovered : scene.draped ? &*scene.draped : nullptr;
+}
+
+bool all_clean(const Dressing& dressing)
+{
+    return std::all_of(dressing.garments.begin(), dressing.garments.end(),
+                       [](const WornGarment& garment) { return garment.certificate.clean(); });
+}
+
+Outcome outcome_of(const Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || end->certified)
+        return Outcome::done;
+    return end->size_reached < 1 ? Outcome::too_small : Outcome::not_certified;
+}
+
+std::string explain(const Session& session)
+{
+    const Dressing& end = *final_dressing(session.scene);
+    const std::string garment = end.garments.empty() ? session.garments.front().name()
+                                                     : session.garments[end.garments.size() - 1].name();
+    std::ostringstream text;
+    if (outcome_of(session.scene) == Outcome::too_small) {
+        const std::string parts = tight_parts(end);
+        text << garment << " is too small" << (parts.empty() ? "" : " at " + parts) << "; the body fits in at "
+             << std::lround(100 * end.size_reached) << "% of its size";
+    } else if (!all_clean(end)) {
+        const Certificate& c = end.garments.back().certificate;
+        text << garment << " could not be certified: " << c.body_crossings << " crossings with the body, "
+             << c.self_crossings << " with itself, " << c.layer_crossings << " with layers, " << c.vertices_inside
+             << " vertices inside";
+    } else {
+        text << garment << " could not be certified: stopped at " << std::lround(100 * end.pose_reached)
+             << "% of the way between two poses";
+    }
+    return text.str();
+}
+
+void write_results(const Session& session, std::string_view command, const fs::path& folder)
+{
+    const Scene& scene = session.scene;
+    write_rig_file(folder / "rig.json", rig_file_of(session));
+    write_rigged(session, folder / "rigged.ply");
+    if (command == "fit") {
+        write_garments_as_given(session, folder);
+        write_fitted_body(session, folder);
+    }
+    if (command == "drape")
+        write_garments_as_given(session, folder / "rest");
+    if (command == "dress" && scene.recovered)
+        write_dressing(session, *scene.draped, folder / "fitted");
+    if (const Dressing* end = final_dressing(scene); end && all_clean(*end))
+        write_dressing(session, *end, folder);
+}
+
+}  // namespace fit::cli

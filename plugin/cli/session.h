@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The files of one run and the scene made of them. Here, at the door, everything becomes metres with +y up.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "filters/filters.h"
+#include "fit/io.h"
+#include "fit/units.h"
+
+namespace fit::cli {
+
+/// What the user says about units and axes; "auto" leaves it to a guess.
+struct FrameChoice {
+    std::string unit = "auto", up = "auto";
+};
+
+struct BodyFile {
+    std::filesystem::path path;
+    MeshFile file;
+    FrameGuess frame;  ///< margins are 1 where the user said it
+};
+
+struct GarmentFile {
+    std::filesystem::path path;
+    MeshFile file;     ///< as given, off the body
+    FrameGuess frame;  ///< margins are 1 where the user said it
+
+    std::string name() const { return path.filename().string(); }
+};
+
+struct Session {
+    BodyFile body;
+    std::vector<GarmentFile> garments;  ///< those of scene.garments
+    Scene scene;
+    std::vector<std::string> warnings;
+    double read_seconds = 0, write_seconds = 0;
+};
+
+void read_body(Session& session, const std::filesystem::path& path, const FrameChoice& choice);
+void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const FrameChoice& choice);
+
+/// The skeleton and weights from what `rig` or `fit` wrote: rig.json, and rigged.ply beside it.
+void read_rig(Session& session, const std::filesystem::path& rig_json);
+/// All that `fit` wrote, for draping.
+void read_fitted(Session& session, const std::filesystem::path& folder);
+/// All that `drape` wrote, for recovering the pose.
+void read_draped(Session& session, const std::filesystem::path& folder);
+
+enum class Outcome { done = 0, too_small = 3, not_certified = 4 };  // exit codes
+
+/// How the garments are worn at the end, or null when none was put on (yet).
+const Dressing* final_dressing(const Scene& scene);
+bool all_clean(const Dressing& dressing);
+Outcome outcome_of(const Scene& scene);
+/// One line on how it went wrong. Only for too_small and not_certified.
+std::string explain(const Session& session);
+
+/// Writes all that a command leaves behind but the report.
+void write_results(const Session& session, std::string_view command, const std::filesystem::path& folder);
+
+}  // namespace fit::cli
