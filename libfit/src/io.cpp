@@ -22,6 +22,12 @@ ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
     const std::string extension = extension_of(path);
     if (file.bytes.starts_with("ply") || extension == ".ply")
         return read_ply(std::move(file));
+    if (is_off(file) || extension == ".off")
+        return read_off(std::move(file));
+    if (extension == ".obj")
+        return read_obj(std::move(file));
+    if (extension == ".stl")
+        return read_stl(std::move(file));
     file.fail("unknown format; known are .obj, .ply, .off, .stl, .glb and .gltf");
 }
 

@@ -68,7 +68,7 @@ std::string text_of(float value) { return shortest(value); }
 
 bool Words::done()
 {
-    const std::string& bytes = file_.bytes;
+    const std::string& bytes = file_->bytes;
     while (at_ < end_ && (is_blank(bytes[at_]) || (bytes[at_] == '\\' && at_ + 1 < end_ && is_blank(bytes[at_ + 1]))))
         ++at_;
     return at_ >= end_;
@@ -77,14 +77,14 @@ bool Words::done()
 Span Words::next()
 {
     if (done())
-        file_.fail_at_line_of(end_ ? end_ - 1 : 0, "ends too soon; the file is truncated or mangled");
+        file_->fail_at_line_of(end_ ? end_ - 1 : 0, "ends too soon; the file is truncated or mangled");
     const std::size_t begin = at_;
-    while (at_ < end_ && !is_blank(file_.bytes[at_]))
+    while (at_ < end_ && !is_blank(file_->bytes[at_]))
         ++at_;
     return { begin, at_ };
 }
 
-long long Words::next_integer() { return integer_in(file_, next()); }
+long long Words::next_integer() { return integer_in(*file_, next()); }
 
 bool Lines::advance(bool joined)
 {

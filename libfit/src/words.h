@@ -14,15 +14,16 @@ namespace fit {
 /// Goes through the words of a stretch of text. A backslash before the end of a line is a blank, as in OBJ.
 class Words {
 public:
-    Words(const FileBytes& file, Span range) : file_(file), at_(range.begin), end_(range.end) { }
+    Words(const FileBytes& file, Span range) : file_(&file), at_(range.begin), end_(range.end) { }
 
     bool done();                             ///< no word is left
     Span next();                             ///< @throws InvalidInput when done
-    std::string_view next_text() { return file_.text(next()); }
+    std::string_view next_text() { return file_->text(next()); }
     long long next_integer();                ///< @throws InvalidInput: none left, not an integer
+    std::size_t at() const { return at_; }   ///< where the next word begins, or the blanks before it
 
 private:
-    const FileBytes& file_;
+    const FileBytes* file_;
     std::size_t at_, end_;
 };
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "text_content.h"
+
+#include "turned_normals.h"
+
+namespace fit {
+
+std::string TextContent::bytes_with(const Positions& moved) const
+{
+    const Positions turned = turned_normals(normals, normal_corners, triangles, positions, moved);
+    Rewriter rewriter(file.bytes);
+    for (const Place& place : places) {
+        const Vec3 before = (place.is_normal ? normals : positions).row(place.row);
+        const Vec3 after = (place.is_normal ? turned : moved).row(place.row);
+        if (before != after && before.allFinite())
+            rewriter.replace(place.span, text_of(after));
+    }
+    return rewriter.finish();
+}
+
+}  // namespace fit
