@@ -325,7 +325,7 @@ void write_results(const Session& session, std::string_view command, const fs::p
         write_garments_as_given(session, folder);
         write_fitted_body(session, folder);
     }
-    if (command == "drape")
+    if (command == "dress" || command == "drape")
         write_garments_as_given(session, folder / "rest");
     if (command == "dress" && scene.recovered)
         write_dressing(session, *scene.draped, folder / "fitted");

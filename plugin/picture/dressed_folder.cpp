@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dressed_folder.h"
+
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "fit/error.h"
+#include "fit/io.h"
+#include "fit/units.h"
+
+namespace fit::picture {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+Json read_json(const fs::path& path)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw InvalidInput("cannot read " + path.string() + "; give a folder that garmentfit dress wrote");
+    return Json::parse(file);
+}
+
+Vec3 vector_of(const Json& json) { return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() }; }
+
+Frame frame_of(const Json& json) { return { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) }; }
+
+TriangleMesh read_mesh(const fs::path& path, const Frame& frame)
+{
+    const MeshFile file = MeshFile::read(path);
+    return { frame.to_metres(file.positions()), file.triangles() };
+}
+
+State read_state(const fs::path& folder, const Frame& frame, const Json& rig, const Vec3& front)
+{
+    State state { read_mesh(folder / "body.ply", frame), {}, front };
+    for (const Json& garment : rig.at("garments"))
+        if (const fs::path path = folder / garment.at("file").get<std::string>(); fs::exists(path))
+            state.garments.push_back(read_mesh(path, frame));
+    return state;
+}
+
+/// Where the chest faces once the pose of the last garment is taken.
+Vec3 fitted_front(const Json& rig, const Frame& frame)
+{
+    const Json q = rig.at("garments").back().at("pose").at("root_rotation");
+    const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>());
+    return frame.rotation() * (turn * vector_of(rig.at("front")));
+}
+
+std::string verdict_of(const Json& report, const Frame& frame)
+{
+    if (!report.at("certified").get<bool>())
+        return "NOT certified: " + report.value("note", "");
+    double gap = 1, strain = 0;
+    for (const Json& garment : report.at("garments")) {
+        gap = std::min(gap, garment.at("smallest_gap").get<double>() * frame.metres_per_unit);
+        strain = std::max(strain, garment.at("strain").at("p95").get<double>());
+    }
+    std::ostringstream text;
+    text << std::setprecision(2) << "certified: no crossing, smallest gap " << 1000 * gap << " mm, strain " << 100 * strain
+         << "% at the 95th percentile";
+    return text.str();
+}
+
+}  // namespace
+
+DressedFolder read_dressed_folder(const fs::path& folder)
+{
+    const Json rig = read_json(folder / "rig.json"), report = read_json(folder / "report.json");
+    const Frame frame = frame_of(rig);
+    const Vec3 front = frame.rotation() * vector_of(rig.at("front"));
+
+    DressedFolder read;
+    read.own = { read_mesh(folder / "rigged.ply", frame), {}, front };
+    read.given.front = fitted_front(rig, frame);
+    for (const Json& garment : rig.at("garments"))
+        read.given.garments.push_back(
+            read_mesh(folder / "rest" / garment.at("file").get<std::string>(), frame_of(garment)));
+    const bool whole_way = fs::exists(folder / "fitted");
+    if (whole_way)
+        read.fitted = read_state(folder / "fitted", frame, rig, read.given.front);
+    read.dressed = read_state(folder, frame, rig, whole_way ? front : read.given.front);
+    read.verdict = verdict_of(report, frame);
+    return read;
+}
+
+}  // namespace fit::picture

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// garmentfit-picture: what `garmentfit dress` wrote, side by side.
+
+#include <cstdlib>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "dressed_folder.h"
+#include "fit/error.h"
+#include "panels.h"
+
+namespace {
+
+using namespace fit::picture;
+
+constexpr double k_quarter_turn = 0.7;  // radians; shows a sleeve and the front at once
+
+std::vector<Panel> panels_of(const DressedFolder& folder)
+{
+    std::vector<Panel> panels { { &folder.own, "body", 0 }, { &folder.given, "garment as given", 0 } };
+    if (folder.fitted.body.triangles.rows() > 0)
+        panels.push_back({ &folder.fitted, "fitted: body in the garment", 0 });
+    panels.push_back({ &folder.dressed, "dressed", 0 });
+    panels.push_back({ &folder.dressed, "dressed, from the side", k_quarter_turn });
+    return panels;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    std::string folder, output;
+    int height = 800;
+    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result", "garmentfit-picture");
+    app.set_version_flag("--version", "garmentfit-picture " FIT_VERSION);
+    app.add_option("DIR", folder, "Folder that garmentfit dress wrote")->required();
+    app.add_option("-o,--output", output, "PNG file")->required();
+    app.add_option("--height", height, "Height of the picture in pixels")->check(CLI::Range(100, 10000))->default_str("800");
+    app.footer("Example:\n  xvfb-run -a garmentfit-picture dressed -o dressed.png\n");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        if (!std::getenv("DISPLAY"))  // VTK would end the process without a word on what to do
+            throw fit::InvalidInput("no display; run it under xvfb-run -a");
+        const DressedFolder read = read_dressed_folder(folder);
+        draw(panels_of(read), read.verdict, height, output);
+    } catch (const std::exception& error) {
+        std::cerr << "garmentfit-picture: " << error.what() << '\n';
+        return 2;
+    }
+    return 0;
+}

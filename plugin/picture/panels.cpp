@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextMapper.h>
+#include <vtkTextProperty.h>
+#include <vtkWindowToImageFilter.h>
+
+namespace fit::picture {
+namespace {
+
+using Colour = std::array<double, 3>;
+
+constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15, 0.15, 0.2 };
+constexpr Colour k_cloth[] = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
+constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
+constexpr double k_panel_aspect = 0.62;          // width / height of a panel
+constexpr double k_margin = 1.12;                // room around the largest figure
+constexpr double k_text_height = 0.085;          // of the picture, above and below the figures
+
+vtkNew<vtkPolyDataNormals> shaded(const TriangleMesh& mesh)
+{
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+        points->InsertNextPoint(mesh.positions.row(v).data());
+    vtkNew<vtkCellArray> faces;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        faces->InsertNextCell({ mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2) });
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetPolys(faces);
+    vtkNew<vtkPolyDataNormals> normals;
+    normals->SetInputData(data);
+    normals->SplittingOff();
+    normals->ConsistencyOff();
+    return normals;
+}
+
+vtkNew<vtkActor> actor_of(const TriangleMesh& mesh, const Colour& colour)
+{
+    const vtkNew<vtkPolyDataNormals> source = shaded(mesh);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(source->GetOutputPort());
+    mapper->ScalarVisibilityOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+    actor->GetProperty()->SetAmbient(0.15);
+    actor->GetProperty()->SetDiffuse(0.85);
+    return actor;
+}
+
+vtkNew<vtkActor> cloth_of(const TriangleMesh& mesh, std::size_t layer)
+{
+    vtkNew<vtkActor> actor = actor_of(mesh, k_cloth[layer % std::size(k_cloth)]);
+    vtkNew<vtkProperty> lining;
+    lining->DeepCopy(actor->GetProperty());
+    lining->SetColor(k_lining[0], k_lining[1], k_lining[2]);
+    actor->SetBackfaceProperty(lining);
+    return actor;
+}
+
+vtkNew<vtkActor2D> text_of(const std::string& words, int size, double x, double y)
+{
+    vtkNew<vtkTextMapper> mapper;
+    mapper->SetInput(words.c_str());
+    mapper->GetTextProperty()->SetFontSize(size);
+    mapper->GetTextProperty()->SetColor(k_ink[0], k_ink[1], k_ink[2]);
+    mapper->GetTextProperty()->SetJustificationToCentered();
+    mapper->GetTextProperty()->SetVerticalJustificationToCentered();
+    vtkNew<vtkActor2D> actor;
+    actor->SetMapper(mapper);
+    actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedDisplay();
+    actor->SetPosition(x, y);
+    return actor;
+}
+
+/// The level direction from the figure to the viewer.
+Vec3 towards_viewer(const Panel& panel)
+{
+    Vec3 front(panel.state->front.x(), 0, panel.state->front.z());
+    if (front.norm() < 1e-6)  // lying on the back or the belly
+        front = Vec3::UnitZ();
+    return Eigen::AngleAxisd(panel.turn, Vec3::UnitY()) * front.normalized();
+}
+
+struct Extent {
+    Vec3 centre = Vec3::Zero();
+    double half_width = 0, half_height = 0;  ///< as seen by the viewer
+};
+
+Extent extent_of(const Panel& panel)
+{
+    const Vec3 right = Vec3::UnitY().cross(towards_viewer(panel));
+    Eigen::AlignedBox3d box;
+    double low = 1e30, high = -1e30;
+    const auto add = [&](const TriangleMesh& mesh) {
+        for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+            const Vec3 p = mesh.positions.row(v);
+            box.extend(p);
+            low = std::min(low, right.dot(p));
+            high = std::max(high, right.dot(p));
+        }
+    };
+    add(panel.state->body);
+    for (const TriangleMesh& garment : panel.state->garments)
+        add(garment);
+    if (box.isEmpty())
+        return {};
+    Vec3 centre = box.center();
+    centre += (0.5 * (low + high) - right.dot(centre)) * right;
+    return { centre, 0.5 * (high - low), 0.5 * box.sizes().y() };
+}
+
+/// Half the height of the world that every panel shows.
+double common_scale(const std::vector<Panel>& panels)
+{
+    double scale = 0;
+    for (const Panel& panel : panels) {
+        const Extent extent = extent_of(panel);
+        scale = std::max({ scale, extent.half_height, extent.half_width / k_panel_aspect });
+    }
+    return k_margin * scale;
+}
+
+void light(vtkRenderer* renderer)
+{
+    const auto add = [&](double x, double y, double intensity) {
+        vtkNew<vtkLight> lamp;
+        lamp->SetLightTypeToCameraLight();
+        lamp->SetPosition(x, y, 1);
+        lamp->SetIntensity(intensity);
+        renderer->AddLight(lamp);
+    };
+    add(-0.6, 0.8, 0.8);
+    add(0.8, 0.2, 0.35);
+}
+
+vtkNew<vtkRenderer> renderer_of(const Panel& panel, double scale)
+{
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetBackground(k_paper.data());
+    if (panel.state->body.triangles.rows() > 0)
+        renderer->AddActor(actor_of(panel.state->body, k_skin));
+    for (std::size_t i = 0; i < panel.state->garments.size(); ++i)
+        renderer->AddActor(cloth_of(panel.state->garments[i], i));
+    light(renderer);
+    const Extent extent = extent_of(panel);
+    const Vec3 eye = extent.centre + 10 * towards_viewer(panel);  // parallel projection: any distance beyond the figure
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetParallelScale(scale);
+    camera->SetFocalPoint(extent.centre.x(), extent.centre.y(), extent.centre.z());
+    camera->SetPosition(eye.x(), eye.y(), eye.z());
+    camera->SetViewUp(0, 1, 0);
+    renderer->ResetCameraClippingRange();
+    return renderer;
+}
+
+void write_png(vtkRenderWindow* window, const std::filesystem::path& png)
+{
+    vtkNew<vtkWindowToImageFilter> pixels;
+    pixels->SetInput(window);
+    pixels->ReadFrontBufferOff();
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetFileName(png.c_str());
+    writer->SetInputConnection(pixels->GetOutputPort());
+    writer->Write();
+}
+
+}  // namespace
+
+void draw(const std::vector<Panel>& panels, const std::string& headline, int height, const std::filesystem::path& png)
+{
+    const double figure_height = 1 - 2 * k_text_height, n = double(panels.size());
+    const int width = static_cast<int>(std::lround(n * k_panel_aspect * figure_height * height));
+    const int font = std::max(8, height / 40);
+    vtkNew<vtkRenderWindow> window;
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(8);
+    window->SetSize(width, height);
+
+    vtkNew<vtkRenderer> page;  // behind the panels: paper and words
+    page->SetBackground(k_paper.data());
+    page->AddActor2D(text_of(headline, font, 0.5, 1 - 0.5 * k_text_height));
+    for (std::size_t i = 0; i < panels.size(); ++i)
+        page->AddActor2D(text_of(panels[i].caption, font, (double(i) + 0.5) / n, 0.5 * k_text_height));
+    window->AddRenderer(page);
+
+    const double scale = common_scale(panels);
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const vtkNew<vtkRenderer> renderer = renderer_of(panels[i], scale);
+        renderer->SetViewport(double(i) / n, k_text_height, double(i + 1) / n, 1 - k_text_height);
+        window->AddRenderer(renderer);
+    }
+    window->Render();
+    write_png(window, png);
+}
+
+}  // namespace fit::picture

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// States side by side, at one scale, with captions. Needs a display; xvfb-run will do.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dressed_folder.h"
+
+namespace fit::picture {
+
+struct Panel {
+    const State* state = nullptr;
+    std::string caption;
+    double turn = 0;  ///< radians; the viewer walks round the front, towards the body's own left
+};
+
+void draw(const std::vector<Panel>& panels, const std::string& headline, int height, const std::filesystem::path& png);
+
+}  // namespace fit::picture
