@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "heat_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/SparseCholesky>
+#include <flann/flann.hpp>
+
+#include "fit/error.h"
+#include "fit/mesh.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_smallest_cotangent = 1e-3;    // keeps the matrix positive definite on obtuse triangles
+constexpr double k_normal_weight = 0.05;         // of the diagonal: how far away a point that faces the other way seems
+constexpr int k_neighbours = 4;                  // that a transferred weight is blended from
+
+double squared_distance_to_bone(const Vec3& p, const Vec3& a, const Vec3& b)
+{
+    const Vec3 axis = b - a;
+    const double t = std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0);
+    return (a + t * axis - p).squaredNorm();
+}
+
+struct NearestBone {
+    int bone = -1;
+    double squared_distance = 0;
+};
+
+NearestBone nearest_visible(const Vec3& p, const Skeleton& skeleton, const std::array<bool, bone_count>& visible)
+{
+    NearestBone nearest;
+    for (int b = 0; b < bone_count; ++b) {
+        const double d = visible[b] ? squared_distance_to_bone(p, skeleton.head(b), skeleton.tail(b)) : 0;
+        if (visible[b] && (nearest.bone < 0 || d < nearest.squared_distance))
+            nearest = { b, d };
+    }
+    return nearest;
+}
+
+/// Cotangent Laplacian (positive semi-definite) and the area of each vertex.
+Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd& areas)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    areas = Eigen::VectorXd::Zero(mesh.positions.rows());
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int i = mesh.triangles(f, k), j = mesh.triangles(f, (k + 1) % 3), o = mesh.triangles(f, (k + 2) % 3);
+            const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o), b = mesh.positions.row(j) - mesh.positions.row(o);
+            const double twice_area = a.cross(b).norm();
+            const double half_cotangent = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, 1e-300));
+            areas[o] += twice_area / 6;
+            entries.emplace_back(i, i, half_cotangent);
+            entries.emplace_back(j, j, half_cotangent);
+            entries.emplace_back(i, j, -half_cotangent);
+            entries.emplace_back(j, i, -half_cotangent);
+        }
+    Eigen::SparseMatrix<double> matrix(mesh.positions.rows(), mesh.positions.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+/// Rows (position, weighted normal): near in this space means near and facing the same way.
+std::vector<double> oriented_points(const TriangleMesh& mesh, double normal_length)
+{
+    const Positions normals = vertex_normals(mesh.positions, mesh.triangles);
+    std::vector<double> rows;
+    rows.reserve(6 * mesh.positions.rows());
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+        for (int k = 0; k < 3; ++k)
+            rows.push_back(mesh.positions(v, k));
+        for (int k = 0; k < 3; ++k)
+            rows.push_back(normal_length * normals(v, k));
+    }
+    return rows;
+}
+
+void keep_four(const Eigen::RowVectorXd& row, Eigen::Index v, SkinWeights& weights)
+{
+    std::array<int, bone_count> order;
+    std::iota(order.begin(), order.end(), 0);
+    std::partial_sort(order.begin(), order.begin() + 4, order.end(),
+                      [&](int a, int b) { return row[a] != row[b] ? row[a] > row[b] : a < b; });
+    double sum = 0;
+    for (int k = 0; k < 4; ++k)
+        sum += std::max(0.0, row[order[k]]);
+    for (int k = 0; k < 4; ++k) {
+        weights.bones(v, k) = order[k];
+        weights.weights(v, k) = std::max(0.0, row[order[k]]) / sum;
+    }
+}
+
+}  // namespace
+
+Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleton, const VisibleBones& visible)
+{
+    const Eigen::Index n = closed.positions.rows();
+    Eigen::VectorXd areas;
+    Eigen::SparseMatrix<double> system = stiffness(closed, areas);
+    Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
+    for (Eigen::Index v = 0; v < n; ++v) {
+        const NearestBone nearest = nearest_visible(closed.positions.row(v), skeleton, visible[v]);
+        const double source = areas[v] / std::max(nearest.squared_distance, 1e-8);  // H of the paper
+        system.coeffRef(v, v) += source;
+        heat(v, nearest.bone) = source;
+    }
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(system);
+    if (solver.info() != Eigen::Success)
+        throw SolverFailure("skin weights: the heat equation cannot be solved on this surface");
+    Eigen::MatrixXd weights = solver.solve(heat);
+    weights = weights.cwiseMax(0.0);
+    for (Eigen::Index v = 0; v < n; ++v)
+        weights.row(v) /= weights.row(v).sum();
+    return weights;
+}
+
+SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const TriangleMesh& to)
+{
+    const double diagonal = (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
+    std::vector<double> points = oriented_points(from, k_normal_weight * diagonal);
+    std::vector<double> queries = oriented_points(to, k_normal_weight * diagonal);
+    const std::size_t n = to.positions.rows();
+    flann::Index<flann::L2<double>> tree(flann::Matrix<double>(points.data(), from.positions.rows(), 6),
+                                         flann::KDTreeSingleIndexParams());
+    tree.buildIndex();
+    std::vector<int> rows(n * k_neighbours);
+    std::vector<double> squared(n * k_neighbours);
+    flann::Matrix<int> found(rows.data(), n, k_neighbours);
+    flann::Matrix<double> distances(squared.data(), n, k_neighbours);
+    tree.knnSearch(flann::Matrix<double>(queries.data(), n, 6), found, distances, k_neighbours, flann::SearchParams(-1));
+
+    SkinWeights result;
+    result.bones.resize(n, 4);
+    result.weights.resize(n, 4);
+    for (std::size_t v = 0; v < n; ++v) {
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
+        for (int k = 0; k < k_neighbours; ++k)
+            row += weights.row(found[v][k]) / (distances[v][k] + 1e-12 * diagonal * diagonal);
+        keep_four(row, v, result);
+    }
+    return result;
+}
+
+}  // namespace fit

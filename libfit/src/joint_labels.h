@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "body_graph.h"
+#include "centreline.h"
+#include "fit/types.h"
+
+namespace fit {
+
+/// Root, middle and end joint of an arm (shoulder, elbow, wrist) or a leg (hip, knee, ankle), and the tip beyond.
+struct LimbJoints {
+    Vec3 root, middle, end, tip;
+};
+
+/// Joints of a body before anybody has asked which side is left.
+struct BodyJoints {
+    std::array<LimbJoints, 2> arms, legs;
+    Vec3 pelvis, lower_spine, upper_spine, neck_base, mid_neck, skull_base, crown;
+    double size = 0;                ///< m, about the stature
+};
+
+/// Places joints on the curves: where a limb bends, where its girth is smallest, where it leaves the trunk; and where
+/// nothing of that shows, by the segment lengths of [deleva_1996_segments].
+/// @throws InvalidInput when a limb has no outline of its own.
+BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph);
+
+}  // namespace fit

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/rig_body.h"
+
+#include "body_graph.h"
+#include "curve_skeleton.h"
+#include "decimated_surface.h"
+#include "fit/error.h"
+#include "heat_weights.h"
+#include "joint_labels.h"
+#include "side_vote.h"
+
+namespace fit {
+namespace {
+
+struct LimbBones {
+    int root, upper, lower;
+    Extremity tip;
+};
+
+constexpr LimbBones k_left_arm { lclavicle, lhumerus, lradius, lhand_tip }, k_right_arm { rclavicle, rhumerus, rradius, rhand_tip },
+    k_left_leg { lhipjoint, lfemur, ltibia, lfoot_tip }, k_right_leg { rhipjoint, rfemur, rtibia, rfoot_tip };
+
+void place(const LimbJoints& joints, const LimbBones& bones, Skeleton& skeleton)
+{
+    skeleton.tails[bones.root] = joints.root;
+    skeleton.tails[bones.upper] = joints.middle;
+    skeleton.tails[bones.lower] = joints.end;
+    skeleton.tips[bones.tip] = joints.tip;
+}
+
+Skeleton skeleton_of(const BodyJoints& joints, const Sides& sides)
+{
+    Skeleton skeleton;
+    skeleton.root = joints.pelvis;
+    skeleton.tails[lowerback] = joints.lower_spine;
+    skeleton.tails[upperback] = joints.upper_spine;
+    skeleton.tails[thorax] = joints.neck_base;
+    skeleton.tails[lowerneck] = joints.mid_neck;
+    skeleton.tails[upperneck] = joints.skull_base;
+    skeleton.tips[head_top] = joints.crown;
+    place(joints.arms[sides.left_arm], k_left_arm, skeleton);
+    place(joints.arms[1 - sides.left_arm], k_right_arm, skeleton);
+    place(joints.legs[sides.left_leg], k_left_leg, skeleton);
+    place(joints.legs[1 - sides.left_leg], k_right_leg, skeleton);
+    return skeleton;
+}
+
+/// A stretch of the surface sees the bones inside it and those next to them.
+std::array<bool, bone_count> bones_of_curve(int curve, const Sides& sides)
+{
+    std::array<bool, bone_count> visible {};
+    const auto see = [&](std::initializer_list<int> bones) {
+        for (const int b : bones)
+            visible[b] = true;
+    };
+    const auto see_limb = [&](const LimbBones& limb) { see({ limb.root, limb.upper, limb.lower }); };
+    if (curve < 2)
+        see_limb(curve == sides.left_arm ? k_left_arm : k_right_arm);
+    else if (curve < 4)
+        see_limb(curve - 2 == sides.left_leg ? k_left_leg : k_right_leg);
+    else if (curve == 4)
+        see({ thorax, lowerneck, upperneck, lclavicle, rclavicle });
+    else
+        see({ lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle });
+    return visible;
+}
+
+VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, const Sides& sides)
+{
+    VisibleBones visible;
+    for (const int node : curves.node_of_vertex) {
+        const int curve = node < 0 ? -1 : graph.place_of_node[node].curve;
+        visible.push_back(bones_of_curve(curve, sides));
+    }
+    return visible;
+}
+
+}  // namespace
+
+Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+{
+    const TriangleMesh proxy = decimated_surface(body.closed, options.proxy_vertices);
+    progress.at(0.15);
+    const CurveSkeleton curves = curve_skeleton(proxy, progress.part(0.15, 0.7));
+    const BodyGraph graph = body_graph(curves);
+    const BodyJoints joints = joint_labels(proxy, curves, graph);
+    progress.at(0.8);
+    Sides sides = side_vote(joints);
+    if (options.swap_sides) {
+        sides.left_arm = 1 - sides.left_arm;
+        sides.left_leg = 1 - sides.left_leg;
+        sides.front = -sides.front;
+    }
+
+    Rig rig;
+    rig.skeleton = skeleton_of(joints, sides);
+    rig.up = sides.up;
+    rig.front = sides.front;
+    rig.side_margin = sides.margin;
+    const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible_bones(curves, graph, sides));
+    progress.at(0.9);
+    rig.weights = transferred(proxy, weights, body.surface);
+    progress.at(1);
+    return rig;
+}
+
+}  // namespace fit
