@@ -22,6 +22,8 @@ ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
     const std::string extension = extension_of(path);
     if (file.bytes.starts_with("ply") || extension == ".ply")
         return read_ply(std::move(file));
+    if (file.bytes.starts_with("glTF") || extension == ".glb" || extension == ".gltf")
+        return read_gltf(std::move(file), path.parent_path());
     if (is_off(file) || extension == ".off")
         return read_off(std::move(file));
     if (extension == ".obj")
