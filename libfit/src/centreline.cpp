@@ -6,9 +6,12 @@
 namespace fit {
 namespace {
 
+constexpr double k_pi = 3.14159265358979323846;
 constexpr int k_half_window = 3;   // cuts either side that a tangent is read from
 constexpr int k_rounds = 2;        // of moving the line to the middle of its cuts
-constexpr double k_swell = 1.3;    // from one cut to the next: more than a muscle, less than limb and trunk together
+constexpr double k_roundness = 0.6;      // 1 = a circle; a plane that runs along a bent limb cuts out something long
+constexpr int k_free_in_a_row = 4;
+constexpr double k_foreign_share = 0.1;  // of an outline; labels of vertices are a little ragged where curves meet
 
 std::vector<double> arcs_along(const std::vector<Vec3>& points)
 {
@@ -43,36 +46,44 @@ std::vector<Vec3> tangents(const std::vector<Vec3>& points)
     return result;
 }
 
-/// The first cut, seen from the trunk, that belongs to the limb alone.
-int first_free(const std::vector<double>& girths)
+double roundness(const CrossSection& section)
 {
-    int i = int(girths.size()) / 2;
-    while (i > 0 && girths[i] == 0)  // the middle may lie in a deep bend
-        --i;
-    for (; i > 0; --i)
-        if (girths[i - 1] == 0 || girths[i - 1] > k_swell * girths[i])
-            return i;
-    return 0;
+    return 4 * k_pi * section.area / (section.girth * section.girth);
 }
 
-Centreline cut_along(const Slicer& slicer, std::vector<Vec3> points, bool grows_from_trunk)
+/// The first cut, going outwards, from which on a few in a row belong to the limb alone and run across it.
+int first_free(const Centreline& line)
+{
+    int in_a_row = 0;
+    for (int i = 0; i < line.size(); ++i) {
+        in_a_row = line.free[i] && line.across[i] ? in_a_row + 1 : 0;
+        if (in_a_row == k_free_in_a_row)
+            return i + 1 - k_free_in_a_row;
+    }
+    return line.size() - 1;
+}
+
+Centreline cut_along(const Slicer& slicer, std::vector<Vec3> points, const IsForeign& is_foreign)
 {
     Centreline line;
     line.axes = tangents(points);
-    std::vector<Vec3> middles = points;
     line.girths.assign(points.size(), 0);
+    line.free.assign(points.size(), false);
+    line.across.assign(points.size(), false);
+    std::vector<Vec3> middles = points;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (const auto section = slicer.cut(points[i], line.axes[i])) {
             middles[i] = section->centroid;
             line.girths[i] = section->girth;
+            line.free[i] = is_free(*section, is_foreign);
+            line.across[i] = roundness(*section) > k_roundness;
         }
-    line.first_free = grows_from_trunk ? first_free(line.girths) : 0;
-    for (int i = line.first_free; i < int(points.size()); ++i)
-        points[i] = middles[i];
-    for (int i = 0; i < line.first_free; ++i)
-        line.girths[i] = 0;
-    line.arcs = arcs_along(points);
     line.points = std::move(points);
+    line.first_free = first_free(line);
+    for (int i = line.first_free; i < line.size(); ++i)
+        if (line.free[i] && line.across[i])
+            line.points[i] = middles[i];
+    line.arcs = arcs_along(line.points);
     return line;
 }
 
@@ -96,7 +107,13 @@ int Centreline::nearest(double arc) const
     return int(std::min_element(arcs.begin(), arcs.end(), nearer) - arcs.begin());
 }
 
-Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, bool grows_from_trunk)
+bool is_free(const CrossSection& section, const IsForeign& is_foreign)
+{
+    const auto foreign = std::count_if(section.vertices.begin(), section.vertices.end(), is_foreign);
+    return double(foreign) <= k_foreign_share * double(section.vertices.size());
+}
+
+Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, const IsForeign& is_foreign)
 {
     Centreline line;
     line.points = curve;
@@ -104,7 +121,7 @@ Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, doub
     for (int round = 0; round < k_rounds; ++round) {
         std::vector<Vec3> points = resampled(line, spacing);
         smooth(points);
-        line = cut_along(slicer, std::move(points), grows_from_trunk);
+        line = cut_along(slicer, std::move(points), is_foreign);
     }
     return line;
 }

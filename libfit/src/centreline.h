@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cross_section.h"
@@ -12,7 +13,9 @@ namespace fit {
 struct Centreline {
     std::vector<Vec3> points;    ///< about evenly spaced
     std::vector<Vec3> axes;      ///< unit tangents, outwards
-    std::vector<double> girths;  ///< m; 0 where the plane across cuts more than this limb, or nothing
+    std::vector<double> girths;  ///< m; 0 where the plane across finds no outline
+    std::vector<bool> free;      ///< the outline there belongs to this limb alone
+    std::vector<bool> across;    ///< and is about round: the plane does not run along the limb
     std::vector<double> arcs;    ///< m from the first point
 
     int first_free = 0;          ///< from here outwards the limb is an outline of its own, clear of the trunk
@@ -23,9 +26,14 @@ struct Centreline {
     int nearest(double arc) const;
 };
 
+/// Whether a vertex of the surface belongs to something else than the limb that is being cut.
+using IsForeign = std::function<bool(int vertex)>;
+
+/// Whether an outline belongs to one limb alone: next to nothing of it is foreign.
+bool is_free(const CrossSection& section, const IsForeign& is_foreign);
+
 /// @param curve    through the inside, e.g. from a curve skeleton
 /// @param spacing  m between cuts
-/// @param grows_from_trunk  true for limbs and head: where the outline suddenly swells, going inwards, the trunk begins
-Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, bool grows_from_trunk);
+Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, const IsForeign& is_foreign);
 
 }  // namespace fit

@@ -19,7 +19,8 @@ EdgeKey key(int a, int b)
 /// A triangle's part of the cut: it is entered through one edge and left through another.
 struct Step {
     EdgeKey leaves_by;
-    Vec3 at;  // where it is entered
+    Vec3 at;     // where it is entered
+    int vertex;  // above that place
 };
 
 /// The edge of triangle `f` that runs from below the plane to above it (or, `rising` = false, from above to below).
@@ -47,34 +48,35 @@ std::unordered_map<EdgeKey, Step> steps_through(const TriangleMesh& mesh, const 
         const double high = height[end(in)], low = height[end(in + 1)];
         const Vec3 a = mesh.positions.row(end(in)), b = mesh.positions.row(end(in + 1));
         const EdgeKey enters_by = key(end(in), end(in + 1));
-        steps.insert({ enters_by, { key(end(out), end(out + 1)), a + high / (high - low) * (b - a) } });
+        steps.insert({ enters_by, { key(end(out), end(out + 1)), a + high / (high - low) * (b - a), end(in) } });
         order.push_back(enters_by);
     }
     return steps;
 }
 
-std::vector<std::vector<Vec3>> outlines(const TriangleMesh& mesh, const Eigen::VectorXd& height)
+std::vector<CrossSection> outlines(const TriangleMesh& mesh, const Eigen::VectorXd& height)
 {
     std::vector<EdgeKey> order;
     auto steps = steps_through(mesh, height, order);
-    std::vector<std::vector<Vec3>> result;
+    std::vector<CrossSection> result;
     for (const EdgeKey first : order) {
-        std::vector<Vec3> outline;
+        CrossSection section;
         for (auto step = steps.find(first); step != steps.end(); ) {
-            outline.push_back(step->second.at);
+            section.outline.push_back(step->second.at);
+            section.vertices.push_back(step->second.vertex);
             const EdgeKey next = step->second.leaves_by;
             steps.erase(step);
             step = steps.find(next);
         }
-        if (outline.size() >= 3)
-            result.push_back(std::move(outline));
+        if (section.outline.size() >= 3)
+            result.push_back(std::move(section));
     }
     return result;
 }
 
-CrossSection measured(std::vector<Vec3> outline, const Vec3& normal)
+void measure(CrossSection& section, const Vec3& normal)
 {
-    CrossSection section;
+    const std::vector<Vec3>& outline = section.outline;
     const Vec3 origin = outline.front();
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const Vec3 a = outline[i] - origin, b = outline[(i + 1) % outline.size()] - origin;
@@ -84,8 +86,6 @@ CrossSection measured(std::vector<Vec3> outline, const Vec3& normal)
         section.girth += (b - a).norm();
     }
     section.centroid = origin + section.centroid / section.area;
-    section.outline = std::move(outline);
-    return section;
 }
 
 bool goes_round(const CrossSection& section, const Vec3& point, const Vec3& normal)
@@ -104,8 +104,8 @@ std::optional<CrossSection> Slicer::cut(const Vec3& point, const Vec3& normal) c
 {
     const Eigen::VectorXd height = (mesh_.positions.rowwise() - point.transpose()) * normal;
     std::optional<CrossSection> best;
-    for (auto& outline : outlines(mesh_, height)) {
-        CrossSection section = measured(std::move(outline), normal);
+    for (CrossSection& section : outlines(mesh_, height)) {
+        measure(section, normal);
         if (section.area > 0 && (!best || section.area < best->area) && goes_round(section, point, normal))
             best = std::move(section);
     }

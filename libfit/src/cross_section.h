@@ -14,6 +14,7 @@ struct CrossSection {
     double girth = 0;              ///< m, length of the outline
     double area = 0;               ///< m^2
     std::vector<Vec3> outline;     ///< counter-clockwise about the plane's normal
+    std::vector<int> vertices;     ///< of the surface, one beside each point of the outline
 };
 
 /// Cuts one closed surface again and again. A limb that touches another one is still an outline of its own.

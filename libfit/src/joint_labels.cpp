@@ -14,6 +14,7 @@ namespace {
 
 // Shares of stature, of joint centres [deleva_1996_segments]; widths and heights of joints [drillis_1966_segments].
 constexpr double k_hand = 0.108;           // wrist to fingertip
+constexpr double k_leg = 0.485;            // hip to knee to ankle
 constexpr double k_ankle_height = 0.041;   // above the sole
 constexpr double k_elbow_ratio = 0.51;     // of the way from shoulder to wrist
 constexpr double k_knee_ratio = 0.49;      // of the way from hip to ankle
@@ -40,6 +41,15 @@ struct Surface {
         for (const int node : graph.curve(c))
             points.push_back(skeleton.nodes[node]);
         return points;
+    }
+
+    /// Whether a vertex hangs on another curve than `c`.
+    IsForeign foreign_to(int c) const
+    {
+        return [this, c](int vertex) {
+            const int node = skeleton.node_of_vertex[vertex];
+            return node >= 0 && graph.place_of_node[node].curve != c;
+        };
     }
 
     /// The vertices that hang on the last `reach` of a curve, m along it.
@@ -129,10 +139,14 @@ void require(bool found, const char* what, const Vec3& near)
                        + number(near.z()) + "); give a human body whose limbs are not fused to it");
 }
 
-LimbJoints arm_joints(const Surface& surface, const Slicer& slicer, int arm)
+double length(const LimbJoints& limb)
 {
-    const double size = surface.graph.size;
-    const Centreline line = centreline(slicer, surface.curve(arm), k_spacing * size, true);
+    return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm();
+}
+
+LimbJoints arm_joints(const Surface& surface, const Slicer& slicer, int arm, double size)
+{
+    const Centreline line = centreline(slicer, surface.curve(arm), k_spacing * size, surface.foreign_to(arm));
     LimbJoints joints;
     const Vec3 end = line.points.back();
     const Vec3 elbow_about = line.at(0.5 * (line.arcs[line.first_free] + line.length()));
@@ -145,10 +159,9 @@ LimbJoints arm_joints(const Surface& surface, const Slicer& slicer, int arm)
     return joints;
 }
 
-LimbJoints leg_joints(const Surface& surface, const Slicer& slicer, int leg)
+LimbJoints leg_joints(const Surface& surface, const Slicer& slicer, int leg, double size)
 {
-    const double size = surface.graph.size;
-    const Centreline line = centreline(slicer, surface.curve(leg), k_spacing * size, true);
+    const Centreline line = centreline(slicer, surface.curve(leg), k_spacing * size, surface.foreign_to(leg));
     LimbJoints joints;
     const Vec3 end = line.points.back();
     const std::vector<Vec3> foot = surface.last(leg, 0.25 * size);
@@ -179,10 +192,16 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     const Slicer slicer(proxy);
     BodyJoints joints;
     joints.size = graph.size;
-    for (int i = 0; i < 2; ++i) {
-        joints.arms[i] = arm_joints(surface, slicer, i);
-        joints.legs[i] = leg_joints(surface, slicer, 2 + i);
+    for (int round = 0; round < 2; ++round) {  // the curve cuts corners: bent legs make the first guess too small
+        double legs = 0;
+        for (int i = 0; i < 2; ++i) {
+            joints.legs[i] = leg_joints(surface, slicer, 2 + i, joints.size);
+            legs += 0.5 * length(joints.legs[i]);
+        }
+        joints.size = legs / k_leg;
     }
+    for (int i = 0; i < 2; ++i)
+        joints.arms[i] = arm_joints(surface, slicer, i, joints.size);
     joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
 
     std::vector<Vec3> axis = surface.curve(5);
@@ -191,7 +210,7 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     const Vec3 up = (head.back() - head.front()).normalized();
     joints.crown = farthest(surface.last(4, 0.12 * joints.size), [&](const Vec3& p) { return p.dot(up); });
     axis.insert(axis.end(), head.begin() + 1, head.end());
-    const Centreline spine = centreline(slicer, axis, k_spacing * joints.size, false);
+    const Centreline spine = centreline(slicer, axis, k_spacing * joints.size, [](int) { return false; });
     const double top = spine.length() + (joints.crown - spine.points.back()).norm();
     const double neck = top - k_neck_base * joints.size, skull = top - k_skull_base * joints.size;
     joints.lower_spine = spine.at(neck / 3);
