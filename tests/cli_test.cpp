@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The program as its users run it: arguments in, exit code, streams and files out.
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fit/io.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+const std::string k_body = FIT_SAMPLES "/man_leg_up.ply", k_trousers = FIT_SAMPLES "/trousers.ply",
+                  k_tshirt = FIT_SAMPLES "/tshirt.ply";
+
+std::string read_text(const fs::path& path)
+{
+    std::ifstream file(path);
+    return { std::istreambuf_iterator<char>(file), {} };
+}
+
+struct Ended {
+    int code = -1;
+    std::string out, err;
+
+    long error_lines() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+class CommandLine : public testing::Test {
+protected:
+    CommandLine()
+    {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder = fs::temp_directory_path() / ("garmentfit_" + std::string(test->name()) + std::to_string(getpid()));
+        fs::create_directories(folder);
+    }
+    ~CommandLine() override { fs::remove_all(folder); }
+
+    pid_t start(const Arguments& arguments) const
+    {
+        std::vector<char*> argv { const_cast<char*>(FIT_PROGRAM) };
+        for (const std::string& argument : arguments)
+            argv.push_back(const_cast<char*>(argument.c_str()));
+        argv.push_back(nullptr);
+        posix_spawn_file_actions_t streams;
+        posix_spawn_file_actions_init(&streams);
+        const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+        posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, (folder / "stdout").c_str(), flags, 0644);
+        posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, (folder / "stderr").c_str(), flags, 0644);
+        pid_t pid = -1;
+        EXPECT_EQ(posix_spawn(&pid, FIT_PROGRAM, &streams, nullptr, argv.data(), environ), 0);
+        posix_spawn_file_actions_destroy(&streams);
+        return pid;
+    }
+
+    Ended wait_for(pid_t pid) const
+    {
+        int status = 0;
+        waitpid(pid, &status, 0);
+        return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_text(folder / "stdout"),
+                 read_text(folder / "stderr") };
+    }
+
+    Ended run(const Arguments& arguments) const { return wait_for(start(arguments)); }
+
+    std::string write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(folder / name) << text;
+        return folder / name;
+    }
+
+    /// Exit code 2, one line that says `words`, nothing on standard output, no result folder.
+    void expect_refused(Arguments arguments, const std::vector<std::string>& words) const
+    {
+        const fs::path result = folder / "result";
+        arguments.insert(arguments.end(), { "-o", result.string() });
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 2) << ended.err;
+        EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        for (const std::string& word : words)
+            EXPECT_NE(ended.err.find(word), std::string::npos) << '"' << word << "\" is not in: " << ended.err;
+        expect_only_streams_and_inputs();
+    }
+
+    /// Nothing but the files of this test: no result folder, no draft of one.
+    void expect_only_streams_and_inputs() const
+    {
+        for (const auto& entry : fs::directory_iterator(folder))
+            EXPECT_FALSE(entry.is_directory()) << entry.path() << " was left behind";
+    }
+
+    fs::path folder;
+};
+
+std::string cube_obj()
+{
+    return "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+           "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+}
+
+TEST_F(CommandLine, ExplainsItself)
+{
+    for (const std::string command : { "", "dress", "rig", "fit", "drape", "recover" }) {
+        const Ended ended = run(command.empty() ? Arguments { "--help" } : Arguments { command, "--help" });
+        EXPECT_EQ(ended.code, 0) << command;
+        EXPECT_EQ(ended.err, "");
+        EXPECT_NE(ended.out.find("Example"), std::string::npos) << command << ": no example in its help";
+    }
+    EXPECT_EQ(run({ "--version" }).code, 0);
+}
+
+TEST_F(CommandLine, RefusesACallItDoesNotUnderstand)
+{
+    for (const Arguments& arguments : { Arguments {}, { "iron" }, { "dress" }, { "dress", k_body }, { "rig", k_body, "--shiny" } }) {
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 2);
+        EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+    }
+}
+
+TEST_F(CommandLine, RefusesAMissingFile) { expect_refused({ "dress", "nobody.ply", k_trousers }, { "nobody.ply" }); }
+
+TEST_F(CommandLine, RefusesAFolderAsMesh) { expect_refused({ "rig", folder.string() }, { folder.string() }); }
+
+TEST_F(CommandLine, RefusesAMeshWithoutFaces)
+{
+    expect_refused({ "dress", write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), k_trousers }, { "face" });
+}
+
+TEST_F(CommandLine, RefusesNumbersThatAreNotFinite)
+{
+    expect_refused({ "dress", write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), k_trousers }, { "nan.obj" });
+}
+
+TEST_F(CommandLine, RefusesAnIndexOutOfRange)
+{
+    expect_refused({ "dress", write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), k_trousers }, { "range.obj" });
+}
+
+TEST_F(CommandLine, RefusesACubeAsBody) { expect_refused({ "dress", write("cube.obj", cube_obj()), k_trousers }, {}); }
+
+TEST_F(CommandLine, RefusesATshirtAsBody) { expect_refused({ "dress", k_tshirt, k_trousers }, {}); }
+
+TEST_F(CommandLine, RefusesAnUnknownType)
+{
+    expect_refused({ "dress", k_body, k_trousers, "--type", "umbrella" }, { "umbrella", "tshirt" });
+}
+
+TEST_F(CommandLine, RefusesMoreTypesThanGarments)
+{
+    expect_refused({ "dress", k_body, k_trousers, "--type", "trousers", "--type", "tshirt" }, { "2 types" });
+}
+
+TEST_F(CommandLine, RefusesAParameterOutOfRange)
+{
+    expect_refused({ "rig", k_body, "--proxy-vertices", "3" }, { "proxy_vertices", "3", "1000..50000" });
+}
+
+TEST_F(CommandLine, RefusesTwoGarmentsOfOneName)
+{
+    expect_refused({ "dress", k_body, k_trousers, k_trousers }, { "trousers.ply" });
+}
+
+TEST_F(CommandLine, RefusesAFileAsResultFolder)
+{
+    const std::string file = write("taken", "precious");
+    const Ended ended = run({ "rig", k_body, "-o", file });
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+    EXPECT_EQ(read_text(file), "precious");
+}
+
+TEST_F(CommandLine, RefusesToContinueWhatItDidNotWrite)
+{
+    expect_refused({ "drape", FIT_SAMPLES }, { "rig.json" });
+    expect_refused({ "recover", FIT_SAMPLES }, { "drape" });
+    fs::create_directory(folder / "mangled");
+    std::ofstream(folder / "mangled" / "rig.json") << "{\"format\": \"garmentfit-rig\", ";
+    const Ended ended = run({ "drape", folder / "mangled", "-o", folder / "result" });
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+    EXPECT_FALSE(fs::exists(folder / "result"));
+}
+
+TEST_F(CommandLine, KeepsWhatStoodInTheResultFolderWhenItRefuses)
+{
+    fs::create_directory(folder / "result");
+    std::ofstream(folder / "result" / "notes.txt") << "mine";
+    EXPECT_EQ(run({ "rig", "nobody.ply", "-o", folder / "result" }).code, 2);
+    EXPECT_EQ(read_text(folder / "result" / "notes.txt"), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "result"), {}), 1);
+}
+
+TEST_F(CommandLine, LeavesNothingBehindWhenStopped)
+{
+    for (const int signal : { SIGINT, SIGTERM }) {
+        const pid_t pid = start({ "dress", k_body, k_trousers, "--type", "trousers", "--settling-steps", "10000", "-o",
+                                  folder / "result" });
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        kill(pid, signal);
+        const Ended ended = wait_for(pid);
+        EXPECT_EQ(ended.code, 130) << ended.err;
+        EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+        expect_only_streams_and_inputs();
+    }
+}
+
+TEST_F(CommandLine, RigsABodyIntoAFolderThatExistsAlready)
+{
+    fs::create_directory(folder / "result");
+    std::ofstream(folder / "result" / "notes.txt") << "mine";
+    const Ended ended = run({ "rig", k_body, "--json", "-o", folder / "result" });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(ended.err, "");
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("command"), "rig");
+    EXPECT_EQ(nlohmann::json::parse(read_text(folder / "result" / "rig.json")).at("bones").size(), 17u);
+    EXPECT_EQ(read_text(folder / "result" / "notes.txt"), "mine");
+    EXPECT_EQ(fit::MeshFile::read(folder / "result" / "rigged.ply").positions(), fit::MeshFile::read(k_body).positions());
+}
+
+class Slow : public CommandLine { };
+
+TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
+{
+    const fs::path dressed = folder / "dressed", fitted = folder / "fitted", draped = folder / "draped", own = folder / "own";
+    const Ended whole = run({ "dress", k_body, k_trousers, "--type", "trousers", "--json", "-o", dressed });
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const auto report = nlohmann::json::parse(whole.out);
+    EXPECT_TRUE(report.at("certified").get<bool>());
+    const auto& crossings = report.at("garments").at(0).at("crossings");
+    EXPECT_EQ(crossings.at("body"), 0);
+    EXPECT_EQ(crossings.at("self"), 0);
+    EXPECT_GT(report.at("garments").at(0).at("smallest_gap").get<double>(), 0);
+
+    const auto body = fit::MeshFile::read(k_body), came_back = fit::MeshFile::read(dressed / "body.ply");
+    EXPECT_EQ(came_back.positions(), body.positions()) << "the body moved";
+    const auto given = fit::MeshFile::read(k_trousers), worn = fit::MeshFile::read(dressed / "trousers.ply");
+    EXPECT_EQ(worn.triangles(), given.triangles());
+    EXPECT_TRUE(fs::exists(dressed / "fitted" / "trousers.ply"));
+
+    ASSERT_EQ(run({ "fit", k_body, k_trousers, "--type", "trousers", "-o", fitted }).code, 0);
+    ASSERT_EQ(run({ "drape", fitted, "-o", draped }).code, 0);
+    ASSERT_EQ(run({ "recover", draped, "-o", own }).code, 0);
+    EXPECT_EQ(fit::MeshFile::read(own / "body.ply").positions(), body.positions());
+    const fit::Positions stepwise = fit::MeshFile::read(own / "trousers.ply").positions();
+    const double apart = (stepwise - worn.positions()).rowwise().norm().maxCoeff();
+    EXPECT_LT(apart, 0.02) << "metres; files between the steps round, and contact is sensitive to it";
+}
+
+}  // namespace
