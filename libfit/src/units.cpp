@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/units.h"
 
-#include <array>
 #include <cmath>
 
 #include "fit/error.h"
+#include "known_units.h"
 
 namespace fit {
-namespace {
-
-struct Unit {
-    std::string_view name;
-    double metres;
-};
-constexpr std::array<Unit, 6> k_units { { { "m", 1 }, { "dm", 0.1 }, { "cm", 0.01 }, { "mm", 0.001 }, { "in", 0.0254 }, { "ft", 0.3048 } } };
-
-}  // namespace
-
 Eigen::Matrix3d Frame::rotation() const
 {
     // up along x turns about z; all others turn about x, so that left stays left
@@ -44,7 +34,7 @@ Positions Frame::to_file(const Positions& in_metres) const
 
 double metres_per(std::string_view unit)
 {
-    for (const Unit& known : k_units)
+    for (const KnownUnit& known : k_known_units)
         if (known.name == unit)
             return known.metres;
     throw InvalidInput("unknown unit '" + std::string(unit) + "'; known are m, dm, cm, mm, in, ft");
