@@ -101,10 +101,20 @@ Vec3 Centreline::at(double arc) const
     return points[i - 1] + t * (points[i] - points[i - 1]);
 }
 
-int Centreline::nearest(double arc) const
+int Centreline::nearest_row(const Vec3& point) const
 {
-    const auto nearer = [&](double a, double b) { return std::abs(a - arc) < std::abs(b - arc); };
-    return int(std::min_element(arcs.begin(), arcs.end(), nearer) - arcs.begin());
+    const auto nearer = [&](const Vec3& a, const Vec3& b) { return (a - point).norm() < (b - point).norm(); };
+    return int(std::min_element(points.begin(), points.end(), nearer) - points.begin());
+}
+
+Centreline polyline(const std::vector<Vec3>& points, double spacing)
+{
+    Centreline line;
+    line.points = points;
+    line.arcs = arcs_along(points);
+    line.points = resampled(line, spacing);
+    line.arcs = arcs_along(line.points);
+    return line;
 }
 
 bool is_free(const CrossSection& section, const IsForeign& is_foreign)
@@ -115,9 +125,7 @@ bool is_free(const CrossSection& section, const IsForeign& is_foreign)
 
 Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, const IsForeign& is_foreign)
 {
-    Centreline line;
-    line.points = curve;
-    line.arcs = arcs_along(curve);
+    Centreline line = polyline(curve, spacing);
     for (int round = 0; round < k_rounds; ++round) {
         std::vector<Vec3> points = resampled(line, spacing);
         smooth(points);

@@ -18,13 +18,16 @@ struct Centreline {
     std::vector<bool> across;    ///< and is about round: the plane does not run along the limb
     std::vector<double> arcs;    ///< m from the first point
 
-    int first_free = 0;          ///< from here outwards the limb is an outline of its own, clear of the trunk
+    int first_free = 0;          ///< from here outwards the limb is clear of the trunk
 
     int size() const { return int(points.size()); }
     double length() const { return arcs.back(); }
     Vec3 at(double arc) const;   ///< by linear interpolation, the ends' points beyond the ends
-    int nearest(double arc) const;
+    int nearest_row(const Vec3& point) const;
 };
+
+/// Points and arcs only; resampled to even spacing.
+Centreline polyline(const std::vector<Vec3>& points, double spacing);
 
 /// Whether a vertex of the surface belongs to something else than the limb that is being cut.
 using IsForeign = std::function<bool(int vertex)>;

@@ -12,15 +12,21 @@
 namespace fit {
 namespace {
 
-// Shares of stature, of joint centres [deleva_1996_segments]; widths and heights of joints [drillis_1966_segments].
-constexpr double k_hand = 0.108;           // wrist to fingertip
-constexpr double k_leg = 0.485;            // hip to knee to ankle
-constexpr double k_ankle_height = 0.041;   // above the sole
-constexpr double k_elbow_ratio = 0.51;     // of the way from shoulder to wrist
-constexpr double k_knee_ratio = 0.49;      // of the way from hip to ankle
-constexpr double k_crotch_to_hip = 0.045;  // hip joint above the crotch, along the thigh
-constexpr double k_skull_base = 0.095;     // below the crown
-constexpr double k_neck_base = 0.145;      // below the crown: the seventh vertebra of the neck
+// Shares of stature between joint centres [deleva_1996_segments], heights and widths [drillis_1966_segments].
+constexpr double k_leg = 0.485;             // hip to knee to ankle
+constexpr double k_hip_to_crown = 0.48;
+constexpr double k_hand = 0.108;            // wrist to fingertip
+constexpr double k_ankle_height = 0.041;    // above the sole
+constexpr double k_skull_base = 0.095;      // below the crown
+constexpr double k_neck_base = 0.145;       // below the crown: the seventh vertebra of the neck
+constexpr double k_elbow_ratio = 0.51;      // of the way from shoulder to wrist
+constexpr double k_knee_ratio = 0.49;       // of the way from hip to ankle
+constexpr double k_knee_above_shin = 0.53;  // of the way from hip to where the shin is narrowest
+
+// Where the joint lies, as shares of stature, from the middle of the first outline that is the limb's own.
+constexpr double k_hip_above_crotch = 0.035;
+constexpr double k_shoulder_above_armpit = 0.03, k_shoulder_beside_armpit = 0.02;
+constexpr double k_shoulder_above_middle = 0.012;  // the outline at the armpit hangs lower than the joint
 
 // How far the bodies of this world stray from these shares, and cuts from straight limbs.
 constexpr double k_ratio_spread = 0.03;
@@ -139,49 +145,109 @@ void require(bool found, const char* what, const Vec3& near)
                        + number(near.z()) + "); give a human body whose limbs are not fused to it");
 }
 
+struct Limb {
+    int curve;
+    Centreline line;
+    Vec3 tip() const { return line.points.back(); }
+    const Vec3& ring() const { return line.points[line.first_free]; }  ///< where it leaves the trunk
+};
+
+Limb limb(const Surface& surface, const Slicer& slicer, int curve)
+{
+    const Limb result { curve, centreline(slicer, surface.curve(curve), k_spacing * surface.graph.size, surface.foreign_to(curve)) };
+    require(result.line.first_free + 10 < result.line.size(), curve < 2 ? "free arm" : "free leg", result.tip());
+    return result;
+}
+
 double length(const LimbJoints& limb)
 {
     return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm();
 }
 
-LimbJoints arm_joints(const Surface& surface, const Slicer& slicer, int arm, double size)
+/// @param up  of the trunk
+LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, double size)
 {
-    const Centreline line = centreline(slicer, surface.curve(arm), k_spacing * size, surface.foreign_to(arm));
+    const Centreline& line = arm.line;
+    const Vec3 along = (arm.tip() - line.at(0.6 * line.length())).normalized();
     LimbJoints joints;
-    const Vec3 end = line.points.back();
-    const Vec3 elbow_about = line.at(0.5 * (line.arcs[line.first_free] + line.length()));
-    joints.tip = farthest(surface.last(arm, 0.12 * size), [&](const Vec3& p) { return (p - elbow_about).dot((end - elbow_about).normalized()); });
+    joints.tip = farthest(surface.last(arm.curve, 0.12 * size), [&](const Vec3& p) { return p.dot(along); });
     const int wrist = narrowest(line, joints.tip, 0.07 * size, 0.16 * size, k_hand * size, k_hand_spread * size);
-    require(wrist > line.first_free + 4, "wrist", end);
+    require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
-    joints.root = line.points[line.first_free];
-    joints.middle = line.points[bend(line, line.first_free, wrist, joints.root, k_elbow_ratio, size)];
+    joints.middle = line.points[bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size)];
+    // seen from the shoulder the armpit is a little below and to the inside, however the arm is held
+    const Vec3 inwards = (arm.ring() - joints.middle).normalized();
+    const double rise = inwards.dot(up);
+    const double beyond = k_shoulder_above_armpit * rise - k_shoulder_beside_armpit * std::sqrt(std::max(0.0, 1 - rise * rise));
+    joints.root = arm.ring() + size * (beyond * inwards + k_shoulder_above_middle * (up - rise * inwards));
     return joints;
 }
 
-LimbJoints leg_joints(const Surface& surface, const Slicer& slicer, int leg, double size)
+/// The lowest point of the heel and sole about the shin's axis.
+Vec3 sole_below(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& shin_axis, double radius)
 {
-    const Centreline line = centreline(slicer, surface.curve(leg), k_spacing * size, surface.foreign_to(leg));
-    LimbJoints joints;
-    const Vec3 end = line.points.back();
-    const std::vector<Vec3> foot = surface.last(leg, 0.25 * size);
-    const int shin = narrowest(line, end, 0.12 * size, 0.25 * size, 0.17 * size, 0.05 * size);
-    require(shin > line.first_free + 4, "ankle", end);
-    const int thigh = line.nearest(line.arcs[line.first_free] + 0.05 * size);
-    const Vec3 thigh_axis = (line.points[thigh] - line.at(line.arcs[thigh] + 0.1 * size)).normalized();
-    joints.root = line.points[line.first_free] + k_crotch_to_hip * size * thigh_axis;
-    joints.middle = line.points[bend(line, line.first_free, shin, joints.root, 0.55, size)];
-    const Vec3 shin_axis = (line.points[shin] - joints.middle).normalized();
-    const auto off_axis = [&](const Vec3& p) { const Vec3 d = p - joints.middle; return (d - d.dot(shin_axis) * shin_axis).norm(); };
     std::vector<Vec3> heel;
     for (const Vec3& p : foot)
-        if (off_axis(p) < 0.05 * size)
+        if ((p - knee).cross(shin_axis).norm() < radius)
             heel.push_back(p);
-    require(!heel.empty(), "heel", end);
-    const Vec3 sole = farthest(heel, [&](const Vec3& p) { return (p - joints.middle).dot(shin_axis); });
+    require(!heel.empty(), "heel", foot.front());
+    return farthest(heel, [&](const Vec3& p) { return p.dot(shin_axis); });
+}
+
+LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
+{
+    const Centreline& line = leg.line;
+    const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
+    const int shin = narrowest(line, leg.tip(), 0.12 * size, 0.25 * size, 0.17 * size, 0.05 * size);
+    require(shin > line.first_free + 4, "ankle", leg.tip());
+    LimbJoints joints;
+    const Vec3 along_thigh = (leg.ring() - line.at(line.arcs[line.first_free] + 0.12 * size)).normalized();
+    joints.root = leg.ring() + k_hip_above_crotch * size * along_thigh;
+    joints.middle = line.points[bend(line, line.first_free, shin, joints.root, k_knee_above_shin, size)];
+    const Vec3 shin_axis = (line.points[shin] - joints.middle).normalized();
+    const Vec3 sole = sole_below(foot, joints.middle, shin_axis, 0.05 * size);
     joints.end = joints.middle + ((sole - joints.middle).dot(shin_axis) - k_ankle_height * size) * shin_axis;
-    joints.tip = farthest(foot, [&](const Vec3& p) { return (p - joints.end).dot(end - joints.end); });
+    joints.tip = farthest(foot, [&](const Vec3& p) { return (p - joints.end).dot(leg.tip() - joints.end); });
     return joints;
+}
+
+/// Both thighs (or upper arms) get one length: half of what was measured, half of what the lower bones lead to expect.
+void level_upper_lengths(std::array<LimbJoints, 2>& limbs, double upper_ratio)
+{
+    double measured = 0, expected = 0;
+    for (const LimbJoints& limb : limbs) {
+        measured += 0.5 * (limb.root - limb.middle).norm();
+        expected += 0.5 * (limb.end - limb.middle).norm() * upper_ratio / (1 - upper_ratio);
+    }
+    for (LimbJoints& limb : limbs)
+        limb.root = limb.middle + 0.5 * (measured + expected) * (limb.root - limb.middle).normalized();
+}
+
+/// From the pelvis through the middle of the trunk to the top of the head's curve. Where the arms leave, cuts say nothing.
+Centreline spine(const Surface& surface, const Slicer& slicer, const Vec3& pelvis)
+{
+    const auto is_limb = [&](int vertex) {
+        const int node = surface.skeleton.node_of_vertex[vertex];
+        return node >= 0 && surface.graph.place_of_node[node].curve < 4;
+    };
+    std::vector<Vec3> curve = surface.curve(5);
+    const std::vector<Vec3> head = surface.curve(4);
+    curve.insert(curve.end(), head.begin() + 1, head.end());
+    const Centreline cuts = centreline(slicer, curve, k_spacing * surface.graph.size, is_limb);
+    std::vector<Vec3> middles { pelvis };
+    for (int i = 0; i < cuts.size(); ++i)
+        if (cuts.free[i] && cuts.across[i])
+            middles.push_back(cuts.points[i]);
+    return polyline(middles, 0.5 * k_spacing * surface.graph.size);
+}
+
+/// The highest point of a line that is `distance` away from its end beyond, m.
+Vec3 below(const Centreline& line, const Vec3& end, double distance)
+{
+    int i = line.size() - 1;
+    while (i > 0 && (line.points[i] - end).norm() < distance)
+        --i;
+    return line.points[i];
 }
 
 }  // namespace
@@ -190,34 +256,34 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
 {
     const Surface surface { proxy, skeleton, graph };
     const Slicer slicer(proxy);
+    const std::array<Limb, 2> arms { limb(surface, slicer, 0), limb(surface, slicer, 1) };
+    const std::array<Limb, 2> legs { limb(surface, slicer, 2), limb(surface, slicer, 3) };
+    const Vec3 up = (skeleton.nodes[graph.trunk.back()] - skeleton.nodes[graph.trunk.front()]).normalized();
+
     BodyJoints joints;
     joints.size = graph.size;
-    for (int round = 0; round < 2; ++round) {  // the curve cuts corners: bent legs make the first guess too small
-        double legs = 0;
-        for (int i = 0; i < 2; ++i) {
-            joints.legs[i] = leg_joints(surface, slicer, 2 + i, joints.size);
-            legs += 0.5 * length(joints.legs[i]);
-        }
-        joints.size = legs / k_leg;
+    joints.crown = farthest(surface.last(4, 0.12 * graph.size), [&](const Vec3& p) { return p.dot(up); });
+    Centreline axis;
+    for (int round = 0; round < 2; ++round) {  // curves cut corners: bent legs make the first size too small
+        for (int i = 0; i < 2; ++i)
+            joints.legs[i] = leg_joints(surface, legs[i], joints.size);
+        level_upper_lengths(joints.legs, k_knee_ratio);
+        joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
+        axis = spine(surface, slicer, joints.pelvis);
+        const double trunk = axis.length() + (joints.crown - axis.points.back()).norm();
+        const double leg = 0.5 * (length(joints.legs[0]) + length(joints.legs[1]));
+        joints.size = 0.5 * (leg / k_leg + trunk / k_hip_to_crown);
     }
     for (int i = 0; i < 2; ++i)
-        joints.arms[i] = arm_joints(surface, slicer, i, joints.size);
-    joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
+        joints.arms[i] = arm_joints(surface, arms[i], up, joints.size);
+    level_upper_lengths(joints.arms, k_elbow_ratio);
 
-    std::vector<Vec3> axis = surface.curve(5);
-    axis.insert(axis.begin(), joints.pelvis);
-    const std::vector<Vec3> head = surface.curve(4);
-    const Vec3 up = (head.back() - head.front()).normalized();
-    joints.crown = farthest(surface.last(4, 0.12 * joints.size), [&](const Vec3& p) { return p.dot(up); });
-    axis.insert(axis.end(), head.begin() + 1, head.end());
-    const Centreline spine = centreline(slicer, axis, k_spacing * joints.size, [](int) { return false; });
-    const double top = spine.length() + (joints.crown - spine.points.back()).norm();
-    const double neck = top - k_neck_base * joints.size, skull = top - k_skull_base * joints.size;
-    joints.lower_spine = spine.at(neck / 3);
-    joints.upper_spine = spine.at(neck * 2 / 3);
-    joints.neck_base = spine.at(neck);
-    joints.skull_base = spine.at(skull);
-    joints.mid_neck = spine.at(0.5 * (neck + skull));
+    joints.neck_base = below(axis, joints.crown, k_neck_base * joints.size);
+    joints.skull_base = below(axis, joints.crown, k_skull_base * joints.size);
+    joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
+    const double neck = axis.arcs[axis.nearest_row(joints.neck_base)];
+    joints.lower_spine = axis.at(neck / 3);
+    joints.upper_spine = axis.at(neck * 2 / 3);
     return joints;
 }
 
