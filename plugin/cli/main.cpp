@@ -18,6 +18,7 @@
 #include "output_folder.h"
 #include "progress_bar.h"
 #include "report.h"
+#include "results.h"
 #include "session.h"
 
 namespace {

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/global_control.h>
 
+#include "results.h"
+
 namespace fit::cli {
 namespace {
 

@@ -51,16 +51,4 @@ void read_fitted(Session& session, const std::filesystem::path& folder);
 /// All that `drape` wrote, for recovering the pose.
 void read_draped(Session& session, const std::filesystem::path& folder);
 
-enum class Outcome { done = 0, too_small = 3, not_certified = 4 };  // exit codes
-
-/// How the garments are worn at the end, or null when none was put on (yet).
-const Dressing* final_dressing(const Scene& scene);
-bool all_clean(const Dressing& dressing);
-Outcome outcome_of(const Scene& scene);
-/// One line on how it went wrong. Only for too_small and not_certified.
-std::string explain(const Session& session);
-
-/// Writes all that a command leaves behind but the report.
-void write_results(const Session& session, std::string_view command, const std::filesystem::path& folder);
-
 }  // namespace fit::cli

@@ -11,3 +11,6 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -
                         -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DFIT_SANITIZE=${SANITIZE} ${step})
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build ${step})
 execute_process(COMMAND ${WORK_DIR}/build/consumer ${step})
+if(EXISTS ${WORK_DIR}/prefix/bin/garmentfit)  # the installed program finds its library
+    execute_process(COMMAND ${WORK_DIR}/prefix/bin/garmentfit --version ${step})
+endif()

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fit/io.h"
+#include "rig_file.h"
+
+namespace fit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- writing ---------------------------------------------------------------------------------------------------
+
+void write_rigged(const Session& session, const fs::path& path)
+{
+    const SkinWeights& weights = session.scene.rig->weights;
+    std::vector<VertexProperty> properties;
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::VectorXd bones = weights.bones.col(k).cast<double>(), values = weights.weights.col(k);
+        properties.push_back({ "joint" + std::to_string(k), { bones.begin(), bones.end() }, true });
+        properties.push_back({ "weight" + std::to_string(k), { values.begin(), values.end() }, false });
+    }
+    write_ply(path, session.body.file.positions(), session.body.file.triangles(), properties,
+              { "garmentfit: the body in its own pose, joint0..3 are rows of bones in rig.json" });
+}
+
+RigFile rig_file_of(const Session& session)
+{
+    RigFile contents { session.body.frame.frame, *session.scene.rig, {} };
+    for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
+        contents.garments.push_back({ session.garments[i].name(), session.garments[i].frame.frame, session.scene.fits[i] });
+    return contents;
+}
+
+std::vector<std::string> comments_of(const Dressing& dressing)
+{
+    if (dressing.certified)
+        return { "garmentfit: certified" };
+    std::ostringstream text;
+    text << "garmentfit: NOT certified; last certified state, body at " << 100 * dressing.size_reached
+         << "% of its size, pose reached " << 100 * dressing.pose_reached << '%';
+    return { text.str() };
+}
+
+/// The user's own numbers where the body is where it was.
+Positions body_in_file(const Session& session, const Positions& in_metres)
+{
+    return in_metres == session.scene.body->surface.positions ? session.body.file.positions()
+                                                              : session.body.frame.frame.to_file(in_metres);
+}
+
+void write_dressing(const Session& session, const Dressing& dressing, const fs::path& folder)
+{
+    fs::create_directories(folder);
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        session.garments[i].file.write(folder / session.garments[i].name(),
+                                       session.body.frame.frame.to_file(dressing.garments[i].positions));
+    write_ply(folder / "body.ply", body_in_file(session, dressing.body), session.body.file.triangles(), {},
+              comments_of(dressing));
+}
+
+void write_garments_as_given(const Session& session, const fs::path& folder)
+{
+    fs::create_directories(folder);
+    for (const GarmentFile& garment : session.garments)
+        garment.file.write(folder / garment.name(), garment.file.positions());
+}
+
+void write_fitted_body(const Session& session, const fs::path& folder)
+{
+    const Rig& rig = *session.scene.rig;
+    const Pose& pose = session.scene.fits.back().pose;
+    const Positions fitted
+        = skin(session.scene.body->surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
+    write_ply(folder / "body.ply", session.body.frame.frame.to_file(fitted), session.body.file.triangles(), {},
+              { "garmentfit: the body in the pose fitted to " + session.garments.back().name() });
+}
+
+// ---- judging ---------------------------------------------------------------------------------------------------
+
+std::string tight_parts(const Dressing& dressing)
+{
+    std::ostringstream text;
+    for (const TooTight& tight : dressing.too_tight)
+        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth) << " mm";
+    return text.str();
+}
+
+}  // namespace
+
+const Dressing* final_dressing(const Scene& scene)
+{
+    return scene.recovered ? &*scene.recovered : scene.draped ? &*scene.draped : nullptr;
+}
+
+bool all_clean(const Dressing& dressing)
+{
+    return std::all_of(dressing.garments.begin(), dressing.garments.end(),
+                       [](const WornGarment& garment) { return garment.certificate.clean(); });
+}
+
+Outcome outcome_of(const Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || end->certified)
+        return Outcome::done;
+    return end->size_reached < 1 ? Outcome::too_small : Outcome::not_certified;
+}
+
+std::string explain(const Session& session)
+{
+    const Dressing& end = *final_dressing(session.scene);
+    const std::string garment = end.garments.empty() ? session.garments.front().name()
+                                                     : session.garments[end.garments.size() - 1].name();
+    std::ostringstream text;
+    if (outcome_of(session.scene) == Outcome::too_small) {
+        const std::string parts = tight_parts(end);
+        text << garment << " is too small" << (parts.empty() ? "" : " at " + parts) << "; the body fits in at "
+             << std::lround(100 * end.size_reached) << "% of its size";
+    } else if (!all_clean(end)) {
+        const Certificate& c = end.garments.back().certificate;
+        text << garment << " could not be certified: " << c.body_crossings << " crossings with the body, "
+             << c.self_crossings << " with itself, " << c.layer_crossings << " with layers, " << c.vertices_inside
+             << " vertices inside";
+    } else {
+        text << garment << " could not be certified: stopped at " << std::lround(100 * end.pose_reached)
+             << "% of the way between two poses";
+    }
+    return text.str();
+}
+
+void write_results(const Session& session, std::string_view command, const fs::path& folder)
+{
+    const Scene& scene = session.scene;
+    write_rig_file(folder / "rig.json", rig_file_of(session));
+    write_rigged(session, folder / "rigged.ply");
+    if (command == "fit") {
+        write_garments_as_given(session, folder);
+        write_fitted_body(session, folder);
+    }
+    if (command == "dress" || command == "drape")
+        write_garments_as_given(session, folder / "rest");
+    if (command == "dress" && scene.recovered)
+        write_dressing(session, *scene.draped, folder / "fitted");
+    if (const Dressing* end = final_dressing(scene); end && all_clean(*end))
+        write_dressing(session, *end, folder);
+}
+
+}  // namespace fit::cli

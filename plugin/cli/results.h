@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How a run ended, and the files it leaves.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "session.h"
+
+namespace fit::cli {
+
+enum class Outcome { done = 0, too_small = 3, not_certified = 4 };  // exit codes
+
+/// How the garments are worn at the end, or null when none was put on (yet).
+const Dressing* final_dressing(const Scene& scene);
+bool all_clean(const Dressing& dressing);
+Outcome outcome_of(const Scene& scene);
+/// One line on how it went wrong. Only for too_small and not_certified.
+std::string explain(const Session& session);
+
+/// Writes all that a command leaves behind but the report.
+void write_results(const Session& session, std::string_view command, const std::filesystem::path& folder);
+
+}  // namespace fit::cli
