@@ -70,6 +70,8 @@ ordered_json parsed(const FileBytes& file, const std::string& text)
         return json;
     } catch (const ordered_json::parse_error& error) {
         file.fail("its JSON is mangled or truncated at byte " + std::to_string(error.byte) + " of the text");
+    } catch (const ordered_json::out_of_range&) {
+        file.fail("its JSON holds a number too large to read");
     }
 }
 
@@ -118,7 +120,8 @@ GltfContainer read_gltf_container(const FileBytes& file)
         container.chunks.erase(container.chunks.begin());
     } else {
         container.json = parsed(file, file.bytes);
-        container.is_indented = file.bytes.find('\n') + 1 < file.bytes.size();
+        const std::size_t line_break = file.bytes.find('\n');
+        container.is_indented = line_break != std::string::npos && line_break + 1 < file.bytes.size();
     }
     return container;
 }
@@ -151,7 +154,9 @@ std::string data_uri(std::string_view mime_type, std::string_view bytes)
 
 void embed_pictures(ordered_json& json, const std::filesystem::path& folder)
 {
-    for (ordered_json& picture : json.contains("images") ? json["images"] : ordered_json::array()) {
+    if (!json.contains("images"))
+        return;
+    for (ordered_json& picture : json["images"]) {
         const std::string uri = picture.is_object() && picture.contains("uri") && picture["uri"].is_string() ? picture["uri"] : "";
         if (uri.empty() || uri.starts_with("data:"))
             continue;
