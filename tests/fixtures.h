@@ -221,4 +221,17 @@ inline Person capsule_person(const PersonOptions& options = {})
     return person;
 }
 
+/// A garment round a skeleton's capsules, `ease` metres off the skin: the surface where `keep` says so, holes where not.
+inline TriangleMesh garment_round(const Skeleton& skeleton, double ease, const std::function<bool(const Vec3&)>& keep,
+                                  double spacing = 0.03)
+{
+    const Vec3 low(-1, -0.2, -0.9), high(1, 2, 0.9);
+    TriangleMesh whole = polygonise([&](const Vec3& p) { return person_distance(skeleton, p) - ease; }, low, high, spacing);
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < whole.triangles.rows(); ++f)
+        if (keep(whole.positions(whole.triangles.row(f), Eigen::all).colwise().mean().transpose()))
+            rows.push_back(f);
+    return { whole.positions, whole.triangles(rows, Eigen::all) };
+}
+
 }  // namespace fit::fixtures

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/skeleton.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace fit {
 namespace {
@@ -146,6 +148,27 @@ Positions skin(const Positions& own_positions, const SkinWeights& weights,
         result.row(v) = p + 2 * r.cross(r.cross(p) + w * p) + 2 * (w * e - ew * r + r.cross(e));
     }
     return result;
+}
+
+std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights, const Positions& own_positions)
+{
+    std::array<std::vector<double>, bone_count> distances;
+    for (Eigen::Index v = 0; v < own_positions.rows(); ++v) {
+        int slot = 0;
+        weights.weights.row(v).maxCoeff(&slot);
+        const int b = weights.bones(v, slot);
+        const Vec3 from_head = Vec3(own_positions.row(v)) - own.head(b);
+        const double along = from_head.dot(own.direction(b));
+        if (along > 0 && along < own.length(b))  // beside the bone: neither hand nor foot
+            distances[b].push_back((from_head - along * own.direction(b)).norm());
+    }
+    std::array<double, bone_count> radii {};
+    for (int b = 0; b < bone_count; ++b)
+        if (auto& d = distances[b]; !d.empty()) {
+            std::nth_element(d.begin(), d.begin() + d.size() / 4, d.end());
+            radii[b] = d[d.size() / 4];
+        }
+    return radii;
 }
 
 }  // namespace fit

@@ -33,7 +33,8 @@ struct TypeGuess {
     double margin = 0;  ///< 0 (a toss-up) to 1 (all evidence agrees)
 };
 
-/// Reads the type off the garment's openings and tubes. Cost O(n log n).
+/// Reads the type off the garment's openings and tubes; `automatic` with margin 0 when it has none that a body fits through.
+/// Cost O(n log n).
 FIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
 
 /// The bones that a type covers.

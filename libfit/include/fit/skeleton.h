@@ -89,6 +89,11 @@ struct Rig {
     Vec3 up = Vec3::UnitY();  ///< of the trunk: pelvis towards neck
     Vec3 front = Vec3::UnitZ();  ///< of the trunk: where the chest faces
     double side_margin = 0;   ///< how sure left and right are, 0 (a guess) to 1 (every cue agrees)
+    std::array<double, bone_count> radii {};  ///< m, room that a bone needs, from bone_radii; 0: unknown, taken from the leg's length
 };
+
+/// How far the skin is from each bone, m: the lower quartile over the vertices that hang mostly on it, so that a flat part
+/// counts with its thin side; 0 for a bone on which nothing hangs. O(n log n).
+FIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights, const Positions& own_positions);
 
 }  // namespace fit

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bone_metric.h"
+
+#include <algorithm>
+
+namespace fit {
+namespace {
+
+constexpr int k_samples = 5;              // a bone, as in the paper
+constexpr double k_outside = 1;           // weight of a sample outside of the garment; crossings are tested apart
+constexpr double k_largest_outside = 0.1; // m; further out is not worse: long arms reach beyond their cuffs
+constexpr double k_surplus = 0.15;        // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
+                                          // does not draw an arm out of its sleeve
+
+// m per metre of the leg (hip to ankle); an adult's leg has 0.8 m. In the order of Bone.
+constexpr std::array<double, bone_count> k_radii {
+    0.10, 0.085, 0.06, 0.10, 0.085, 0.06, 0.12, 0.12, 0.11, 0.065, 0.065, 0.06, 0.055, 0.042, 0.06, 0.055, 0.042
+};
+// of the distance from the last joint to the tip; in the order of Extremity
+constexpr std::array<double, extremity_count> k_tip_radii { 0.4, 0.2, 0.2, 0.2, 0.2 };
+
+bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
+
+Vec3 sample(const Vec3& head, const Vec3& tail, int i) { return head + (i + 0.5) / k_samples * (tail - head); }
+
+// Equation (3), with the room counted up to what the limb needs.
+double delta(const Room& room, double radius)
+{
+    const double needed = std::min(room.distance, radius);
+    const double surplus = std::clamp(room.distance - radius, 0.0, radius);
+    const double outside = std::min(room.distance, k_largest_outside);
+    return room.inside * (needed + k_surplus * surplus) - (1 - room.inside) * k_outside * outside;
+}
+
+}  // namespace
+
+Figure figure_of(const Rig& rig, const std::vector<Bone>& covered)
+{
+    const Skeleton& own = rig.skeleton;
+    Figure figure;
+    for (const Bone b : covered)
+        figure.covered[b] = true;
+    const double leg = (own.length(lfemur) + own.length(ltibia) + own.length(rfemur) + own.length(rtibia)) / 2;
+    for (int b = 0; b < bone_count; ++b)
+        figure.radii[b] = rig.radii[b] > 0 ? rig.radii[b] : k_radii[b] * leg;
+    for (int e = 0; e < extremity_count; ++e)
+        figure.tip_radii[e] = k_tip_radii[e] * (own.tips[e] - own.tail(bone_before(Extremity(e)))).norm();
+    return figure;
+}
+
+double BoneMetric::worn(int bone, const Vec3& head, const Vec3& tail) const
+{
+    double sum = 0;
+    for (int i = 0; i < k_samples; ++i)
+        sum += delta(cloth_.at(sample(head, tail, i)), figure_.radii[bone]);
+    return sum;
+}
+
+double BoneMetric::bare(int bone, const Vec3& head, const Vec3& tail) const
+{
+    double sum = 0;
+    for (int i = 0; i < k_samples; ++i) {
+        const Room room = cloth_.at(sample(head, tail, i));
+        sum += std::min(room.distance - figure_.radii[bone], 0.0);
+        if (is_arm(bone))
+            sum -= 0.5 * room.inside * figure_.radii[bone];
+    }
+    return sum;
+}
+
+double BoneMetric::bare_tip(Extremity extremity, const Vec3& joint, const Vec3& tip) const
+{
+    double sum = 0;
+    for (int i = 1; i < k_samples; i += 2)  // near the joint, the bone before has had its say
+        sum += std::min(cloth_.at(sample(joint, tip, i)).distance - figure_.tip_radii[extremity], 0.0);
+    return sum;
+}
+
+int BoneMetric::samples_inside(const Vec3& head, const Vec3& tail) const
+{
+    int count = 0;
+    for (int i = 0; i < k_samples; ++i)
+        count += cloth_.exact(sample(head, tail, i)).inside > 0.5;
+    return count;
+}
+
+}  // namespace fit

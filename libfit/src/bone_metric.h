@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How well bones run through a garment: the skeleton-based error metric, per bone.
+
+#include <array>
+#include <vector>
+
+#include "cloth_room.h"
+#include "fit/skeleton.h"
+
+namespace fit {
+
+/// Who takes part, and how thick the limbs are.
+struct Figure {
+    std::array<bool, bone_count> covered {};
+    std::array<double, bone_count> radii {};            // m
+    std::array<double, extremity_count> tip_radii {};   // m
+};
+
+/// @param covered  as the garment's type says
+Figure figure_of(const Rig& rig, const std::vector<Bone>& covered);
+
+class BoneMetric {
+public:
+    BoneMetric(const ClothRoom& cloth, const Figure& figure) : cloth_(cloth), figure_(figure) { }
+
+    /// E_B of a covered bone, m: the room at its five samples, as far as the limb needs it.
+    double worn(int bone, const Vec3& head, const Vec3& tail) const;
+    /// What a bone that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the garment.
+    double bare(int bone, const Vec3& head, const Vec3& tail) const;
+    /// The same for what lies beyond the last joint.
+    double bare_tip(Extremity extremity, const Vec3& joint, const Vec3& tip) const;
+
+    /// How many of the five samples are inside, by the cloth itself.
+    int samples_inside(const Vec3& head, const Vec3& tail) const;
+
+    const ClothRoom& cloth() const { return cloth_; }
+    const Figure& figure() const { return figure_; }
+    double value(int bone, const Vec3& head, const Vec3& tail) const
+    {
+        return figure_.covered[bone] ? worn(bone, head, tail) : bare(bone, head, tail);
+    }
+
+private:
+    const ClothRoom& cloth_;
+    const Figure& figure_;
+};
+
+}  // namespace fit

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/fit_skeleton.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "fit/error.h"
+#include "garment_openings.h"
+#include "outward_cloth.h"
+#include "skeleton_search.h"
+
+namespace fit {
+namespace {
+
+constexpr int k_headings = 12;                // coarse turns about the vertical, 30 degrees apart
+constexpr double k_coarse_step = 0.08;        // m; the thickness of an upper arm
+constexpr int k_kept_places = 2;              // a heading
+constexpr int k_kept_starts = 3;              // of all of them, for the fine search
+constexpr double k_least_room = 0.2;          // of the room that covered bones need; tight clothes have 0.6 and more
+constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
+constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
+
+struct Scored {
+    Posture posture;
+    double score = 0;
+};
+
+bool better(const Scored& a, const Scored& b) { return a.score > b.score; }
+
+void keep_best(std::vector<Scored>& all, std::size_t count)
+{
+    std::stable_sort(all.begin(), all.end(), better);
+    all.resize(std::min(all.size(), count));
+}
+
+// Stands the trunk upright and keeps its heading, then turns it about the vertical.
+Eigen::Quaterniond heading(const Rig& rig, double angle)
+{
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitY())) * shortest_arc(rig.up.normalized(), Vec3::UnitY());
+}
+
+// Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face front.
+Vec3 front_of(const std::vector<Opening>& openings)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Opening& opening : openings)
+        sum += opening.facing - opening.facing.y() * Vec3::UnitY();
+    return sum;
+}
+
+// Roots from below a short shirt's hem up to its top.
+std::vector<Vec3> coarse_roots(const ClothRoom& cloth, double trunk_length)
+{
+    const Vec3 low = cloth.low() - Vec3(0, 1.2 * trunk_length, 0), size = cloth.high() - low;
+    const double step = std::max(k_coarse_step, std::cbrt(size.prod() / 4e3));
+    const Eigen::Array3i steps = (size / step).array().floor().cast<int>();
+    const Vec3 first = low + 0.5 * (size - step * steps.cast<double>().matrix());
+    std::vector<Vec3> roots;
+    for (int x = 0; x <= steps.x(); ++x)
+        for (int y = 0; y <= steps.y(); ++y)
+            for (int z = 0; z <= steps.z(); ++z)
+                roots.push_back(first + step * Vec3(x, y, z));
+    return roots;
+}
+
+bool is_worn(const SkeletonSearch& search, const Limb& limb) { return search.metric().figure().covered[limb.bones[0]]; }
+
+Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Reach& reach)
+{
+    for (const Limb& limb : k_limbs)
+        if (is_worn(search, limb))
+            posture = search.limb_moved(posture, limb, reach);
+    return posture;
+}
+
+// The best places for one heading: the trunk alone bounds what limbs can add, so most places need no limbs.
+std::vector<Scored> coarse_places(const SkeletonSearch& search, const Eigen::Quaterniond& turn, const std::vector<Vec3>& roots)
+{
+    Posture posture = search.at_ease(Vec3::Zero(), turn);
+    std::vector<Scored> trunks;
+    for (const Vec3& root : roots) {
+        posture.root = root;
+        trunks.push_back({ posture, search.trunk_energy(posture) });
+    }
+    std::stable_sort(trunks.begin(), trunks.end(), better);
+    std::vector<Scored> places;
+    for (const Scored& trunk : trunks) {
+        if (places.size() == k_kept_places && trunk.score + search.largest_limb_energy() < places.back().score)
+            break;
+        const Posture with_limbs = with_worn_limbs(search, trunk.posture, k_coarse_limbs);
+        places.push_back({ with_limbs, search.energy(with_limbs) });
+        keep_best(places, k_kept_places);
+    }
+    return places;
+}
+
+// Half a coarse step to each side, limbs searched anew at each place, now without passing through cloth.
+Scored settled(const SkeletonSearch& search, const Scored& start)
+{
+    std::vector<Scored> places;
+    for (const Vec3& offset : grid_offsets(0.5 * k_coarse_step, 0.5 * k_coarse_step)) {
+        Posture posture = start.posture;
+        posture.root += offset;
+        posture = with_worn_limbs(search, posture, k_coarse_limbs);
+        places.push_back({ posture, search.energy(posture) });
+    }
+    keep_best(places, k_kept_places);
+    for (Scored& place : places) {
+        place.posture = with_worn_limbs(search, place.posture, k_wide_limbs);
+        place.score = search.energy(place.posture) - 10 * search.crossings(place.posture);
+    }
+    keep_best(places, 1);
+    return places[0];
+}
+
+std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
+{
+    const Skeleton& own = rig.skeleton;
+    const auto roots = coarse_roots(search.metric().cloth(), (own.tail(thorax) - own.root).norm());
+    std::vector<std::vector<Scored>> places(k_headings);
+    for (int begin = 0; begin < k_headings; begin += 4) {
+        progress.at(double(begin) / k_headings);
+        tbb::parallel_for(begin, begin + 4, [&](int h) {
+            places[h] = coarse_places(search, heading(rig, 2 * std::numbers::pi * h / k_headings), roots);
+        });
+    }
+    std::vector<Scored> all;
+    for (auto& some : places)
+        all.insert(all.end(), some.begin(), some.end());
+    keep_best(all, 3 * k_kept_starts);
+    for (Scored& place : all)
+        place = settled(search, place);
+    keep_best(all, k_kept_starts);
+    return all;
+}
+
+// The paper's rounds: translation, rotation, bones; each halves extents and spacings.
+Scored refined(const SkeletonSearch& search, Scored present, int iterations)
+{
+    for (int i = 0; i < iterations; ++i) {
+        const double scale = std::pow(0.5, i);
+        present.posture = search.translated(present.posture, { 0.06 * scale, 0.02 * scale });
+        present.posture = search.rotated(present.posture, { 0.2 * scale, 0.1 * scale });
+        present.posture = search.trunk_bent(present.posture, { 0.2 * scale, 0.1 * scale });
+        for (const Limb& limb : k_limbs) {
+            const double extent = i == 0 && !is_worn(search, limb) ? 2 * std::numbers::pi / 3 : 0.6 * scale;
+            present.posture = search.limb_moved(present.posture, limb, { extent, std::min(0.26, extent / 4), 8, true });
+        }
+    }
+    present.score = search.energy(present.posture) - 10 * search.crossings(present.posture);
+    return present;
+}
+
+// Equation (4): the bones that the garment covers, each by equation (1).
+std::array<double, bone_count> scores(const SkeletonSearch& search, const Posture& posture)
+{
+    const Skeleton joints = placed(search.own(), posture).joints;
+    std::array<double, bone_count> result {};
+    for (int b = 0; b < bone_count; ++b)
+        if (search.metric().figure().covered[b])
+            result[b] = search.metric().worn(b, joints.head(b), joints.tail(b));
+    return result;
+}
+
+double sum(const std::array<double, bone_count>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+// The evidence: a bone is covered where most of its samples are inside.
+std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& posture)
+{
+    const Skeleton joints = placed(search.own(), posture).joints;
+    std::vector<Bone> inside;
+    for (int b = 0; b < bone_count; ++b)
+        if (search.metric().figure().covered[b] && search.metric().samples_inside(joints.head(b), joints.tail(b)) >= 3)
+            inside.push_back(Bone(b));
+    return inside;
+}
+
+std::string sizes(const Rig& rig, const ClothRoom& cloth)
+{
+    const Vec3 size = 100 * (cloth.high() - cloth.low());
+    const Skeleton& own = rig.skeleton;
+    char text[160];
+    std::snprintf(text, sizeof text, "the garment is %.3g x %.3g x %.3g cm, the body's legs are %.3g cm long", size.x(), size.y(),
+                  size.z(), 100 * (own.length(lfemur) + own.length(ltibia)));
+    return text;
+}
+
+// What is inside must also have some room there: above a plate everything is half inside.
+void require_fit(const SkeletonSearch& search, const Posture& posture, const std::vector<Bone>& inside, const std::string& sizes)
+{
+    const Figure& figure = search.metric().figure();
+    double needed = 0;
+    for (int b = 0; b < bone_count; ++b)
+        needed += figure.covered[b] ? 5 * figure.radii[b] : 0;
+    const auto covered = std::size_t(std::count(figure.covered.begin(), figure.covered.end(), true));
+    if (2 * inside.size() < covered || sum(scores(search, posture)) < k_least_room * needed)
+        throw InvalidInput("no body fits into the garment: of the " + std::to_string(covered) + " bones it should cover, "
+                           + std::to_string(inside.size()) + " can be put inside; " + sizes
+                           + "; check the garment's units and type");
+}
+
+void require_clear(const SkeletonSearch& search, const Posture& posture)
+{
+    const Skeleton joints = placed(search.own(), posture).joints;
+    const auto require = [&](const std::string& name, const Vec3& from, const Vec3& to) {
+        if (!search.metric().cloth().crosses(from, to))
+            return;
+        char place[96];
+        std::snprintf(place, sizeof place, "(%.2f, %.2f, %.2f) and (%.2f, %.2f, %.2f) m", from.x(), from.y(), from.z(), to.x(),
+                      to.y(), to.z());
+        throw SolverFailure("no pose found that keeps the bones clear of the cloth: " + name + " passes through it between "
+                            + place + "; check the garment's type, and that its openings are open");
+    };
+    constexpr std::array<const char*, extremity_count> tips { "the head", "the left hand", "the right hand", "the left foot",
+                                                              "the right foot" };
+    for (int b = 0; b < bone_count; ++b)
+        require(std::string(bone_name(b)), joints.head(b), joints.tail(b));
+    for (int e = 0; e < extremity_count; ++e)
+        require(tips[e], joints.tail(bone_before(Extremity(e))), joints.tips[e]);
+}
+
+TypeGuess resolved_type(GarmentType given, const GarmentMesh& garment)
+{
+    if (given != GarmentType::automatic)
+        return { given, 1 };
+    const TypeGuess guess = guess_garment_type(garment);
+    if (guess.type == GarmentType::automatic)
+        throw InvalidInput("garment has no openings that a body could be put through, so its type cannot be told; give a garment "
+                           "with open edges, or its type");
+    return guess;
+}
+
+Posture best_posture(const Rig& rig, const SkeletonSearch& search, int iterations, const Progress& progress)
+{
+    std::vector<Scored> candidates = starts(rig, search, progress.part(0, 0.5));
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        progress.at(0.5 + 0.5 * double(i) / double(candidates.size()));
+        candidates[i] = refined(search, candidates[i], iterations);
+    }
+    keep_best(candidates, 1);
+    return candidates[0].posture;
+}
+
+// The paper's start: the root in the middle of the cloth.
+Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
+{
+    const Vec3 middle = search.metric().cloth().points().colwise().mean();
+    return search.at_ease(middle, heading(rig, 0));
+}
+
+}  // namespace
+
+FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options, const Progress& progress)
+{
+    if (options.iterations < 1)
+        throw InvalidInput("iterations is " + std::to_string(options.iterations) + "; give at least 1");
+    const TypeGuess guess = resolved_type(options.type, garment);
+    const TriangleMesh outward = outward_cloth(garment);
+    if (is_sealed(outward))
+        throw InvalidInput("garment is closed all round: nobody can get in; give a garment with openings");
+    const ClothRoom cloth(outward, progress.part(0, 0.3, "look at the garment"));
+    const Vec3 front = front_of(openings_of(outward));
+    const JointLimits limits(rig);
+
+    const Figure nominal = figure_of(rig, bones_covered_by(guess.type));
+    const BoneMetric nominal_metric(cloth, nominal);
+    const SkeletonSearch first(rig, limits, nominal_metric, front);
+    Scored fitted { best_posture(rig, first, options.iterations, progress.part(0.3, 0.8, "fit the skeleton")) };
+    const std::vector<Bone> inside = bones_inside(first, fitted.posture);
+    require_fit(first, fitted.posture, inside, sizes(rig, cloth));
+
+    // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
+    const Figure figure = figure_of(rig, inside);
+    const BoneMetric metric(cloth, figure);
+    const SkeletonSearch search(rig, limits, metric, front);
+    progress.part(0.8, 1, "fit the skeleton").at(0);
+    fitted = refined(search, fitted, options.iterations);
+    require_clear(search, fitted.posture);
+
+    FitResult result;
+    result.type = guess.type;
+    result.type_margin = guess.margin;
+    result.covered = inside;
+    result.pose = pose_of(rig.skeleton, fitted.posture);
+    result.scores = scores(search, fitted.posture);
+    result.score_before = sum(scores(search, at_barycentre(rig, search)));
+    result.score_after = sum(result.scores);
+    return result;
+}
+
+}  // namespace fit

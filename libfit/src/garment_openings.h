@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Where a garment lets a body out: its openings, and the tubes that lead to them.
+
+#include <vector>
+
+#include "fit/types.h"
+
+namespace fit {
+
+struct Opening {
+    Vec3 centre = Vec3::Zero();
+    Vec3 facing = Vec3::Zero();   ///< unit, out of the garment: the mean normal of the disc that would close it
+    Vec3 low, high;               ///< corners of its box
+    double girth = 0;             ///< m, length of its edge
+    double tube_length = 0;       ///< m along the cloth, until the tube widens, forks or ends
+    double tube_girth = 0;        ///< m, median
+    double tube_waist = 0;        ///< m, smallest, the hem itself left out
+    int piece = 0;                ///< openings of one connected piece of cloth share it
+    double piece_height = 0;      ///< m, of that piece
+};
+
+/// @param outward  from outward_cloth. Holes as small as buttonholes are left out.
+/// Cost: one shortest-path search over the edges for each opening.
+std::vector<Opening> openings_of(const TriangleMesh& outward);
+
+/// Closed like a ball: no edge is open, and no hole goes through. (A garment with thickness has no open edge either, but
+/// holes: its genus is above 0.)
+bool is_sealed(const TriangleMesh& outward);
+
+}  // namespace fit

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "fit/error.h"
+#include "fit/fit_skeleton.h"
+#include "garment_openings.h"
+#include "outward_cloth.h"
+
+namespace fit {
+namespace {
+
+const std::vector<Bone> k_trunk { lowerback, upperback, thorax, lclavicle, rclavicle };
+const std::vector<Bone> k_upper_arms { lhumerus, rhumerus };
+const std::vector<Bone> k_forearms { lradius, rradius };
+const std::vector<Bone> k_thighs { lhipjoint, rhipjoint, lfemur, rfemur };
+const std::vector<Bone> k_shins { ltibia, rtibia };
+
+std::vector<Bone> together(std::initializer_list<std::vector<Bone>> groups)
+{
+    std::vector<Bone> bones;
+    for (const auto& group : groups)
+        bones.insert(bones.end(), group.begin(), group.end());
+    std::sort(bones.begin(), bones.end());
+    return bones;
+}
+
+// One connected piece of cloth, its openings told apart.
+struct Piece {
+    std::vector<Opening> sleeves, legs;  // two each, or none
+    std::vector<Opening> others;         // neck, hem, waist, an open front
+    double height = 0;                   // m
+    double margin = 1;                   // of the closest decision so far
+
+    // Is `value` above `threshold`? Half as much again is clear.
+    bool above(double value, double threshold)
+    {
+        margin = std::min(margin, 2 * std::abs(value - threshold) / threshold);
+        return value > threshold;
+    }
+};
+
+// Mirror images: equal girths, equal heights, to the two sides of the piece.
+bool are_pair(const Opening& a, const Opening& b)
+{
+    const double apart = std::hypot(a.centre.x() - b.centre.x(), a.centre.z() - b.centre.z());
+    return std::max(a.girth, b.girth) < 1.4 * std::min(a.girth, b.girth)
+        && std::abs(a.centre.y() - b.centre.y()) < 0.15 * a.piece_height && apart > 0.25 * std::max(a.girth, b.girth);
+}
+
+std::vector<Opening> take_pair(std::vector<Opening>& from, std::size_t i, std::size_t j)
+{
+    const std::vector<Opening> pair { from[i], from[j] };
+    from.erase(from.begin() + j);
+    from.erase(from.begin() + i);
+    return pair;
+}
+
+// Legs are the lowest two openings; a hem that reaches as low, or hangs between them, makes them sleeves.
+void take_legs(Piece& piece)
+{
+    auto& all = piece.others;
+    if (all.size() < 3 || !are_pair(all[0], all[1]) || all[0].facing.y() > -0.5 || all[1].facing.y() > -0.5)
+        return;
+    for (std::size_t i = 2; i < all.size(); ++i)
+        if (all[i].facing.y() < -0.8 || all[i].low.y() < std::max(all[0].high.y(), all[1].high.y()))
+            return;
+    piece.legs = take_pair(all, 0, 1);
+}
+
+void take_sleeves(Piece& piece)
+{
+    auto& all = piece.others;
+    for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
+        for (std::size_t j = i + 1; j < all.size() && piece.sleeves.empty(); ++j) {
+            const Vec3 across = all[j].centre - all[i].centre;
+            if (are_pair(all[i], all[j]) && all[i].facing.dot(across) < 0 && all[j].facing.dot(across) > 0)
+                piece.sleeves = take_pair(all, i, j);
+        }
+}
+
+std::vector<Piece> pieces_of(const std::vector<Opening>& openings)
+{
+    std::map<int, std::vector<Opening>> by_piece;
+    for (const Opening& opening : openings)
+        by_piece[opening.piece].push_back(opening);
+    std::vector<Piece> pieces;
+    for (auto& [name, some] : by_piece) {
+        std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.centre.y() < b.centre.y(); });
+        Piece piece;
+        piece.height = some[0].piece_height;
+        piece.others = some;
+        take_legs(piece);
+        take_sleeves(piece);
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+double length_in_girths(const std::vector<Opening>& pair)
+{
+    return std::max(pair[0].tube_length / pair[0].tube_girth, pair[1].tube_length / pair[1].tube_girth);
+}
+
+double length_of(const std::vector<Opening>& pair) { return std::max(pair[0].tube_length, pair[1].tube_length); }
+
+GarmentType type_with_legs(Piece& piece)
+{
+    if (!piece.sleeves.empty() || piece.above(piece.height / length_of(piece.legs), 1.5))
+        return GarmentType::jumpsuit;
+    return piece.above(length_in_girths(piece.legs), 1.0) ? GarmentType::trousers : GarmentType::shorts;
+}
+
+// A front is open where one opening runs from the neck to the hem; a blouse's edges meet, a jacket's stand apart.
+GarmentType type_with_open_front(Piece& piece, const Opening& front)
+{
+    if (piece.above(piece.height / length_of(piece.sleeves), 1.65))
+        return GarmentType::coat;
+    return piece.above(std::hypot(front.facing.x(), front.facing.z()), 0.3) ? GarmentType::jacket : GarmentType::blouse;
+}
+
+// Armholes are wide and face up or sideways; sleeves are narrower and face sideways or down.
+double armhole_likeness(const std::vector<Opening>& pair, const Opening& hem)
+{
+    const double width = std::min(pair[0].tube_waist, pair[1].tube_waist) / hem.tube_waist;
+    return width + 0.15 * (pair[0].facing.y() + pair[1].facing.y());
+}
+
+GarmentType type_with_hem(Piece& piece, const Opening& hem, const Opening& top)
+{
+    if (piece.above(piece.height / hem.tube_waist, 1.1))
+        return GarmentType::dress;
+    if (piece.sleeves.empty() || piece.above(armhole_likeness(piece.sleeves, hem), 0.55))
+        return GarmentType::vest;
+    if (!piece.above(length_in_girths(piece.sleeves), 0.9))
+        return GarmentType::tshirt;
+    return top.facing.y() < 0.5 ? GarmentType::hoodie : GarmentType::longsleeve;
+}
+
+std::optional<GarmentType> type_of(Piece& piece)
+{
+    if (!piece.legs.empty())
+        return type_with_legs(piece);
+    if (piece.others.empty())
+        return {};
+    const Opening& lowest = piece.others.front();
+    const Opening& highest = piece.others.back();
+    const bool open_front = lowest.high.y() - lowest.low.y() > 0.6 * piece.height;
+    if (open_front)
+        return piece.sleeves.empty() ? GarmentType::vest : type_with_open_front(piece, lowest);
+    if (piece.sleeves.empty() && piece.others.size() == 2)
+        return GarmentType::skirt;
+    if (piece.others.size() < 2)
+        return {};
+    return type_with_hem(piece, lowest, highest);
+}
+
+bool is_for_legs(GarmentType type)
+{
+    return type == GarmentType::trousers || type == GarmentType::shorts || type == GarmentType::skirt
+        || type == GarmentType::jumpsuit;
+}
+
+}  // namespace
+
+TypeGuess guess_garment_type(const GarmentMesh& garment)
+{
+    const std::vector<Opening> openings = openings_of(outward_cloth(garment));
+    TypeGuess guess;
+    bool legs = false, tops = false;
+    double largest = 0;
+    for (Piece& piece : pieces_of(openings)) {
+        const auto type = type_of(piece);
+        if (!type)
+            continue;
+        (is_for_legs(*type) ? legs : tops) = true;
+        if (piece.height > largest)
+            guess = { *type, std::min(1.0, piece.margin) };
+        largest = std::max(largest, piece.height);
+    }
+    if (legs && tops)
+        guess.type = GarmentType::suit;
+    return guess;
+}
+
+const std::vector<std::string_view>& garment_type_names()
+{
+    static const std::vector<std::string_view> names { "auto", "tshirt", "longsleeve", "blouse", "hoodie", "jacket", "coat", "vest",
+                                                       "trousers", "shorts", "skirt", "dress", "jumpsuit", "suit" };
+    return names;
+}
+
+GarmentType garment_type_of(std::string_view name)
+{
+    const auto& names = garment_type_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end())
+        return GarmentType(found - names.begin());
+    std::string known;
+    for (const auto& n : names)
+        known += (known.empty() ? "" : ", ") + std::string(n);
+    throw InvalidInput("garment type \"" + std::string(name) + "\" is unknown; give one of " + known);
+}
+
+std::string_view name_of(GarmentType type) { return garment_type_names()[int(type)]; }
+
+std::vector<Bone> bones_covered_by(GarmentType type)
+{
+    switch (type) {
+    case GarmentType::automatic: return {};
+    case GarmentType::tshirt: return together({ k_trunk, k_upper_arms });
+    case GarmentType::longsleeve:
+    case GarmentType::blouse:
+    case GarmentType::hoodie:
+    case GarmentType::jacket: return together({ k_trunk, k_upper_arms, k_forearms });
+    case GarmentType::coat: return together({ k_trunk, k_upper_arms, k_forearms, k_thighs });
+    case GarmentType::vest: return together({ k_trunk });
+    case GarmentType::trousers: return together({ k_thighs, k_shins });
+    case GarmentType::shorts:
+    case GarmentType::skirt: return together({ k_thighs });
+    case GarmentType::dress: return together({ k_trunk, k_upper_arms, k_thighs });
+    case GarmentType::jumpsuit:
+    case GarmentType::suit: return together({ k_trunk, k_upper_arms, k_forearms, k_thighs, k_shins });
+    }
+    return {};
+}
+
+}  // namespace fit

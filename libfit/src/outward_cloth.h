@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fit/mesh.h"
+
+namespace fit {
+
+/// The garment as the fit looks at it: equal vertices welded, equal faces dropped, and every patch turned outwards whatever
+/// way its faces were given. Cost O(n log n).
+TriangleMesh outward_cloth(const GarmentMesh& garment);
+
+}  // namespace fit

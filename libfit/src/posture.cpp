@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "posture.h"
+
+namespace fit {
+
+Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
+{
+    const double w = 1 + from.dot(to);
+    if (w < 1e-9) {  // opposite: any axis across will do, so long as it is always the same one
+        const Vec3 axis = from.unitOrthogonal();
+        return { 0, axis.x(), axis.y(), axis.z() };
+    }
+    const Vec3 axis = from.cross(to);
+    return Eigen::Quaterniond(w, axis.x(), axis.y(), axis.z()).normalized();
+}
+
+Eigen::Quaterniond bone_turn(const Skeleton& own, int bone, const Eigen::Quaterniond& parent_turn, const Vec3& direction)
+{
+    return (shortest_arc(parent_turn * own.direction(bone), direction) * parent_turn).normalized();
+}
+
+PlacedBones placed(const Skeleton& own, const Posture& posture)
+{
+    PlacedBones result;
+    result.root_turn = posture.turn;
+    result.joints.root = posture.root;
+    for (int b = 0; b < bone_count; ++b) {
+        result.turns[b] = bone_turn(own, b, result.parent_turn(b), posture.directions[b]);
+        result.joints.tails[b] = result.joints.head(b) + own.length(b) * posture.directions[b];
+    }
+    for (int e = 0; e < extremity_count; ++e) {
+        const int b = bone_before(Extremity(e));
+        result.joints.tips[e] = result.joints.tail(b) + result.turns[b] * (own.tips[e] - own.tail(b));
+    }
+    return result;
+}
+
+Pose pose_of(const Skeleton& own, const Posture& posture)
+{
+    const PlacedBones bones = placed(own, posture);
+    Pose pose;
+    pose.root_translation = posture.root - own.root;
+    pose.root_rotation = posture.turn;
+    for (int b = 0; b < bone_count; ++b)
+        pose.rotations[b] = (bones.parent_turn(b).conjugate() * bones.turns[b]).normalized();
+    return pose;
+}
+
+}  // namespace fit

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The search for the posture in which the bones run best through a garment: the energy, and the moves that raise it.
+
+#include <array>
+#include <vector>
+
+#include "bone_metric.h"
+#include "joint_limits.h"
+#include "posture.h"
+
+namespace fit {
+
+/// Two bones that are searched as one chain, and what lies beyond them.
+struct Limb {
+    std::array<int, 2> bones;
+    Extremity end;
+};
+inline constexpr std::array<Limb, 5> k_limbs { {
+    { { lfemur, ltibia }, lfoot_tip }, { { rfemur, rtibia }, rfoot_tip }, { { lhumerus, lradius }, lhand_tip },
+    { { rhumerus, rradius }, rhand_tip }, { { lowerneck, upperneck }, head_top },
+} };
+
+/// How far and how finely a move looks. Grids are sorted by distance from the present: of equals, the nearest wins.
+struct Reach {
+    double extent, spacing;  // metres or radians
+    int beam = 6;            // chains of bones that are kept after their first bone
+    bool exact = true;       // no bone may pass through cloth (slower)
+};
+
+class SkeletonSearch {
+public:
+    /// Keeps references: the rig, the limits and the metric have to live as long.
+    /// @param front  horizontal; where the garment's openings face, longer the more of them agree
+    SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const Vec3& front);
+
+    /// E of equation (4) and what it leaves open: bare limbs keep away from cloth, poses are human, the garment hangs from
+    /// the body, none of it is left empty. Metres, to be maximised. Crossings are counted apart.
+    double energy(const Posture& posture) const;
+    /// Bones and extremities that pass through cloth.
+    int crossings(const Posture& posture) const;
+
+    /// The body at ease, turned by `turn`, its root at `root`.
+    Posture at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const;
+
+    /// Energy of pelvis, spine and clavicles alone: what a translation decides before the limbs are known.
+    double trunk_energy(const Posture& posture) const;
+    /// No limb can add more than this to trunk_energy.
+    double largest_limb_energy() const;
+
+    // Each returns the present posture unless it finds a better one.
+    Posture translated(const Posture& present, const Reach& reach) const;
+    Posture rotated(const Posture& present, const Reach& reach) const;
+    Posture limb_moved(const Posture& present, const Limb& limb, const Reach& reach) const;
+    Posture trunk_bent(const Posture& present, const Reach& reach) const;
+
+    const BoneMetric& metric() const { return metric_; }
+    const Skeleton& own() const { return rig_.skeleton; }
+
+private:
+    struct Chain;
+    using CoverDistances = Eigen::ArrayXf;  // m, from points on the cloth to the nearest worn limb
+
+    double bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn) const;
+    double posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const;
+    double stance_energy(const Posture& posture) const;
+    CoverDistances cover_distances(const PlacedBones& bones, const Limb* without, bool coarse) const;
+    double emptiness(const CoverDistances& distances) const;
+    void lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const;
+    bool fills_tube(const Limb& limb) const;
+    std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start, const Vec3& clavicle,
+                                const Reach& reach) const;
+    double tip_energy(const Limb& limb, const Chain& chain) const;
+    Vec3 tip_of(const Limb& limb, const Chain& chain) const;
+    template <class Moved>
+    Posture best_of(const Posture& present, const Reach& reach, const std::vector<Vec3>& offsets, Moved moved) const;
+
+    const Rig& rig_;
+    const JointLimits& limits_;
+    const BoneMetric& metric_;
+    Eigen::ArrayX3f cover_, coarse_cover_;  // points spread over the garment
+    Vec3 front_;
+    bool hangs_from_shoulders_;
+};
+
+/// Directions within `extent` of `axis`, about `spacing` apart, nearest first. Radians.
+std::vector<Vec3> directions_about(const Vec3& axis, double extent, double spacing);
+
+/// Offsets of a cubic grid within `extent` along each axis, nearest first.
+std::vector<Vec3> grid_offsets(double extent, double spacing);
+
+}  // namespace fit

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/fit_skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "fit/error.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+constexpr double k_degree = std::numbers::pi / 180;
+
+Rig rig_of(const PersonOptions& options)
+{
+    Rig rig;
+    rig.skeleton = person_skeleton(options);
+    return rig;
+}
+
+double along(const Vec3& p, const Vec3& from, const Vec3& to) { return (p - from).dot(to - from) / (to - from).squaredNorm(); }
+
+// Cut off at neck, wrists and ankles.
+GarmentMesh jumpsuit(const PersonOptions& options, double ease = 0.02)
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, ease, [&](const Vec3& p) {
+        for (const int arm : { lradius, rradius })
+            if (along(p, s.head(arm), s.tail(arm)) > 0.85 && std::abs(p.x()) > 0.3)
+                return false;
+        return p.y() > 0.15 && p.y() < 1.45;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+GarmentMesh trousers(const PersonOptions& options = {})
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, 0.02, [](const Vec3& p) { return p.y() > 0.15 && p.y() < 1.0 && std::abs(p.x()) < 0.26; });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+// Sleeves end at `sleeve` of the way from the shoulder (0) over the elbow (1) to the wrist (2).
+GarmentMesh shirt(const PersonOptions& options, double sleeve, double ease = 0.02)
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, ease, [&](const Vec3& p) {
+        const bool arm = std::abs(p.x()) > 0.24;
+        const double upper = std::max(along(p, s.head(lhumerus), s.tail(lhumerus)), along(p, s.head(rhumerus), s.tail(rhumerus)));
+        const double lower = std::max(along(p, s.head(lradius), s.tail(lradius)), along(p, s.head(rradius), s.tail(rradius)));
+        if (arm)
+            return sleeve > 1 ? lower < sleeve - 1 : upper < sleeve;
+        return p.y() > 0.85 && p.y() < 1.46;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+bool meets(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    const auto side = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) { return (q - p).cross(r - p).dot(s - p); };
+    if (side(a, b, c, from) * side(a, b, c, to) > 0)
+        return false;
+    const double u = side(from, to, a, b), v = side(from, to, b, c), w = side(from, to, c, a);
+    return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+void expect_clear(const Skeleton& joints, const GarmentMesh& garment)
+{
+    const auto expect = [&](const std::string& name, const Vec3& from, const Vec3& to) {
+        int count = 0;
+        for (Eigen::Index f = 0; f < garment.triangles.rows(); ++f) {
+            const auto corner = [&](int k) { return Vec3(garment.positions.row(garment.triangles(f, k))); };
+            count += meets(from, to, corner(0), corner(1), corner(2));
+        }
+        EXPECT_EQ(count, 0) << name << " passes through the garment";
+    };
+    for (int b = 0; b < bone_count; ++b)
+        expect(std::string(bone_name(b)), joints.head(b), joints.tail(b));
+    for (int e = 0; e < extremity_count; ++e)
+        expect("extremity " + std::to_string(e), joints.tail(bone_before(Extremity(e))), joints.tips[e]);
+}
+
+double angle(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / k_degree; }
+
+void expect_directions(const Skeleton& joints, const Skeleton& wanted, const std::vector<Bone>& bones, double degrees)
+{
+    for (const Bone b : bones)
+        EXPECT_LT(angle(joints.direction(b), wanted.direction(b)), degrees) << bone_name(b);
+}
+
+double largest_difference(const Skeleton& a, const Skeleton& b)
+{
+    double largest = (a.root - b.root).norm();
+    for (int j = 0; j < bone_count; ++j)
+        largest = std::max(largest, (a.tails[j] - b.tails[j]).norm());
+    return largest;
+}
+
+TEST(FitSkeleton, ABodyOffsetAsGarmentGivesTheRestPose)
+{
+    const PersonOptions own { .arm_angle = 45 };
+    const Rig rig = rig_of(own);
+    const FitResult result = fit_skeleton(rig, jumpsuit(own, 0.01), { .type = GarmentType::jumpsuit });
+    EXPECT_LT(largest_difference(posed(rig.skeleton, result.pose), rig.skeleton), 0.05);
+    EXPECT_GT(result.score_after, result.score_before);
+}
+
+TEST(FitSkeleton, ArmsGoIntoTheSleevesAndHandsOutOfTheCuffs)
+{
+    const PersonOptions own { .arm_angle = 80 }, made_on { .arm_angle = 10 };
+    const Rig rig = rig_of(own);
+    const GarmentMesh garment = shirt(made_on, 1.9);
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::longsleeve });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, person_skeleton(made_on), { lhumerus, lradius, rhumerus, rradius }, 12);
+    EXPECT_GT(joints.tail(lradius).x(), 0.5) << "the left arm is in the left sleeve";
+    expect_clear(joints, garment);
+}
+
+TEST(FitSkeleton, ASittingBodyStandsUpInTrousers)
+{
+    const Rig rig = rig_of({ .arm_angle = 60, .knee_angle = 85, .hip_angle = 85 });
+    const GarmentMesh garment = trousers();
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::trousers });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, person_skeleton({}), { lfemur, ltibia, rfemur, rtibia }, 12);
+    expect_clear(joints, garment);
+}
+
+TEST(FitSkeleton, ThighsOfASittingBodyLeaveAShirtThroughItsHem)
+{
+    const Rig rig = rig_of({ .arm_angle = 60, .knee_angle = 85, .hip_angle = 85 });
+    const GarmentMesh garment = shirt({ .arm_angle = 45 }, 0.6);
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::tshirt });
+    expect_clear(posed(rig.skeleton, result.pose), garment);
+}
+
+TEST(FitSkeleton, BareForearmsStayAsTheBodyHeldThem)
+{
+    const PersonOptions own { .arm_angle = 45, .elbow_angle = 60 };
+    const Rig rig = rig_of(own);
+    const FitResult result = fit_skeleton(rig, shirt(own, 0.6), { .type = GarmentType::tshirt });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    for (const int b : { lradius, rradius })
+        EXPECT_NEAR(angle(joints.direction(b), joints.direction(parent_of(b))), 60, 10);
+    EXPECT_EQ(std::count(result.covered.begin(), result.covered.end(), lradius), 0);
+}
+
+TEST(FitSkeleton, TheGarmentMayBeAnywhere)
+{
+    const PersonOptions own { .arm_angle = 45 };
+    const Rig rig = rig_of(own);
+    GarmentMesh garment = jumpsuit(own);
+    garment.positions.rowwise() += Vec3(3, -2, 5).transpose();
+    Skeleton wanted = rig.skeleton;
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::jumpsuit });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    EXPECT_LT((joints.root - wanted.root - Vec3(3, -2, 5)).norm(), 0.05);
+}
+
+TEST(FitSkeleton, FlippedNormalsAndShuffledVerticesChangeNothing)
+{
+    const PersonOptions own { .arm_angle = 70 };
+    const Rig rig = rig_of(own);
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 1.9);
+    const FitOptions options { .type = GarmentType::longsleeve };
+    const Skeleton expected = posed(rig.skeleton, fit_skeleton(rig, garment, options).pose);
+
+    GarmentMesh flipped = garment;
+    flipped.triangles.col(1).swap(flipped.triangles.col(2));
+    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, flipped, options).pose), expected), 1e-3);
+
+    GarmentMesh mixed = garment;
+    for (Eigen::Index f = 0; f < mixed.triangles.rows(); f += 3)
+        std::swap(mixed.triangles(f, 1), mixed.triangles(f, 2));
+    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, mixed, options).pose), expected), 1e-3);
+
+    GarmentMesh reversed = garment;
+    const int last = int(garment.positions.rows()) - 1;
+    reversed.positions = garment.positions.colwise().reverse();
+    reversed.triangles = garment.triangles.unaryExpr([&](int v) { return last - v; });
+    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, reversed, options).pose), expected), 1e-3);
+}
+
+TEST(FitSkeleton, TheSameInputGivesTheSameBits)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 0.6);
+    const Pose a = fit_skeleton(rig, garment).pose, b = fit_skeleton(rig, garment).pose;
+    EXPECT_EQ(a.root_translation, b.root_translation);
+    for (int j = 0; j < bone_count; ++j)
+        EXPECT_EQ(a.rotations[j].coeffs(), b.rotations[j].coeffs());
+}
+
+TEST(FitSkeleton, TypesAreReadOffTheOpenings)
+{
+    const PersonOptions a_pose { .arm_angle = 40 };
+    EXPECT_EQ(guess_garment_type(shirt(a_pose, 0.6)).type, GarmentType::tshirt);
+    EXPECT_EQ(guess_garment_type(shirt(a_pose, 1.9)).type, GarmentType::longsleeve);
+    EXPECT_EQ(guess_garment_type(trousers(a_pose)).type, GarmentType::trousers);
+    EXPECT_EQ(guess_garment_type(jumpsuit(a_pose)).type, GarmentType::jumpsuit);
+}
+
+TEST(FitSkeleton, TypeNamesGoThereAndBack)
+{
+    for (const auto name : garment_type_names())
+        EXPECT_EQ(name_of(garment_type_of(name)), name);
+    try {
+        garment_type_of("toga");
+        FAIL();
+    } catch (const InvalidInput& e) {
+        EXPECT_NE(std::string(e.what()).find("toga"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("trousers"), std::string::npos);
+    }
+}
+
+TEST(FitSkeleton, WhatNobodyFitsIntoIsRefused)
+{
+    const Rig rig = rig_of({});
+    const TriangleMesh sphere = polygonise([](const Vec3& p) { return p.norm() - 0.4; }, Vec3::Constant(-0.5), Vec3::Constant(0.5), 0.05);
+    const GarmentMesh closed = make_garment(sphere.positions, sphere.triangles);
+    EXPECT_THROW(fit_skeleton(rig, closed), InvalidInput);
+    EXPECT_THROW(fit_skeleton(rig, closed, { .type = GarmentType::tshirt }), InvalidInput);
+
+    GarmentMesh plate = closed;
+    plate.positions.col(2).setZero();
+    EXPECT_THROW(fit_skeleton(rig, plate), InvalidInput);
+
+    GarmentMesh tiny = shirt({ .arm_angle = 40 }, 0.6);
+    tiny.positions *= 0.01;
+    try {
+        fit_skeleton(rig, tiny, { .type = GarmentType::tshirt });
+        FAIL();
+    } catch (const InvalidInput& e) {
+        EXPECT_NE(std::string(e.what()).find("cm"), std::string::npos) << e.what();
+    }
+}
+
+TEST(FitSkeleton, StopsWhenTold)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 0.6);
+    int reports = 0;
+    const Progress stop([&](double, std::string_view) { return ++reports < 3; });
+    EXPECT_THROW(fit_skeleton(rig, garment, {}, stop), Cancelled);
+    EXPECT_EQ(reports, 3);
+}
+
+}  // namespace
