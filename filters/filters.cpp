@@ -114,17 +114,17 @@ void require_inputs(const Filter& filter, const Scene& scene)
         case Data::garments: require(!scene.garments.empty(), filter, "a garment"); break;
         case Data::rig: require(scene.rig.has_value(), filter, "a rigged body; run Rig Body first"); break;
         case Data::fits:
-            require(scene.fits.size() == scene.garments.size(), filter, "a fit for each garment; run Fit Skeleton first");
+            require(scene.fits.size() == scene.garments.size(), filter,
+                    "a fit for each garment; run Fit Skeleton first");
             break;
-        case Data::draped: require(scene.draped.has_value(), filter, "a draped garment; run Drape Garment first"); break;
+        case Data::draped:
+            require(scene.draped.has_value(), filter, "a draped garment; run Drape Garment first");
+            break;
         case Data::recovered: break;  // no filter reads it
         }
 }
 
-bool ended_uncertified(const Scene& scene, Stage stage)
-{
-    return stage == Stage::drape && !scene.draped->certified;
-}
+bool ended_uncertified(const Scene& scene, Stage stage) { return stage == Stage::drape && !scene.draped->certified; }
 
 /// A garment is the same cloth while it is put on and while its wearer moves.
 Parameters with_one_cloth(const Filter& filter, Parameters p)
@@ -141,16 +141,35 @@ std::string_view name_of(Stage stage) { return row(stage).name; }
 const std::vector<Filter>& filters()
 {
     static const std::vector<Filter> table {
-        { "rig", "Rig Body", "Finds the skeleton of a body and how the skin hangs on it",
-          { Data::body }, { Data::rig }, { Stage::rig } },
-        { "fit", "Fit Skeleton", "Poses the skeleton so that its bones run through the middle of the garment's parts",
-          { Data::body, Data::garments, Data::rig }, { Data::fits }, { Stage::fit } },
-        { "drape", "Drape Garment", "Puts the posed body into the garment without letting cloth and body cross",
-          { Data::body, Data::garments, Data::rig, Data::fits }, { Data::draped }, { Stage::drape } },
-        { "recover", "Recover Pose", "Brings the dressed body back to its own pose, the garment along",
-          { Data::body, Data::garments, Data::rig, Data::draped }, { Data::recovered }, { Stage::recover } },
-        { "dress", "Dress Body", "Dresses a body in garments made for somebody else: rig, fit, drape, recover",
-          { Data::body, Data::garments }, { Data::rig, Data::fits, Data::draped, Data::recovered },
+        { "rig",
+          "Rig Body",
+          "Finds the skeleton of a body and how the skin hangs on it",
+          { Data::body },
+          { Data::rig },
+          { Stage::rig } },
+        { "fit",
+          "Fit Skeleton",
+          "Poses the skeleton so that its bones run through the middle of the garment's parts",
+          { Data::body, Data::garments, Data::rig },
+          { Data::fits },
+          { Stage::fit } },
+        { "drape",
+          "Drape Garment",
+          "Puts the posed body into the garment without letting cloth and body cross",
+          { Data::body, Data::garments, Data::rig, Data::fits },
+          { Data::draped },
+          { Stage::drape } },
+        { "recover",
+          "Recover Pose",
+          "Brings the dressed body back to its own pose, the garment along",
+          { Data::body, Data::garments, Data::rig, Data::draped },
+          { Data::recovered },
+          { Stage::recover } },
+        { "dress",
+          "Dress Body",
+          "Dresses a body in garments made for somebody else: rig, fit, drape, recover",
+          { Data::body, Data::garments },
+          { Data::rig, Data::fits, Data::draped, Data::recovered },
           { Stage::rig, Stage::fit, Stage::drape, Stage::recover } },
     };
     return table;

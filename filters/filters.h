@@ -36,7 +36,7 @@ struct GarmentInput {
 /// Garments on the body, in one pose.
 struct Dressing {
     std::vector<WornGarment> garments;  ///< the first of the scene's garments, from the inside out
-    Positions body;                     ///< of the user's vertices
+    Positions body;  ///< of the user's vertices
     Pose pose;
     double size_reached = 1;  ///< of the body; less than 1 where the last garment is too small
     double pose_reached = 1;  ///< of the last way between two poses
@@ -48,9 +48,9 @@ struct Scene {
     std::optional<BodyMesh> body;
     std::vector<GarmentInput> garments;  ///< from the inside out
     std::optional<Rig> rig;
-    std::vector<FitResult> fits;       ///< one for each garment
-    std::optional<Dressing> draped;    ///< in the pose of the last garment's fit
-    std::optional<Dressing> recovered; ///< in the body's own pose
+    std::vector<FitResult> fits;  ///< one for each garment
+    std::optional<Dressing> draped;  ///< in the pose of the last garment's fit
+    std::optional<Dressing> recovered;  ///< in the body's own pose
     std::array<double, stage_count> seconds {};  ///< wall clock spent in each stage
 };
 
@@ -58,7 +58,7 @@ struct Scene {
 enum class Data { body, garments, rig, fits, draped, recovered };
 
 struct Filter {
-    std::string_view name;   ///< "dress": a command, a method
+    std::string_view name;  ///< "dress": a command, a method
     std::string_view label;  ///< "Dress Body": a menu entry
     std::string_view help;
     std::vector<Data> inputs;

@@ -19,12 +19,12 @@
 namespace fit {
 
 struct About {
-    std::string_view name;   ///< "contact_distance": unique among all filters; a host's spelling is made from it
+    std::string_view name;  ///< "contact_distance": unique among all filters; a host's spelling is made from it
     std::string_view label;  ///< "Contact distance"
-    std::string_view unit;   ///< "m", "kg/m^2", ...; empty for a plain number
+    std::string_view unit;  ///< "m", "kg/m^2", ...; empty for a plain number
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    std::string_view help;   ///< one sentence, no full stop
+    std::string_view help;  ///< one sentence, no full stop
     const std::vector<std::string_view>* choices = nullptr;  ///< names of an enum's values
 };
 

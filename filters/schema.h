@@ -21,61 +21,74 @@ using IfOptionsOf = std::enable_if_t<std::is_same_v<std::remove_const_t<Options>
 template <class Options, class Visitor, IfOptionsOf<Options, RigOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
-    visit(o.proxy_vertices, About { "proxy_vertices", "Proxy vertices", "", 1000, 50000,
-          "The skeleton is read from a surface decimated to about this many vertices" });
-    visit(o.swap_sides, About { "swap_sides", "Swap sides", "", 0, 1,
-          "Exchange left and right where the program's vote is known to be wrong" });
+    visit(o.proxy_vertices,
+          About { "proxy_vertices", "Proxy vertices", "", 1000, 50000,
+                  "The skeleton is read from a surface decimated to about this many vertices" });
+    visit(o.swap_sides,
+          About { "swap_sides", "Swap sides", "", 0, 1,
+                  "Exchange left and right where the program's vote is known to be wrong" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, FitOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
-    visit(o.type, About { "type", "Garment type", "", 0, 0,
-          "What the garment is, which tells the bones it covers; auto finds it from the openings",
-          &garment_type_names() });
-    visit(o.iterations, About { "iterations", "Iterations", "", 1, 20,
-          "Rounds of translation, rotation and bones; each halves spacing and extent of the search" });
+    visit(o.type,
+          About { "type", "Garment type", "", 0, 0,
+                  "What the garment is, which tells the bones it covers; auto finds it from the openings",
+                  &garment_type_names() });
+    visit(o.iterations,
+          About { "iterations", "Iterations", "", 1, 20,
+                  "Rounds of translation, rotation and bones; each halves spacing and extent of the search" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
-    visit(o.contact_distance, About { "contact_distance", "Contact distance", "m", 5e-4, 0.02,
-          "Cloth is pushed off body and cloth when nearer than this" });
-    visit(o.smallest_gap, About { "smallest_gap", "Smallest gap", "m", 1e-6, 5e-4,
-          "Motion is cut before a gap falls below this" });
-    visit(o.density, About { "density", "Density", "kg/m^2", 0.01, 5,
-          "Mass of the cloth by area; 0.2 is plain cotton, 0.4 denim" });
-    visit(o.stretch_stiffness, About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5,
-          "Resistance of the cloth to being stretched" });
-    visit(o.bend_stiffness, About { "bend_stiffness", "Bend stiffness", "N m", 0, 1,
-          "Resistance of the cloth to being bent away from its own folds" });
-    visit(o.friction, About { "friction", "Friction", "", 0, 2,
-          "Coefficient of friction of cloth on body" });
+    visit(o.contact_distance,
+          About { "contact_distance", "Contact distance", "m", 5e-4, 0.02,
+                  "Cloth is pushed off body and cloth when nearer than this" });
+    visit(o.smallest_gap,
+          About { "smallest_gap", "Smallest gap", "m", 1e-6, 5e-4, "Motion is cut before a gap falls below this" });
+    visit(
+        o.density,
+        About { "density", "Density", "kg/m^2", 0.01, 5, "Mass of the cloth by area; 0.2 is plain cotton, 0.4 denim" });
+    visit(o.stretch_stiffness,
+          About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5,
+                  "Resistance of the cloth to being stretched" });
+    visit(o.bend_stiffness,
+          About { "bend_stiffness", "Bend stiffness", "N m", 0, 1,
+                  "Resistance of the cloth to being bent away from its own folds" });
+    visit(o.friction, About { "friction", "Friction", "", 0, 2, "Coefficient of friction of cloth on body" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, DrapeOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
     describe(o.cloth, visit);
-    visit(o.inflation_steps, About { "inflation_steps", "Inflation steps", "", 4, 1000,
-          "Steps from the body collapsed on its bones to its full size" });
-    visit(o.settling_steps, About { "settling_steps", "Settling steps", "", 0, 10000,
-          "Time steps under gravity once the body has its size" });
-    visit(o.largest_stretch, About { "largest_stretch", "Largest stretch", "", 0.01, 2,
-          "A garment is too small where the body would stretch it by more than this share" });
+    visit(o.inflation_steps,
+          About { "inflation_steps", "Inflation steps", "", 4, 1000,
+                  "Steps from the body collapsed on its bones to its full size" });
+    visit(o.settling_steps,
+          About { "settling_steps", "Settling steps", "", 0, 10000,
+                  "Time steps under gravity once the body has its size" });
+    visit(o.largest_stretch,
+          About { "largest_stretch", "Largest stretch", "", 0.01, 2,
+                  "A garment is too small where the body would stretch it by more than this share" });
 }
 
 /// What recovering the pose adds to the cloth, which it shares with draping.
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
 void describe_motion(Options& o, Visitor&& visit)
 {
-    visit(o.largest_steps, About { "recovery_steps", "Recovery steps", "", 1, 100000,
-          "Give up recovering the pose after this many steps" });
-    visit(o.step_length, About { "recovery_step_length", "Recovery step length", "m", 1e-4, 0.1,
-          "No part of the body near the cloth moves further than this in a step" });
-    visit(o.settling_steps, About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
-          "Time steps under gravity once the pose is recovered" });
+    visit(o.largest_steps,
+          About { "recovery_steps", "Recovery steps", "", 1, 100000,
+                  "Give up recovering the pose after this many steps" });
+    visit(o.step_length,
+          About { "recovery_step_length", "Recovery step length", "m", 1e-4, 0.1,
+                  "No part of the body near the cloth moves further than this in a step" });
+    visit(o.settling_steps,
+          About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
+                  "Time steps under gravity once the pose is recovered" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>

@@ -3,11 +3,13 @@
 // The program as its users run it: arguments in, exit code, streams and files out.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -128,7 +130,8 @@ TEST_F(CommandLine, ExplainsItself)
 
 TEST_F(CommandLine, RefusesACallItDoesNotUnderstand)
 {
-    for (const Arguments& arguments : { Arguments {}, { "iron" }, { "dress" }, { "dress", k_body }, { "rig", k_body, "--shiny" } }) {
+    for (const Arguments& arguments :
+         { Arguments {}, { "iron" }, { "dress" }, { "dress", k_body }, { "rig", k_body, "--shiny" } }) {
         const Ended ended = run(arguments);
         EXPECT_EQ(ended.code, 2);
         EXPECT_EQ(ended.error_lines(), 1) << ended.err;
@@ -151,7 +154,8 @@ TEST_F(CommandLine, RefusesNumbersThatAreNotFinite)
 
 TEST_F(CommandLine, RefusesAnIndexOutOfRange)
 {
-    expect_refused({ "dress", write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), k_trousers }, { "range.obj" });
+    expect_refused({ "dress", write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), k_trousers },
+                   { "range.obj" });
 }
 
 TEST_F(CommandLine, RefusesACubeAsBody) { expect_refused({ "dress", write("cube.obj", cube_obj()), k_trousers }, {}); }
@@ -232,14 +236,46 @@ TEST_F(CommandLine, RigsABodyIntoAFolderThatExistsAlready)
     EXPECT_EQ(nlohmann::json::parse(ended.out).at("command"), "rig");
     EXPECT_EQ(nlohmann::json::parse(read_text(folder / "result" / "rig.json")).at("bones").size(), 17u);
     EXPECT_EQ(read_text(folder / "result" / "notes.txt"), "mine");
-    EXPECT_EQ(fit::MeshFile::read(folder / "result" / "rigged.ply").positions(), fit::MeshFile::read(k_body).positions());
+    EXPECT_EQ(fit::MeshFile::read(folder / "result" / "rigged.ply").positions(),
+              fit::MeshFile::read(k_body).positions());
+}
+
+/// Joint positions by "bone head" and "bone tail".
+std::map<std::string, Eigen::Vector3d> joints_in(const fs::path& rig_json)
+{
+    std::map<std::string, Eigen::Vector3d> joints;
+    const auto rig = nlohmann::json::parse(read_text(rig_json));
+    for (const auto& bone : rig.at("bones"))
+        for (const char* end : { "head", "tail" }) {
+            const auto p = bone.at(end).get<std::array<double, 3>>();
+            joints[bone.at("name").get<std::string>() + ' ' + end] = { p[0], p[1], p[2] };
+        }
+    return joints;
+}
+
+TEST_F(CommandLine, WritesTheSkeletonInTheUnitsAndAxesOfTheBody)
+{
+    const auto body = fit::MeshFile::read(k_body);
+    std::ofstream obj(folder / "millimetres_z_up.obj");
+    for (const auto& p : body.positions().rowwise())
+        obj << "v " << 1000 * p.x() << ' ' << -1000 * p.z() << ' ' << 1000 * p.y() << '\n';
+    for (const auto& t : body.triangles().rowwise())
+        obj << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+    obj.close();
+    ASSERT_EQ(run({ "rig", k_body, "-o", folder / "metres" }).code, 0);
+    ASSERT_EQ(run({ "rig", folder / "millimetres_z_up.obj", "-o", folder / "millimetres" }).code, 0);
+    const auto metres = joints_in(folder / "metres/rig.json"), millimetres = joints_in(folder / "millimetres/rig.json");
+    for (const auto& [name, p] : metres)
+        EXPECT_LT((millimetres.at(name) - 1000 * Eigen::Vector3d(p.x(), -p.z(), p.y())).norm(), 50)
+            << name << ", mm";  // units and axes, not digits
 }
 
 class Slow : public CommandLine { };
 
 TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
 {
-    const fs::path dressed = folder / "dressed", fitted = folder / "fitted", draped = folder / "draped", own = folder / "own";
+    const fs::path dressed = folder / "dressed", fitted = folder / "fitted", draped = folder / "draped",
+                   own = folder / "own";
     const Ended whole = run({ "dress", k_body, k_trousers, "--type", "trousers", "--json", "-o", dressed });
     ASSERT_EQ(whole.code, 0) << whole.err;
     const auto report = nlohmann::json::parse(whole.out);

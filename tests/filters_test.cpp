@@ -93,9 +93,13 @@ TEST(SetByName, SetsOneParameterFromText)
 TEST(SetByName, RefusesTextThatIsNoValue)
 {
     Parameters parameters;
-    for (const auto& [name, text] : { std::pair { "contact_distance", "thick" }, { "contact_distance", "0.002m" },
-                                      { "type", "umbrella" }, { "swap_sides", "maybe" }, { "iterations", "2.5" } })
-        EXPECT_THROW(describe(filter_of("dress"), parameters, SetByName { name, text }), InvalidInput) << name << ' ' << text;
+    for (const auto& [name, text] : { std::pair { "contact_distance", "thick" },
+                                      { "contact_distance", "0.002m" },
+                                      { "type", "umbrella" },
+                                      { "swap_sides", "maybe" },
+                                      { "iterations", "2.5" } })
+        EXPECT_THROW(describe(filter_of("dress"), parameters, SetByName { name, text }), InvalidInput)
+            << name << ' ' << text;
 }
 
 TEST(CheckRanges, NamesParameterValueAndRange)

@@ -54,9 +54,12 @@ public:
         if constexpr (std::is_same_v<Value, bool>)
             command_.add_flag(flag, value, help)->group("Parameters");
         else
-            command_.add_option_function<std::string>(
-                flag, [&value, about](const std::string& text) { set_from_text(value, about, text); }, help)
-                ->default_str(text_of(value, about))->type_name("")->group("Parameters");
+            command_
+                .add_option_function<std::string>(
+                    flag, [&value, about](const std::string& text) { set_from_text(value, about, text); }, help)
+                ->default_str(text_of(value, about))
+                ->type_name("")
+                ->group("Parameters");
     }
 
 private:
@@ -77,9 +80,13 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
     if (!filter.has(Stage::fit))
         return;
     command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out")->required();
-    command.add_option("--type", call.types, "Type of a garment, once for each: " + range_of<GarmentType>({
-                           .name = {}, .label = {}, .unit = {}, .help = {}, .choices = &garment_type_names() }))
-        ->allow_extra_args(false)->default_str("auto");
+    command
+        .add_option("--type", call.types,
+                    "Type of a garment, once for each: "
+                        + range_of<GarmentType>(
+                            { .name = {}, .label = {}, .unit = {}, .help = {}, .choices = &garment_type_names() }))
+        ->allow_extra_args(false)
+        ->default_str("auto");
     command.add_option("--garment-unit", call.garment_frame.unit, "Unit of the garments' files")->default_str("auto");
     command.add_option("--garment-up", call.garment_frame.up, "Up axis of the garments' files")->default_str("auto");
     if (takes_a_rig(filter))
@@ -94,11 +101,14 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
     if (starts_from_meshes(filter))
         add_mesh_options(command, filter, call);
     else
-        command.add_option("DIR_IN", call.from, "What garmentfit " + std::string(filter.name == "drape" ? "fit" : "drape")
-                                                    + " wrote")->required();
+        command
+            .add_option("DIR_IN", call.from,
+                        "What garmentfit " + std::string(filter.name == "drape" ? "fit" : "drape") + " wrote")
+            ->required();
     command.add_option("-o,--output", call.out, "Folder for the results")->required();
     command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
-        ->check(CLI::Range(0, 1024))->default_str("0");
+        ->check(CLI::Range(0, 1024))
+        ->default_str("0");
     command.add_option("--seed", call.seed, "Seed of random choices, kept in the report. No step draws any today")
         ->default_str("0");
     command.add_flag("--quiet", call.quiet, "Say nothing but errors");

@@ -16,7 +16,7 @@ void raise_flag(int) { g_interrupted = 1; }
 
 void watch_interruption()
 {
-    struct sigaction action {};
+    struct sigaction action { };
     action.sa_handler = raise_flag;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
     sigaction(SIGINT, &action, nullptr);

@@ -15,7 +15,8 @@ std::string bar(double fraction, std::string_view stage)
     const int filled = static_cast<int>(fraction * k_cells);
     char percent[8];
     std::snprintf(percent, sizeof percent, "%3d%%", static_cast<int>(100 * fraction));
-    return '[' + std::string(filled, '#') + std::string(k_cells - filled, ' ') + "] " + percent + "  " + std::string(stage);
+    return '[' + std::string(filled, '#') + std::string(k_cells - filled, ' ') + "] " + percent + "  "
+        + std::string(stage);
 }
 
 }  // namespace

@@ -36,14 +36,18 @@ Json vector_of(const Vec3& v) { return Json { v.x(), v.y(), v.z() }; }
 
 Json guess_of(const FrameGuess& guess)
 {
-    return { { "metres_per_unit", guess.frame.metres_per_unit }, { "unit_margin", guess.unit_margin },
-             { "up", vector_of(guess.frame.up) }, { "up_margin", guess.up_margin }, { "why", guess.why } };
+    return { { "metres_per_unit", guess.frame.metres_per_unit },
+             { "unit_margin", guess.unit_margin },
+             { "up", vector_of(guess.frame.up) },
+             { "up_margin", guess.up_margin },
+             { "why", guess.why } };
 }
 
 Json body_of(const Session& session)
 {
     const BodyFile& body = session.body;
-    Json json { { "file", body.path.filename().string() }, { "vertices", body.file.positions().rows() },
+    Json json { { "file", body.path.filename().string() },
+                { "vertices", body.file.positions().rows() },
                 { "repaired", session.scene.body->repaired } };
     json.update(guess_of(body.frame));
     if (const auto& rig = session.scene.rig) {
@@ -55,8 +59,10 @@ Json body_of(const Session& session)
 
 void put_certificate(Json& json, const Certificate& c, double metres_per_unit)
 {
-    json["crossings"] = { { "body", c.body_crossings }, { "self", c.self_crossings },
-                          { "self_input", c.input_self_crossings }, { "layers", c.layer_crossings } };
+    json["crossings"] = { { "body", c.body_crossings },
+                          { "self", c.self_crossings },
+                          { "self_input", c.input_self_crossings },
+                          { "layers", c.layer_crossings } };
     json["vertices_inside"] = c.vertices_inside;
     json["smallest_gap"] = c.smallest_gap / metres_per_unit;
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
@@ -84,7 +90,8 @@ Json garment_of(const Session& session, std::size_t i)
         json["covered"] = Json::array();
         for (const Bone bone : fit.covered)
             json["covered"].push_back(bone_name(bone));
-        json["score"] = { { "before", fit.score_before / metres_per_unit }, { "after", fit.score_after / metres_per_unit } };
+        json["score"]
+            = { { "before", fit.score_before / metres_per_unit }, { "after", fit.score_after / metres_per_unit } };
     }
     if (const Dressing* end = final_dressing(scene)) {
         json["worn"] = i < end->garments.size();

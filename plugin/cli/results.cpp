@@ -32,7 +32,8 @@ RigFile rig_file_of(const Session& session)
 {
     RigFile contents { session.body.frame.frame, *session.scene.rig, {} };
     for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
-        contents.garments.push_back({ session.garments[i].name(), session.garments[i].frame.frame, session.scene.fits[i] });
+        contents.garments.push_back(
+            { session.garments[i].name(), session.garments[i].frame.frame, session.scene.fits[i] });
     return contents;
 }
 
@@ -86,7 +87,8 @@ std::string tight_parts(const Dressing& dressing)
 {
     std::ostringstream text;
     for (const TooTight& tight : dressing.too_tight)
-        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth) << " mm";
+        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth)
+             << " mm";
     return text.str();
 }
 
@@ -114,8 +116,8 @@ Outcome outcome_of(const Scene& scene)
 std::string explain(const Session& session)
 {
     const Dressing& end = *final_dressing(session.scene);
-    const std::string garment = end.garments.empty() ? session.garments.front().name()
-                                                     : session.garments[end.garments.size() - 1].name();
+    const std::string garment
+        = end.garments.empty() ? session.garments.front().name() : session.garments[end.garments.size() - 1].name();
     std::ostringstream text;
     if (outcome_of(session.scene) == Outcome::too_small) {
         const std::string parts = tight_parts(end);

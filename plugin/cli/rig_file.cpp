@@ -20,7 +20,10 @@ constexpr const char* k_tip_names[extremity_count] = { "head_top", "lhand_tip", 
 
 Json json_of(const Vec3& v) { return Json { v.x(), v.y(), v.z() }; }
 
-Vec3 vector_of(const Json& json) { return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() }; }
+Vec3 vector_of(const Json& json)
+{
+    return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() };
+}
 
 Json point(const Frame& frame, const Vec3& in_metres)
 {
@@ -47,7 +50,8 @@ Json turn(const Frame& frame, const Eigen::Quaterniond& q)
 
 Eigen::Quaterniond turn(const Frame& frame, const Json& json)
 {
-    const Vec3 axis = frame.rotation() * Vec3(json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>());
+    const Vec3 axis
+        = frame.rotation() * Vec3(json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>());
     return Eigen::Quaterniond(json.at(0).get<double>(), axis.x(), axis.y(), axis.z()).normalized();
 }
 
@@ -57,10 +61,7 @@ void put_frame(Json& json, const Frame& frame)
     json["up"] = json_of(frame.up);
 }
 
-Frame frame_of(const Json& json)
-{
-    return { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) };
-}
+Frame frame_of(const Json& json) { return { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) }; }
 
 // ---- the parts of the file ---------------------------------------------------------------------------------------
 
@@ -117,7 +118,9 @@ Pose pose_of(const Frame& frame, const Json& json)
 
 Json garment_of(const Frame& body_frame, const FittedGarment& garment)
 {
-    Json json { { "file", garment.file }, { "type", name_of(garment.fit.type) }, { "type_margin", garment.fit.type_margin } };
+    Json json { { "file", garment.file },
+                { "type", name_of(garment.fit.type) },
+                { "type_margin", garment.fit.type_margin } };
     put_frame(json, garment.frame);
     json["covered"] = Json::array();
     for (const Bone bone : garment.fit.covered)

@@ -15,13 +15,13 @@ namespace fit::cli {
 
 struct FittedGarment {
     std::string file;
-    Frame frame;    ///< of the garment as given
+    Frame frame;  ///< of the garment as given
     FitResult fit;  ///< without scores
 };
 
 struct RigFile {
     Frame frame;  ///< of the body
-    Rig rig;      ///< without weights: those are in rigged.ply
+    Rig rig;  ///< without weights: those are in rigged.ply
     std::vector<FittedGarment> garments;
 };
 

@@ -72,7 +72,8 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
     session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type });
     if (!same(garment.frame.frame, session.body.frame.frame))
-        session.warnings.push_back(garment.name() + " has other units or axes than the body; it is written in the body's ("
+        session.warnings.push_back(garment.name()
+                                   + " has other units or axes than the body; it is written in the body's ("
                                    + garment.frame.why + ")");
     session.garments.push_back(std::move(garment));
 }
@@ -86,7 +87,8 @@ RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
         for (const VertexProperty& property : properties)
             if (property.name == name)
                 return property.values;
-        throw InvalidInput(rigged.string() + " has no vertex property " + name + "; write it again with garmentfit rig");
+        throw InvalidInput(rigged.string() + " has no vertex property " + name
+                           + "; write it again with garmentfit rig");
     };
     const std::size_t n = column("weight0").size();
     Rig rig = contents.rig;
@@ -116,7 +118,8 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
     session.body.frame = known(contents.frame);
     make_scene_body(session);
     if (contents.garments.empty())
-        throw InvalidInput((folder / "rig.json").string() + " names no garment; give a folder that garmentfit fit wrote");
+        throw InvalidInput((folder / "rig.json").string()
+                           + " names no garment; give a folder that garmentfit fit wrote");
     for (const FittedGarment& garment : contents.garments) {
         const fs::path path = rest / fs::path(garment.file).filename();
         add_garment_file(session, { path, MeshFile::read(path), known(garment.frame) }, garment.fit.type);
@@ -185,7 +188,8 @@ void read_draped(Session& session, const fs::path& folder)
     const Scene& scene = session.scene;
     Dressing draped;
     draped.pose = scene.fits.back().pose;
-    draped.body = skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, draped.pose));
+    draped.body
+        = skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, draped.pose));
     const TriangleMesh body { draped.body, scene.body->surface.triangles };
     std::vector<TriangleMesh> under;
     for (std::size_t i = 0; i < session.garments.size(); ++i) {

@@ -27,7 +27,7 @@ struct BodyFile {
 
 struct GarmentFile {
     std::filesystem::path path;
-    MeshFile file;     ///< as given, off the body
+    MeshFile file;  ///< as given, off the body
     FrameGuess frame;  ///< margins are 1 where the user said it
 
     std::string name() const { return path.filename().string(); }

@@ -25,7 +25,10 @@ Json read_json(const fs::path& path)
     return Json::parse(file);
 }
 
-Vec3 vector_of(const Json& json) { return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() }; }
+Vec3 vector_of(const Json& json)
+{
+    return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() };
+}
 
 Frame frame_of(const Json& json) { return { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) }; }
 
@@ -48,7 +51,8 @@ State read_state(const fs::path& folder, const Frame& frame, const Json& rig, co
 Vec3 fitted_front(const Json& rig, const Frame& frame)
 {
     const Json q = rig.at("garments").back().at("pose").at("root_rotation");
-    const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>());
+    const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(),
+                                  q.at(3).get<double>());
     return frame.rotation() * (turn * vector_of(rig.at("front")));
 }
 
@@ -62,8 +66,8 @@ std::string verdict_of(const Json& report, const Frame& frame)
         strain = std::max(strain, garment.at("strain").at("p95").get<double>());
     }
     std::ostringstream text;
-    text << std::setprecision(2) << "certified: no crossing, smallest gap " << 1000 * gap << " mm, strain " << 100 * strain
-         << "% at the 95th percentile";
+    text << std::setprecision(2) << "certified: no crossing, smallest gap " << 1000 * gap << " mm, strain "
+         << 100 * strain << "% at the 95th percentile";
     return text.str();
 }
 

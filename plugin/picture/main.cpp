@@ -33,11 +33,14 @@ int main(int argc, char** argv)
 {
     std::string folder, output;
     int height = 800;
-    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result", "garmentfit-picture");
+    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result",
+                 "garmentfit-picture");
     app.set_version_flag("--version", "garmentfit-picture " FIT_VERSION);
     app.add_option("DIR", folder, "Folder that garmentfit dress wrote")->required();
     app.add_option("-o,--output", output, "PNG file")->required();
-    app.add_option("--height", height, "Height of the picture in pixels")->check(CLI::Range(100, 10000))->default_str("800");
+    app.add_option("--height", height, "Height of the picture in pixels")
+        ->check(CLI::Range(100, 10000))
+        ->default_str("800");
     app.footer("Example:\n  xvfb-run -a garmentfit-picture dressed -o dressed.png\n");
     CLI11_PARSE(app, argc, argv);
     try {

@@ -29,11 +29,12 @@ namespace {
 using Colour = std::array<double, 3>;
 
 constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15, 0.15, 0.2 };
-constexpr Colour k_cloth[] = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
+constexpr Colour k_cloth[]
+    = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
 constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
-constexpr double k_panel_aspect = 0.62;          // width / height of a panel
-constexpr double k_margin = 1.12;                // room around the largest figure
-constexpr double k_text_height = 0.085;          // of the picture, above and below the figures
+constexpr double k_panel_aspect = 0.62;  // width / height of a panel
+constexpr double k_margin = 1.12;  // room around the largest figure
+constexpr double k_text_height = 0.085;  // of the picture, above and below the figures
 
 vtkNew<vtkPolyDataNormals> shaded(const TriangleMesh& mesh)
 {
