@@ -3,14 +3,14 @@
 
 // Between libfit's triangle mesh and CGAL's. Private: only sources that include CGAL include this.
 
-#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
 #include "fit/types.h"
 
 namespace fit {
 
-using CgalKernel = CGAL::Simple_cartesian<double>;
+using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalMesh = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
 /// Same vertices and faces in the same order. @pre an oriented 2-manifold.

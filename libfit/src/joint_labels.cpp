@@ -33,6 +33,7 @@ constexpr double k_ratio_spread = 0.03;
 constexpr double k_straight_spread = 0.006;  // of stature
 constexpr double k_hand_spread = 0.02;       // of stature
 constexpr double k_girth_spread = 0.10;      // relative
+constexpr double k_widening = 1.15;          // of girth: wrist to palm, shin to heel
 
 constexpr double k_spacing = 0.01;  // of stature, between cuts
 
@@ -112,27 +113,29 @@ int bend(const Centreline& line, int from, int to, const Vec3& root, double usua
     return best;
 }
 
-/// Row of the smallest girth whose distance from the limb's tip lies between `nearest` and `farthest_off`, m; a distance
-/// unlike `usual` counts as a larger girth.
-int narrowest(const Centreline& line, const Vec3& tip, double nearest, double farthest_off, double usual, double spread)
+struct Reach {
+    double least, usual, most, spread;  ///< m, straight to the limb's tip
+};
+
+/// Row where the limb is narrowest before it widens to the hand or the heel; -1 when it is nowhere free. A reach unlike the
+/// usual one counts as a larger girth.
+int narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
 {
-    const double beyond = (tip - line.points.back()).norm();
     int best = -1;
-    double least = std::numeric_limits<double>::max();
-    double smallest = std::numeric_limits<double>::max();
-    const auto reach = [&](int i) { return line.length() - line.arcs[i] + beyond; };
-    const auto in_range = [&](int i) { return line.girths[i] > 0 && reach(i) >= nearest && reach(i) <= farthest_off; };
-    for (int i = 0; i < line.size(); ++i)
-        if (in_range(i))
-            smallest = std::min(smallest, line.girths[i]);
-    for (int i = 0; i < line.size(); ++i)
-        if (in_range(i)) {
-            const double score = (line.girths[i] / smallest - 1) / k_girth_spread + std::pow((reach(i) - usual) / spread, 2);
-            if (score < least) {
-                least = score;
-                best = i;
-            }
+    double least = std::numeric_limits<double>::max(), smallest = least;
+    for (int i = line.first_free; i < line.size(); ++i) {
+        const double off = (tip - line.points[i]).norm();
+        if (!line.free[i] || !line.across[i] || off > reach.most || off < reach.least)
+            continue;
+        if (line.girths[i] > k_widening * smallest)
+            break;
+        smallest = std::min(smallest, line.girths[i]);
+        const double score = std::log(line.girths[i]) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
+        if (score < least) {
+            least = score;
+            best = i;
         }
+    }
     return best;
 }
 
@@ -171,7 +174,7 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, d
     const Vec3 along = (arm.tip() - line.at(0.6 * line.length())).normalized();
     LimbJoints joints;
     joints.tip = farthest(surface.last(arm.curve, 0.12 * size), [&](const Vec3& p) { return p.dot(along); });
-    const int wrist = narrowest(line, joints.tip, 0.07 * size, 0.16 * size, k_hand * size, k_hand_spread * size);
+    const int wrist = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
     joints.middle = line.points[bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size)];
@@ -198,7 +201,7 @@ LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
 {
     const Centreline& line = leg.line;
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
-    const int shin = narrowest(line, leg.tip(), 0.12 * size, 0.25 * size, 0.17 * size, 0.05 * size);
+    const int shin = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.25 * size, 0.04 * size });
     require(shin > line.first_free + 4, "ankle", leg.tip());
     LimbJoints joints;
     const Vec3 along_thigh = (leg.ring() - line.at(line.arcs[line.first_free] + 0.12 * size)).normalized();
@@ -279,7 +282,7 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     level_upper_lengths(joints.arms, k_elbow_ratio);
 
     joints.neck_base = below(axis, joints.crown, k_neck_base * joints.size);
-    joints.skull_base = below(axis, joints.crown, k_skull_base * joints.size);
+    joints.skull_base = joints.crown + k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
     joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
     const double neck = axis.arcs[axis.nearest_row(joints.neck_base)];
     joints.lower_spine = axis.at(neck / 3);

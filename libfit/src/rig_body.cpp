@@ -7,6 +7,7 @@
 #include "fit/error.h"
 #include "heat_weights.h"
 #include "joint_labels.h"
+#include "rig_gates.h"
 #include "side_vote.h"
 
 namespace fit {
@@ -97,6 +98,7 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     rig.up = sides.up;
     rig.front = sides.front;
     rig.side_margin = sides.margin;
+    check_rig(proxy, rig.skeleton);
     const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible_bones(curves, graph, sides));
     progress.at(0.9);
     rig.weights = transferred(proxy, weights, body.surface);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rig_gates.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "fit/error.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_pi = 3.14159265358979323846;
+constexpr int k_samples = 5;             // of each bone, ends included
+constexpr double k_inside_share = 0.85;  // of all samples: mouth, armpit and crotch come close to bones
+constexpr double k_side_tolerance = 0.2; // between a left length and its right one; humans stay below 0.05
+
+struct Proportion {
+    const char* what;
+    double value, least, most;
+};
+
+std::string text(double value)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.2f", value);
+    return buffer;
+}
+
+/// Generalised winding number [jacobson_2013_winding]: 1 inside, 0 outside.
+double winding_number(const TriangleMesh& mesh, const Vec3& p)
+{
+    double angle = 0;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)).transpose() - p;
+        const Vec3 b = mesh.positions.row(mesh.triangles(f, 1)).transpose() - p;
+        const Vec3 c = mesh.positions.row(mesh.triangles(f, 2)).transpose() - p;
+        const double la = a.norm(), lb = b.norm(), lc = c.norm();
+        angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    }
+    return angle / (4 * k_pi);
+}
+
+void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
+{
+    int inside = 0;
+    for (int b = 0; b < bone_count; ++b)
+        for (int k = 0; k < k_samples; ++k) {
+            const double t = double(k) / (k_samples - 1);
+            inside += winding_number(closed, (1 - t) * skeleton.head(b) + t * skeleton.tail(b)) > 0.5;
+        }
+    const double share = double(inside) / (bone_count * k_samples);
+    if (share < k_inside_share)
+        throw InvalidInput("body: only " + text(share) + " of the skeleton found lies inside it (at least " + text(k_inside_share)
+                           + "); give a human body whose limbs are not fused together");
+}
+
+void check_sides(const Skeleton& skeleton)
+{
+    for (const int left : { lfemur, ltibia, lhumerus, lradius }) {
+        const double l = skeleton.length(left), r = skeleton.length(mirror_of(left));
+        if (std::abs(l - r) > k_side_tolerance * std::max(l, r))
+            throw InvalidInput("body: " + std::string(bone_name(left)) + " comes out " + text(l) + " m long and "
+                               + std::string(bone_name(mirror_of(left))) + " " + text(r)
+                               + " m; give a whole human body whose limbs are not fused together");
+    }
+}
+
+void check_proportions(const Skeleton& s)
+{
+    const double arm = s.length(lhumerus) + s.length(lradius), leg = s.length(lfemur) + s.length(ltibia);
+    const double trunk = (s.tail(thorax) - s.root).norm();
+    for (const Proportion& p : {
+             Proportion { "upper arm to forearm", s.length(lhumerus) / s.length(lradius), 0.6, 1.7 },
+             Proportion { "thigh to shin", s.length(lfemur) / s.length(ltibia), 0.6, 1.6 },
+             Proportion { "arm to leg", arm / leg, 0.4, 0.95 },
+             Proportion { "trunk to leg", trunk / leg, 0.4, 1.2 },
+             Proportion { "hip width to leg", (s.tail(lhipjoint) - s.tail(rhipjoint)).norm() / leg, 0.05, 0.5 },
+             Proportion { "shoulder width to leg", (s.tail(lclavicle) - s.tail(rclavicle)).norm() / leg, 0.15, 0.8 } })
+        if (!(p.value >= p.least && p.value <= p.most))
+            throw InvalidInput(std::string("body: ") + p.what + " comes out as " + text(p.value) + ", a human's is "
+                               + text(p.least) + " to " + text(p.most) + "; give a human body");
+}
+
+}  // namespace
+
+void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)
+{
+    check_proportions(skeleton);
+    check_sides(skeleton);
+    check_inside(closed, skeleton);
+}
+
+}  // namespace fit

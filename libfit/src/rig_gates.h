@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fit/skeleton.h"
+#include "fit/types.h"
+
+namespace fit {
+
+/// Lets only a human's skeleton pass: joints and bones inside the body, limbs of equal lengths left and right, usual
+/// proportions. O(samples * triangles). @throws InvalidInput naming the gate, with numbers.
+void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
+
+}  // namespace fit
