@@ -14,7 +14,7 @@ namespace {
 
 using namespace fit;
 
-constexpr int k_variants = 600;   // of each file; all of them take some seconds
+constexpr int k_variants = 1000;   // of each file; all of them take some seconds
 
 class IoFuzz : public fixtures::TemporaryFolder {
 protected:
@@ -27,6 +27,7 @@ protected:
             ASSERT_TRUE(mesh.positions().allFinite());
             ASSERT_GE(mesh.triangles().minCoeff(), 0);
             ASSERT_LT(mesh.triangles().maxCoeff(), mesh.positions().rows());
+            std::filesystem::remove(folder / "written");
             mesh.write(folder / "written", 2 * mesh.positions());
         } catch (const InvalidInput& error) {
             ++refused_;
@@ -69,7 +70,7 @@ protected:
 TEST_F(IoFuzz, TruncatedFilesAreReadOrRefused)
 {
     for (const samples::File& file : samples::all())
-        for (std::size_t length = 0; length < file.bytes.size(); ++length)
+        for (std::size_t length = 0; length < file.bytes.size(); length += file.bytes.size() > 1000 ? 5 : 1)
             survive(file.name, file.bytes.substr(0, length));
     EXPECT_GT(refused_, 1000);
 }

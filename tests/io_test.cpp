@@ -102,7 +102,7 @@ TEST_F(Io, ObjKeepsColoursAndAllOtherLinesAndTurnsItsNormals)
     const MeshFile mesh = read("a.obj", samples::obj());
     const std::string text = written(mesh, turned(mesh.positions()));
     for (const char* kept : { "# roof, by hand\r\nmtllib roof.mtl\no Roof\n", " 1.0 0.5 0.25\n", "vt 1 1\n", "usemtl slate\ns 1\n",
-                              "f 1/1/1 2/2/1 3/3/1 \\\n  4/4/1\n", "f -3//2 -1//2 -2//2\nl 1 2\n# end" })
+                              "f 1/1/1 2/2/1 3/3/1 \\\n  4/4/1\n", "f -3//2 -1//2 -2//2 # gable\nl 1 2\n# end" })
         EXPECT_NE(text.find(kept), std::string::npos) << text;
     // (0, -0.1, 1) and (0, 0, 1) turned by 90 degrees about x
     const auto after = text.find("vn ");

@@ -23,7 +23,7 @@ inline std::string obj()
 {
     return "# roof, by hand\r\nmtllib roof.mtl\no Roof\nv 0 0 0\nv  1.0  0.0 0 1.0 0.5 0.25\nv 1 1 1e-1\nv 0 +1 .1\n"
            "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 -0.1 1\nvn 0 0 1.000\n\ng front\nusemtl slate\ns 1\n"
-           "f 1/1/1 2/2/1 3/3/1 \\\n  4/4/1\nv 0.5 2 0.3\ng back\ns off\nf -3//2 -1//2 -2//2\nl 1 2\n# end";
+           "f 1/1/1 2/2/1 3/3/1 \\\n  4/4/1\nv 0.5 2 0.3\ng back\ns off\nf -3//2 -1//2 -2//2 # gable\nl 1 2\n# end";
 }
 
 /// The header is told in full; vertices carry a list and bytes before x, faces an extra number.

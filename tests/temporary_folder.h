@@ -24,6 +24,7 @@ protected:
 
     std::filesystem::path save(const std::string& name, const std::string& bytes) const
     {
+        std::filesystem::remove(folder / name);   // truncating a file makes some file systems wait for the disk
         std::ofstream(folder / name, std::ios::binary) << bytes;
         return folder / name;
     }

@@ -51,7 +51,7 @@ public:
     void add(Words& words)
     {
         corners_.clear();
-        while (!words.done())
+        while (!words.done() && content_.file.bytes[words.at()] != '#')
             add_corner(words.next());
         if (corners_.size() < 6)
             content_.file.fail_at_line_of(words.at(), "the face has " + std::to_string(corners_.size() / 2)

@@ -18,6 +18,9 @@ namespace {
 /// STL repeats a vertex in every facet; equal ones become one again.
 class Weld {
 public:
+    /// Room for about as many vertices as a closed surface of so many facets has.
+    void expect_facets(std::size_t facets) { rows_.reserve(facets / 2 + 2); }
+
     int row_of(const Vec3& position)
     {
         const auto [entry, is_new] = rows_.try_emplace({ position.x(), position.y(), position.z() }, static_cast<int>(positions_.rows()));
@@ -163,6 +166,7 @@ ContentPtr read_binary(FileBytes file)
     content->normals.resize(facets, 3);
     content->triangles.resize(facets, 3);
     Weld weld;
+    weld.expect_facets(facets);
     for (std::uint32_t f = 0; f < facets; ++f) {
         const std::size_t facet = k_header_bytes + f * k_facet_bytes;
         content->normals.row(f) = triple_at(file, facet);
