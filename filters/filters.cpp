@@ -91,7 +91,7 @@ struct StageRow {
     double share;  ///< of the time that dressing takes, for the progress bar
 };
 
-constexpr std::array<StageRow, stage_count> k_stages { {
+constexpr std::array<StageRow, k_stage_count> k_stages { {
     { "rig", "rigging the body", rig, 0.08 },
     { "fit", "fitting the skeleton", fit_all, 0.12 },
     { "drape", "draping the garment", drape_all, 0.4 },

@@ -16,7 +16,7 @@
 namespace fit {
 
 enum class Stage { rig, fit, drape, recover };
-constexpr int stage_count = 4;
+constexpr int k_stage_count = 4;
 /// "rig", "fit", "drape", "recover".
 std::string_view name_of(Stage stage);
 
@@ -51,7 +51,7 @@ struct Scene {
     std::vector<FitResult> fits;  ///< one for each garment
     std::optional<Dressing> draped;  ///< in the pose of the last garment's fit
     std::optional<Dressing> recovered;  ///< in the body's own pose
-    std::array<double, stage_count> seconds {};  ///< wall clock spent in each stage
+    std::array<double, k_stage_count> seconds {};  ///< wall clock spent in each stage
 };
 
 /// What a filter reads and makes; a host's ports.

@@ -60,7 +60,7 @@ void move_into(const fs::path& from, const fs::path& to)
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path place) : place_(without_trailing_slash(place)) { require_writable(place_); }
+OutputFolder::OutputFolder(const fs::path& place) : place_(without_trailing_slash(place)) { require_writable(place_); }
 
 OutputFolder::~OutputFolder()
 {

@@ -11,7 +11,7 @@ namespace fit::cli {
 class OutputFolder {
 public:
     /// Nothing is created yet. @throws InvalidInput when nothing could be: no permission, or a file of that name.
-    explicit OutputFolder(std::filesystem::path place);
+    explicit OutputFolder(const std::filesystem::path& place);
     /// Removes what was not published, and the parents made for it.
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;

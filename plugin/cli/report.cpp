@@ -26,7 +26,7 @@ double peak_memory_bytes()
 Json stages_of(const Session& session)
 {
     Json stages { { "read", session.read_seconds } };
-    for (int s = 0; s < stage_count; ++s)
+    for (int s = 0; s < k_stage_count; ++s)
         stages[std::string(name_of(Stage(s)))] = session.scene.seconds[s];
     stages["write"] = session.write_seconds;
     return stages;

@@ -80,7 +80,7 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
 
 RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
 {
-    const RigFile contents = read_rig_file(rig_json);
+    RigFile contents = read_rig_file(rig_json);
     const fs::path rigged = rig_json.parent_path() / "rigged.ply";
     const std::vector<VertexProperty> properties = read_ply_properties(rigged);
     const auto column = [&](const std::string& name) -> const std::vector<double>& {
