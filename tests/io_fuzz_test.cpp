@@ -86,14 +86,14 @@ TEST_F(IoFuzz, MangledFilesAreReadOrRefused)
 
 TEST_F(IoFuzz, WrongNumbersInTheJsonOfAGlbAreReadOrRefused)
 {
-    for (int variant = 0; variant < 4 * k_variants; ++variant) {
+    for (int variant = 0; variant < k_variants; ++variant) {
         std::string json = samples::gltf_json("");
         for (std::size_t wound = 0, wounds = 1 + below(3); wound < wounds; ++wound)
             replace_number(json, below(json.size()));
         survive("a.glb", samples::glb(json));
     }
-    EXPECT_GT(refused_, 1000);
-    EXPECT_GT(read_, 100);
+    EXPECT_GT(refused_, 500);
+    EXPECT_GT(read_, 50);
 }
 
 TEST_F(IoFuzz, NoiseIsRefused)

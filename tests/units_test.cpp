@@ -55,9 +55,21 @@ struct PosedPerson {
 
 std::vector<PosedPerson> people()
 {
-    return { { "A", { .arm_angle = 45 } },        { "T", { .arm_angle = 0, .elbow_angle = 0 } }, { "arms down", { .arm_angle = 75 } },
-             { "arms up", { .arm_angle = -60 } }, { "sitting", { .arm_angle = 70, .knee_angle = 90, .hip_angle = 90 } },
-             { "child", { .scale = 0.6 } } };
+    std::vector<PosedPerson> people { { "A", { .arm_angle = 45 } },
+                                      { "T", { .arm_angle = 0, .elbow_angle = 0 } },
+                                      { "arms down", { .arm_angle = 75 } },
+                                      { "arms up", { .arm_angle = -60 } },
+                                      { "sitting", { .arm_angle = 70, .knee_angle = 90, .hip_angle = 90 } },
+                                      { "child", { .scale = 0.6 } } };
+    for (PosedPerson& person : people)
+        person.options.spacing = 0.07;
+    return people;
+}
+
+const TriangleMesh& standing_person()
+{
+    static const TriangleMesh mesh = fixtures::capsule_person(people().front().options).mesh;
+    return mesh;
 }
 
 TEST(Units, FindsUnitAndUpAxisOfABodyInAnyPose)
@@ -79,7 +91,7 @@ TEST(Units, FindsUnitAndUpAxisOfABodyInAnyPose)
 
 TEST(Units, FindsABodyOnItsHeadOrItsSide)
 {
-    const TriangleMesh mesh = fixtures::capsule_person().mesh;
+    const TriangleMesh& mesh = standing_person();
     for (const char* up : { "+x", "-x", "+z" }) {
         const Frame frame = frame_of("m", up);
         EXPECT_EQ(guess_body_frame(frame.to_file(mesh.positions), mesh.triangles).frame.up, frame.up) << up;
@@ -88,7 +100,7 @@ TEST(Units, FindsABodyOnItsHeadOrItsSide)
 
 TEST(Units, ThePlaceOfABodyDoesNotMatter)
 {
-    const TriangleMesh mesh = fixtures::capsule_person().mesh;
+    const TriangleMesh& mesh = standing_person();
     const Positions away = mesh.positions.rowwise() + Eigen::RowVector3d(30, -200, 7);
     const FrameGuess here = guess_body_frame(mesh.positions, mesh.triangles), there = guess_body_frame(away, mesh.triangles);
     EXPECT_EQ(here.frame.up, there.frame.up);
@@ -97,7 +109,7 @@ TEST(Units, ThePlaceOfABodyDoesNotMatter)
 
 TEST(Units, SaysSoWhenNoUnitMakesAHuman)
 {
-    const TriangleMesh mesh = fixtures::capsule_person().mesh;
+    const TriangleMesh& mesh = standing_person();
     const FrameGuess guess = guess_body_frame(1e-6 * mesh.positions, mesh.triangles);
     EXPECT_EQ(guess.unit_margin, 0);
     EXPECT_NE(guess.why.find("no human"), std::string::npos) << guess.why;
