@@ -87,6 +87,7 @@ int run(int argc, char** argv)
     Session session = read(*call);
     stop_if_interrupted();
     compute(*call, session);
+    add_doubts(session);
     write(*call, session, folder);
     const Outcome outcome = outcome_of(session.scene);
     if (outcome != Outcome::done)

@@ -138,7 +138,11 @@ std::string worn_line(const Session& session, const Dressing& end, std::size_t i
 
 }  // namespace
 
-std::string report_json(const Call& call, const Session& session) { return json_of(call, session).dump(1) + "\n"; }
+std::string report_json(const Call& call, const Session& session)
+{
+    // a file's name need not be UTF-8
+    return json_of(call, session).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 std::string summary(const Call& call, const Session& session)
 {

@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a warning
+
 // ---- writing ---------------------------------------------------------------------------------------------------
 
 void write_rigged(const Session& session, const fs::path& path)
@@ -81,6 +83,19 @@ void write_fitted_body(const Session& session, const fs::path& folder)
               { "garmentfit: the body in the pose fitted to " + session.garments.back().name() });
 }
 
+// ---- doubts ----------------------------------------------------------------------------------------------------
+
+void doubt_frame(std::vector<std::string>& warnings, const std::string& file, const FrameGuess& guess,
+                 const std::string& flags)
+{
+    if (guess.unit_margin < k_doubt)
+        warnings.push_back("the unit of " + file + " is hardly more than a guess (" + guess.why + "); give --" + flags
+                           + "unit");
+    if (guess.up_margin < k_doubt)
+        warnings.push_back("the up axis of " + file + " is hardly more than a guess (" + guess.why + "); give --"
+                           + flags + "up");
+}
+
 // ---- judging ---------------------------------------------------------------------------------------------------
 
 std::string tight_parts(const Dressing& dressing)
@@ -133,6 +148,24 @@ std::string explain(const Session& session)
              << "% of the way between two poses";
     }
     return text.str();
+}
+
+void add_doubts(Session& session)
+{
+    const Scene& scene = session.scene;
+    doubt_frame(session.warnings, session.body.path.filename().string(), session.body.frame, "");
+    if (scene.rig && scene.rig->side_margin < k_doubt)
+        session.warnings.emplace_back(
+            "left and right of the body are hardly more than a guess; look, and give --swap-sides");
+    for (std::size_t i = 0; i < session.garments.size(); ++i) {
+        const std::string name = session.garments[i].name();
+        doubt_frame(session.warnings, name, session.garments[i].frame, "garment-");
+        if (i < scene.fits.size() && scene.fits[i].type_margin < k_doubt)
+            session.warnings.push_back("the type of " + name + " is hardly more than a guess, "
+                                       + std::string(name_of(scene.fits[i].type)) + "; give --type");
+        if (const Dressing* end = final_dressing(scene); end && i >= end->garments.size())
+            session.warnings.push_back(name + " was not put on, for what is under it was not certified");
+    }
 }
 
 void write_results(const Session& session, std::string_view command, const fs::path& folder)

@@ -20,6 +20,9 @@ Outcome outcome_of(const Scene& scene);
 /// One line on how it went wrong. Only for too_small and not_certified.
 std::string explain(const Session& session);
 
+/// Warns of guesses that were nearly a toss-up, and of garments that were not put on.
+void add_doubts(Session& session);
+
 /// Writes all that a command leaves behind but the report.
 void write_results(const Session& session, std::string_view command, const std::filesystem::path& folder);
 

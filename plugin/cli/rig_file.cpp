@@ -61,7 +61,16 @@ void put_frame(Json& json, const Frame& frame)
     json["up"] = json_of(frame.up);
 }
 
-Frame frame_of(const Json& json) { return { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) }; }
+Frame frame_of(const Json& json)
+{
+    const Frame frame { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) };
+    if (!(frame.metres_per_unit > 0))
+        throw InvalidInput("metres_per_unit is not positive");
+    if (frame.up.cwiseAbs() != Vec3::UnitX() && frame.up.cwiseAbs() != Vec3::UnitY()
+        && frame.up.cwiseAbs() != Vec3::UnitZ())
+        throw InvalidInput("up is not one of the six axis directions");
+    return frame;
+}
 
 // ---- the parts of the file ---------------------------------------------------------------------------------------
 
@@ -191,7 +200,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
     for (const FittedGarment& garment : contents.garments)
         json["garments"].push_back(garment_of(contents.frame, garment));
     std::ofstream file(path);
-    if (!(file << json.dump(1) << '\n' << std::flush))
+    if (!(file << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush))
         throw InvalidInput("cannot write " + path.string() + "; is the disk full?");
 }
 
