@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "fit/certificate.h"
 #include "fit/io.h"
 #include "rig_file.h"
 
@@ -56,14 +57,47 @@ Positions body_in_file(const Session& session, const Positions& in_metres)
                                                               : session.body.frame.frame.to_file(in_metres);
 }
 
-void write_dressing(const Session& session, const Dressing& dressing, const fs::path& folder)
+void write_garments(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
     fs::create_directories(folder);
     for (std::size_t i = 0; i < dressing.garments.size(); ++i)
         session.garments[i].file.write(folder / session.garments[i].name(),
                                        session.body.frame.frame.to_file(dressing.garments[i].positions));
+}
+
+void write_body(const Session& session, const Dressing& dressing, const fs::path& folder)
+{
     write_ply(folder / "body.ply", body_in_file(session, dressing.body), session.body.file.triangles(), {},
               comments_of(dressing));
+}
+
+/// A file may hold fewer digits than we computed with, so what stands in it is what is judged.
+void certify_as_written(const Session& session, Dressing& dressing, const fs::path& folder)
+{
+    const TriangleMesh body { dressing.body, session.scene.body->surface.triangles };
+    std::vector<TriangleMesh> under;
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i) {
+        WornGarment& garment = dressing.garments[i];
+        const MeshFile written = MeshFile::read(folder / session.garments[i].name());
+        garment.positions = session.body.frame.frame.to_metres(written.positions());
+        garment.certificate = certify(body, garment.rest, garment.positions, under);
+        under.push_back({ garment.positions, garment.rest.triangles });
+    }
+    dressing.certified = dressing.certified && all_clean(dressing);
+}
+
+/// Only certified garments stay.
+void write_last_state(const Session& session, Dressing& dressing, const fs::path& folder)
+{
+    if (!all_clean(dressing))
+        return;
+    write_garments(session, dressing, folder);
+    certify_as_written(session, dressing, folder);
+    if (all_clean(dressing))
+        write_body(session, dressing, folder);
+    else
+        for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+            fs::remove(folder / session.garments[i].name());
 }
 
 void write_garments_as_given(const Session& session, const fs::path& folder)
@@ -168,9 +202,9 @@ void add_doubts(Session& session)
     }
 }
 
-void write_results(const Session& session, std::string_view command, const fs::path& folder)
+void write_results(Session& session, std::string_view command, const fs::path& folder)
 {
-    const Scene& scene = session.scene;
+    Scene& scene = session.scene;
     write_rig_file(folder / "rig.json", rig_file_of(session));
     write_rigged(session, folder / "rigged.ply");
     if (command == "fit") {
@@ -179,10 +213,14 @@ void write_results(const Session& session, std::string_view command, const fs::p
     }
     if (command == "dress" || command == "drape")
         write_garments_as_given(session, folder / "rest");
-    if (command == "dress" && scene.recovered)
-        write_dressing(session, *scene.draped, folder / "fitted");
-    if (const Dressing* end = final_dressing(scene); end && all_clean(*end))
-        write_dressing(session, *end, folder);
+    if (command == "dress" && scene.recovered) {
+        write_garments(session, *scene.draped, folder / "fitted");
+        write_body(session, *scene.draped, folder / "fitted");
+    }
+    if (scene.recovered)
+        write_last_state(session, *scene.recovered, folder);
+    else if (scene.draped)
+        write_last_state(session, *scene.draped, folder);
 }
 
 }  // namespace fit::cli

@@ -23,7 +23,7 @@ std::string explain(const Session& session);
 /// Warns of guesses that were nearly a toss-up, and of garments that were not put on.
 void add_doubts(Session& session);
 
-/// Writes all that a command leaves behind but the report.
-void write_results(const Session& session, std::string_view command, const std::filesystem::path& folder);
+/// Writes all that a command leaves behind but the report. The certificates become those of the files as written.
+void write_results(Session& session, std::string_view command, const std::filesystem::path& folder);
 
 }  // namespace fit::cli
