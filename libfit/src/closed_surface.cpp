@@ -27,8 +27,8 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr double k_weld = 1e-6;            // of the diagonal: on a body, 2 micrometres
-constexpr double k_wrap_alpha = 0.01;      // of the diagonal: holes narrower than this are wrapped over
-constexpr double k_wrap_offset = 0.0005;   // of the diagonal: how far the wrap keeps off the surface
+constexpr double k_wrap_alpha = 0.012;     // of the diagonal: holes narrower than this are wrapped over
+constexpr double k_wrap_offset = 0.001;    // of the diagonal: how far the wrap keeps off the surface
 constexpr double k_main_share = 0.5;       // of the area: with less, the body comes in parts
 constexpr int k_most_holes = 200;          // more than this is a surface in tatters
 

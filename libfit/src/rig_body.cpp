@@ -3,10 +3,10 @@
 
 #include "body_graph.h"
 #include "curve_skeleton.h"
-#include "decimated_surface.h"
 #include "fit/error.h"
 #include "heat_weights.h"
 #include "joint_labels.h"
+#include "proxy_surface.h"
 #include "rig_gates.h"
 #include "side_vote.h"
 
@@ -80,7 +80,7 @@ VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, 
 
 Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
-    const TriangleMesh proxy = decimated_surface(body.closed, options.proxy_vertices);
+    const TriangleMesh proxy = proxy_surface(body.closed, options.proxy_vertices);
     progress.at(0.15);
     const CurveSkeleton curves = curve_skeleton(proxy, progress.part(0.15, 0.7));
     const BodyGraph graph = body_graph(curves);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy_surface.h"
+
+#include <map>
+#include <utility>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include "cgal_mesh.h"
+
+namespace fit {
+
+namespace {
+
+namespace sms = CGAL::Surface_mesh_simplification;
+
+using Stop = sms::Count_stop_predicate<CgalMesh>;
+
+// Above this multiple of the target, the shortest edges go first: ten times as fast, and they are far below the target's
+// resolution.
+constexpr int k_coarse_multiple = 4;
+
+Stop stop_at(int vertices)
+{
+    return Stop(3 * std::size_t(vertices));  // Euler: three edges a vertex
+}
+
+/// Each triangle cut into four at the middles of its edges.
+TriangleMesh quartered(const TriangleMesh& mesh)
+{
+    std::map<std::pair<int, int>, int> middles;
+    std::vector<Vec3> points;
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+        points.push_back(mesh.positions.row(v));
+    const auto middle = [&](int a, int b) {
+        const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), int(points.size()));
+        if (is_new)
+            points.push_back(0.5 * (points[a] + points[b]));
+        return found->second;
+    };
+    TriangleMesh result;
+    result.triangles.resize(4 * mesh.triangles.rows(), 3);
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        result.triangles.middleRows<4>(4 * f) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
+    }
+    result.positions.resize(points.size(), 3);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        result.positions.row(v) = points[v];
+    return result;
+}
+
+TriangleMesh decimated(const TriangleMesh& closed, int vertices)
+{
+    CgalMesh mesh = to_cgal(closed);
+    if (closed.positions.rows() > k_coarse_multiple * vertices)
+        sms::edge_collapse(mesh, stop_at(k_coarse_multiple * vertices),
+                           CGAL::parameters::get_cost(sms::Edge_length_cost<CgalMesh>())
+                               .get_placement(sms::Midpoint_placement<CgalMesh>()));
+    sms::edge_collapse(mesh, stop_at(vertices));
+    mesh.collect_garbage();
+    return from_cgal(mesh);
+}
+
+}  // namespace
+
+TriangleMesh proxy_surface(const TriangleMesh& closed, int vertices)
+{
+    TriangleMesh proxy = closed;
+    while (3 * proxy.positions.rows() < vertices)
+        proxy = quartered(proxy);
+    return proxy.positions.rows() > vertices ? decimated(proxy, vertices) : proxy;
+}
+
+}  // namespace fit
