@@ -101,6 +101,17 @@ inline TriangleMesh polygonise(const std::function<double(const Vec3&)>& distanc
     return mesh;
 }
 
+/// Both meshes as one, the first one's vertices and faces first.
+inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b)
+{
+    TriangleMesh result;
+    result.positions.resize(a.positions.rows() + b.positions.rows(), 3);
+    result.positions << a.positions, b.positions;
+    result.triangles.resize(a.triangles.rows() + b.triangles.rows(), 3);
+    result.triangles << a.triangles, (b.triangles.array() + int(a.positions.rows())).matrix();
+    return result;
+}
+
 struct PersonOptions {
     double arm_angle = 45;   ///< degrees below the horizontal: 0 = T-pose, 70 = arms down, -70 = arms up
     double elbow_angle = 15; ///< degrees that the elbows flex, forearms forward

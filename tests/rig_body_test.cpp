@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/rig_body.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "fit/error.h"
@@ -10,25 +15,108 @@ namespace {
 
 using namespace fit;
 using fixtures::capsule_person;
+using fixtures::Person;
+using fixtures::PersonOptions;
+
+constexpr double k_stature = 1.75;  // m, of the person at scale 1
 
 BodyMesh body_of(const TriangleMesh& mesh)
 {
     return make_body(mesh.positions, mesh.triangles);
 }
 
-TEST(RigBody, FindsTheJointsThatAPersonWasBuiltRound)
+TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Isometry3d& motion)
 {
-    const fixtures::Person person = capsule_person();
-    const Rig rig = rig_body(body_of(person.mesh));
-    for (int bone = 0; bone < bone_count; ++bone)
-        EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.12) << bone_name(bone);
-    EXPECT_GT(rig.front.z(), 0.9);
-    EXPECT_GT(rig.up.y(), 0.9);
+    TriangleMesh result = mesh;
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+        result.positions.row(v) = motion * Vec3(mesh.positions.row(v));
+    return result;
 }
 
-TEST(RigBody, WeightsOfEveryVertexArePositiveAndSumToOne)
+TriangleMesh mirrored(const TriangleMesh& mesh)
 {
-    const fixtures::Person person = capsule_person();
+    TriangleMesh result = mesh;
+    result.positions.col(0) *= -1;
+    result.triangles.col(1).swap(result.triangles.col(2));
+    return result;
+}
+
+double winding_number(const TriangleMesh& mesh, const Vec3& p)
+{
+    double angle = 0;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        Vec3 d[3];
+        for (int k = 0; k < 3; ++k)
+            d[k] = mesh.positions.row(mesh.triangles(f, k)).transpose() - p;
+        const double l0 = d[0].norm(), l1 = d[1].norm(), l2 = d[2].norm();
+        angle += 2 * std::atan2(d[0].dot(d[1].cross(d[2])),
+                                l0 * l1 * l2 + d[0].dot(d[1]) * l2 + d[1].dot(d[2]) * l0 + d[2].dot(d[0]) * l1);
+    }
+    return angle / (4 * std::acos(-1));
+}
+
+double weight_of(const SkinWeights& weights, Eigen::Index vertex, int bone)
+{
+    double sum = 0;
+    for (int k = 0; k < 4; ++k)
+        sum += weights.bones(vertex, k) == bone ? weights.weights(vertex, k) : 0;
+    return sum;
+}
+
+/// The message that rigging ends with; empty when it succeeds.
+std::string refusal(const TriangleMesh& mesh)
+{
+    try {
+        rig_body(body_of(mesh));
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return {};
+}
+
+class RigBodyInPose : public testing::TestWithParam<PersonOptions> { };
+
+TEST_P(RigBodyInPose, FindsTheJointsThatAPersonWasBuiltRound)
+{
+    const Person person = capsule_person(GetParam());
+    const Rig rig = rig_body(body_of(person.mesh));
+    const double stature = k_stature * GetParam().scale;
+    for (const int bone : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius, thorax })
+        for (const int side : { bone, mirror_of(bone) })
+            EXPECT_LT((rig.skeleton.tail(side) - person.skeleton.tail(side)).norm(), 0.05 * stature) << bone_name(side);
+    for (int tip = 0; tip < extremity_count; ++tip)
+        EXPECT_LT((rig.skeleton.tips[tip] - person.skeleton.tips[tip]).norm(), 0.05 * stature) << tip;
+}
+
+TEST_P(RigBodyInPose, KnowsUpFrontAndLeft)
+{
+    const Person person = capsule_person(GetParam());
+    const Rig rig = rig_body(body_of(person.mesh));
+    EXPECT_GT(rig.up.y(), 0.95);
+    EXPECT_GT(rig.front.z(), 0.95);
+    EXPECT_GT(rig.skeleton.tail(lfemur).x(), 0);
+    EXPECT_GT(rig.skeleton.tail(lhumerus).x(), 0);
+    EXPECT_GT(rig.side_margin, 0.3);
+}
+
+TEST_P(RigBodyInPose, PutsEveryJointInside)
+{
+    const Person person = capsule_person(GetParam());
+    const Rig rig = rig_body(body_of(person.mesh));
+    EXPECT_GT(winding_number(person.mesh, rig.skeleton.root), 0.5);
+    for (int bone = 0; bone < bone_count; ++bone)
+        EXPECT_GT(winding_number(person.mesh, rig.skeleton.tail(bone)), 0.5) << bone_name(bone);
+}
+
+INSTANTIATE_TEST_SUITE_P(Poses, RigBodyInPose,
+                         testing::Values(PersonOptions {}, PersonOptions { .arm_angle = 0 }, PersonOptions { .arm_angle = -60 },
+                                         PersonOptions { .arm_angle = 30, .elbow_angle = 80 },
+                                         PersonOptions { .knee_angle = 85, .hip_angle = 85 }, PersonOptions { .scale = 0.6 }),
+                         [](const auto& pose) { return "pose" + std::to_string(pose.index); });
+
+TEST(RigBody, GivesEveryVertexPositiveWeightsThatSumToOne)
+{
+    const Person person = capsule_person();
     const SkinWeights weights = rig_body(body_of(person.mesh)).weights;
     ASSERT_EQ(weights.weights.rows(), person.mesh.positions.rows());
     EXPECT_GE(weights.weights.minCoeff(), 0);
@@ -37,18 +125,115 @@ TEST(RigBody, WeightsOfEveryVertexArePositiveAndSumToOne)
     EXPECT_LT((weights.weights.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
 }
 
-TEST(RigBody, CanBeStopped)
+TEST(RigBody, HangsASkinVertexOnTheBoneBelowIt)
+{
+    const Person person = capsule_person();
+    const Rig rig = rig_body(body_of(person.mesh));
+    for (Eigen::Index v = 0; v < person.mesh.positions.rows(); ++v)
+        for (const int bone : { lhumerus, rhumerus, lradius, rradius, lfemur, rfemur, ltibia, rtibia }) {
+            const Vec3 p = person.mesh.positions.row(v);
+            const Vec3 head = rig.skeleton.head(bone), axis = rig.skeleton.tail(bone) - head;
+            const double t = (p - head).dot(axis) / axis.squaredNorm();
+            if (t < 0.4 || t > 0.6 || (p - head - t * axis).norm() > 0.08)
+                continue;
+            EXPECT_GT(weight_of(rig.weights, v, bone), 0.7) << bone_name(bone) << " at vertex " << v;
+        }
+}
+
+TEST(RigBody, WeighsVerticesOfIslandsToo)
+{
+    Person person = capsule_person();
+    const Vec3 head = person.skeleton.tips[head_top] - Vec3(0, 0.1, 0);
+    const auto ball = [&](const Vec3& p) { return (p - head).norm() - 0.03; };
+    const TriangleMesh eye = fixtures::polygonise(ball, head - Vec3::Constant(0.06), head + Vec3::Constant(0.06), 0.02);
+    const TriangleMesh both = fixtures::joined(person.mesh, eye);
+    const SkinWeights weights = rig_body(body_of(both)).weights;
+    ASSERT_EQ(weights.weights.rows(), both.positions.rows());
+    for (Eigen::Index v = person.mesh.positions.rows(); v < both.positions.rows(); ++v)
+        EXPECT_GT(weight_of(weights, v, upperneck) + weight_of(weights, v, lowerneck), 0.8);
+}
+
+TEST(RigBody, OfATurnedBodyIsTheTurnedRig)
+{
+    const Person person = capsule_person();
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    motion.rotate(Eigen::AngleAxisd(2.1, Vec3(1, -2, 0.5).normalized()));
+    motion.translation() = Vec3(3, -1, 2);
+    const Rig rig = rig_body(body_of(person.mesh)), turned = rig_body(body_of(moved(person.mesh, motion)));
+    for (int bone = 0; bone < bone_count; ++bone)
+        EXPECT_LT((motion * rig.skeleton.tail(bone) - turned.skeleton.tail(bone)).norm(), 0.03 * k_stature) << bone_name(bone);
+    EXPECT_GT((motion.linear() * rig.front).dot(turned.front), 0.98);
+    EXPECT_GT((motion.linear() * rig.up).dot(turned.up), 0.98);
+}
+
+TEST(RigBody, OfAMirroredBodyIsTheMirroredRig)
+{
+    const Person person = capsule_person({ .arm_angle = 20 });
+    Eigen::Isometry3d aside = Eigen::Isometry3d::Identity();
+    aside.rotate(Eigen::AngleAxisd(0.3, Vec3::UnitZ()));
+    const TriangleMesh mesh = moved(person.mesh, aside);
+    const Rig rig = rig_body(body_of(mesh)), mirror = rig_body(body_of(mirrored(mesh)));
+    const Eigen::DiagonalMatrix<double, 3> flip(-1, 1, 1);
+    for (int bone = 0; bone < bone_count; ++bone)
+        EXPECT_LT((flip * rig.skeleton.tail(bone) - mirror.skeleton.tail(mirror_of(bone))).norm(), 0.03 * k_stature)
+            << bone_name(bone);
+}
+
+TEST(RigBody, ExchangesSidesWhenAsked)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
-    EXPECT_THROW(rig_body(body, {}, Progress([](double fraction, std::string_view) { return fraction < 0.3; })), Cancelled);
+    const Rig rig = rig_body(body), swapped = rig_body(body, { .swap_sides = true });
+    for (int bone = 0; bone < bone_count; ++bone)
+        EXPECT_EQ(rig.skeleton.tail(bone), swapped.skeleton.tail(mirror_of(bone))) << bone_name(bone);
+    EXPECT_EQ(rig.front, -swapped.front);
+}
+
+TEST(RigBody, GivesTheSameBitsAgain)
+{
+    const BodyMesh body = body_of(capsule_person().mesh);
+    const Rig first = rig_body(body), second = rig_body(body);
+    EXPECT_EQ(first.skeleton.tails, second.skeleton.tails);
+    EXPECT_EQ(first.weights.weights, second.weights.weights);
+    EXPECT_EQ(first.weights.bones, second.weights.bones);
+}
+
+TEST(RigBody, CanBeStoppedAndRunAgain)
+{
+    const BodyMesh body = body_of(capsule_person().mesh);
+    for (const double when : { 0.1, 0.3, 0.75 })
+        EXPECT_THROW(rig_body(body, {}, Progress([&](double fraction, std::string_view) { return fraction < when; })), Cancelled);
     EXPECT_NO_THROW(rig_body(body));
 }
 
-TEST(RigBody, RefusesWhatIsNotAHuman)
+TEST(RigBody, ReportsGrowingProgressUpToOne)
 {
-    const auto ball = [](const Vec3& p) { return p.norm() - 0.4; };
-    const Vec3 corner = Vec3::Constant(0.6);
-    EXPECT_THROW(rig_body(body_of(fixtures::polygonise(ball, -corner, corner, 0.05))), InvalidInput);
+    double last = 0;
+    rig_body(body_of(capsule_person().mesh), {}, Progress([&](double fraction, std::string_view) {
+        EXPECT_GE(fraction, last);
+        last = fraction;
+        return true;
+    }));
+    EXPECT_EQ(last, 1);
+}
+
+TEST(RigBody, RefusesABallATorusARodAndACube)
+{
+    const auto shape = [](const std::function<double(const Vec3&)>& distance) {
+        return fixtures::polygonise(distance, Vec3::Constant(-1.1), Vec3::Constant(1.1), 0.08);
+    };
+    EXPECT_NE(refusal(shape([](const Vec3& p) { return p.norm() - 0.5; })), "");
+    EXPECT_NE(refusal(shape([](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.7, p.z()) - 0.2; })), "");
+    EXPECT_NE(refusal(shape([](const Vec3& p) {
+        return (p - Vec3(0, std::clamp(p.y(), -0.8, 0.8), 0)).norm() - 0.15;
+    })), "");
+    EXPECT_NE(refusal(shape([](const Vec3& p) { return p.cwiseAbs().maxCoeff() - 0.5; })), "");
+}
+
+TEST(RigBody, SaysHowManyEndsItMissed)
+{
+    const auto ball = [](const Vec3& p) { return p.norm() - 0.5; };
+    const std::string message = refusal(fixtures::polygonise(ball, Vec3::Constant(-0.6), Vec3::Constant(0.6), 0.05));
+    EXPECT_NE(message.find("ends found, a human has 5"), std::string::npos) << message;
 }
 
 }  // namespace

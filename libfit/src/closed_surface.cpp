@@ -65,7 +65,7 @@ Soup welded(const TriangleMesh& surface)
     return soup;
 }
 
-/// One piece, closed, a manifold, its faces all turned one way, every vertex used.
+/// One piece, closed, a manifold, its faces all turned one way, every vertex used, not all of it shrunk to a point.
 bool is_one_closed_manifold(const TriangleMesh& surface)
 {
     std::vector<std::vector<std::size_t>> triangles;
@@ -79,6 +79,8 @@ bool is_one_closed_manifold(const TriangleMesh& surface)
     if (std::find(used.begin(), used.end(), false) != used.end() || !pmp::is_polygon_soup_a_polygon_mesh(triangles))
         return false;
     CgalMesh mesh = to_cgal(surface);
+    if (pmp::area(mesh) == 0)
+        return false;
     const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:component", 0).first;
     return CGAL::is_closed(mesh) && pmp::connected_components(mesh, labels) == 1;
 }

@@ -3,6 +3,16 @@
 
 #include <cmath>
 
+#include "ordered_memory.h"
+
+// The flow collapses edges in the order of a std::set of handles, which compares addresses: its mesh gets ordered memory.
+#include <CGAL/memory.h>
+#undef CGAL_ALLOCATOR
+#define CGAL_ALLOCATOR(T) fit::OrderedAllocator<T>
+#include <CGAL/Polyhedron_3_fwd.h>
+#undef CGAL_ALLOCATOR
+#define CGAL_ALLOCATOR(T) std::allocator<T>
+
 #define CGAL_EIGEN3_ENABLED
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -16,6 +26,7 @@ namespace {
 using Flow = CGAL::Mean_curvature_flow_skeletonization<CgalMesh>;
 
 constexpr int k_most_steps = 200;          // a body takes some 20 to 40
+constexpr std::size_t k_bytes_a_vertex = 8192;  // reserved, not touched: room for the splits of the flow
 constexpr double k_still_fraction = 1e-4;  // of the surface's area: a step that changes less is the last
 
 void contract(Flow& flow, double area, const Progress& progress)
@@ -54,6 +65,7 @@ CurveSkeleton from_cgal(const Flow::Skeleton& graph, std::size_t vertices)
 CurveSkeleton curve_skeleton(const TriangleMesh& closed, const Progress& progress)
 {
     const CgalMesh mesh = to_cgal(closed);
+    const OrderedMemory memory(k_bytes_a_vertex * mesh.number_of_vertices());
     try {
         Flow flow(mesh);
         contract(flow, CGAL::Polygon_mesh_processing::area(mesh), progress);

@@ -18,11 +18,21 @@ constexpr double k_smallest_cotangent = 1e-3;    // keeps the matrix positive de
 constexpr double k_normal_weight = 0.05;         // of the diagonal: how far away a point that faces the other way seems
 constexpr int k_neighbours = 4;                  // that a transferred weight is blended from
 
-double squared_distance_to_bone(const Vec3& p, const Vec3& a, const Vec3& b)
+double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 {
     const Vec3 axis = b - a;
     const double t = std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0);
     return (a + t * axis - p).squaredNorm();
+}
+
+/// Hands, feet and head hang on the bones before them.
+double squared_distance_to_bone(const Vec3& p, const Skeleton& skeleton, int bone)
+{
+    double least = squared_distance_to_segment(p, skeleton.head(bone), skeleton.tail(bone));
+    for (int e = 0; e < extremity_count; ++e)
+        if (bone_before(Extremity(e)) == bone)
+            least = std::min(least, squared_distance_to_segment(p, skeleton.tail(bone), skeleton.tips[e]));
+    return least;
 }
 
 struct NearestBone {
@@ -34,7 +44,7 @@ NearestBone nearest_visible(const Vec3& p, const Skeleton& skeleton, const std::
 {
     NearestBone nearest;
     for (int b = 0; b < bone_count; ++b) {
-        const double d = visible[b] ? squared_distance_to_bone(p, skeleton.head(b), skeleton.tail(b)) : 0;
+        const double d = visible[b] ? squared_distance_to_bone(p, skeleton, b) : 0;
         if (visible[b] && (nearest.bone < 0 || d < nearest.squared_distance))
             nearest = { b, d };
     }

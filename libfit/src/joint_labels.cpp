@@ -227,7 +227,7 @@ void level_upper_lengths(std::array<LimbJoints, 2>& limbs, double upper_ratio)
 }
 
 /// From the pelvis through the middle of the trunk to the top of the head's curve. Where the arms leave, cuts say nothing.
-Centreline spine(const Surface& surface, const Slicer& slicer, const Vec3& pelvis)
+Centreline spine(const Surface& surface, const Slicer& slicer, const Vec3& pelvis, const Vec3& up)
 {
     const auto is_limb = [&](int vertex) {
         const int node = surface.skeleton.node_of_vertex[vertex];
@@ -239,7 +239,7 @@ Centreline spine(const Surface& surface, const Slicer& slicer, const Vec3& pelvi
     const Centreline cuts = centreline(slicer, curve, k_spacing * surface.graph.size, is_limb);
     std::vector<Vec3> middles { pelvis };
     for (int i = 0; i < cuts.size(); ++i)
-        if (cuts.free[i] && cuts.across[i])
+        if (cuts.free[i] && cuts.across[i] && (cuts.points[i] - pelvis).dot(up) > 2 * k_spacing * surface.graph.size)
             middles.push_back(cuts.points[i]);
     return polyline(middles, 0.5 * k_spacing * surface.graph.size);
 }
@@ -272,7 +272,7 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
             joints.legs[i] = leg_joints(surface, legs[i], joints.size);
         level_upper_lengths(joints.legs, k_knee_ratio);
         joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
-        axis = spine(surface, slicer, joints.pelvis);
+        axis = spine(surface, slicer, joints.pelvis, up);
         const double trunk = axis.length() + (joints.crown - axis.points.back()).norm();
         const double leg = 0.5 * (length(joints.legs[0]) + length(joints.legs[1]));
         joints.size = 0.5 * (leg / k_leg + trunk / k_hip_to_crown);
