@@ -143,7 +143,7 @@ TEST(RigBody, HangsASkinVertexOnTheBoneBelowIt)
 TEST(RigBody, WeighsVerticesOfIslandsToo)
 {
     Person person = capsule_person();
-    const Vec3 head = person.skeleton.tips[head_top] - Vec3(0, 0.1, 0);
+    const Vec3 head = person.skeleton.tips[head_top] + Vec3(0, -0.1, 0.05);
     const auto ball = [&](const Vec3& p) { return (p - head).norm() - 0.03; };
     const TriangleMesh eye = fixtures::polygonise(ball, head - Vec3::Constant(0.06), head + Vec3::Constant(0.06), 0.02);
     const TriangleMesh both = fixtures::joined(person.mesh, eye);

@@ -15,7 +15,8 @@ namespace fit {
 namespace {
 
 constexpr double k_smallest_cotangent = 1e-3;    // keeps the matrix positive definite on obtuse triangles
-constexpr double k_normal_weight = 0.05;         // of the diagonal: how far away a point that faces the other way seems
+constexpr double k_heat = 3;                     // c of the paper; larger keeps skin stiffer between joints
+constexpr double k_normal_weight = 0.015;        // of the diagonal: half of how far a point that faces away seems
 constexpr int k_neighbours = 4;                  // that a transferred weight is blended from
 
 double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
@@ -113,7 +114,7 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
     for (Eigen::Index v = 0; v < n; ++v) {
         const NearestBone nearest = nearest_visible(closed.positions.row(v), skeleton, visible[v]);
-        const double source = areas[v] / std::max(nearest.squared_distance, 1e-8);  // H of the paper
+        const double source = k_heat * areas[v] / std::max(nearest.squared_distance, 1e-8);  // H of the paper
         system.coeffRef(v, v) += source;
         heat(v, nearest.bone) = source;
     }
