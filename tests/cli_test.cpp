@@ -240,6 +240,14 @@ TEST_F(CommandLine, RigsABodyIntoAFolderThatExistsAlready)
               fit::MeshFile::read(k_body).positions());
 }
 
+TEST_F(CommandLine, WritesTheSameBytesWithAnyNumberOfThreads)
+{
+    ASSERT_EQ(run({ "rig", k_body, "--threads", "1", "-o", folder / "one" }).code, 0);
+    ASSERT_EQ(run({ "rig", k_body, "--threads", "4", "-o", folder / "four" }).code, 0);
+    for (const char* file : { "rig.json", "rigged.ply" })
+        EXPECT_TRUE(read_text(folder / "one" / file) == read_text(folder / "four" / file)) << file << " differs";
+}
+
 /// Joint positions by "bone head" and "bone tail".
 std::map<std::string, Eigen::Vector3d> joints_in(const fs::path& rig_json)
 {

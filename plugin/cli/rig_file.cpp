@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rig_file.h"
 
+#include <cmath>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -52,7 +53,11 @@ Eigen::Quaterniond turn(const Frame& frame, const Json& json)
 {
     const Vec3 axis
         = frame.rotation() * Vec3(json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>());
-    return Eigen::Quaterniond(json.at(0).get<double>(), axis.x(), axis.y(), axis.z()).normalized();
+    const Eigen::Quaterniond q(json.at(0).get<double>(), axis.x(), axis.y(), axis.z());
+    if (!(std::abs(q.norm() - 1)
+          < 1e-6))  // not normalised here: a pose comes back with the very bits it was written with
+        throw InvalidInput("a rotation is no unit quaternion");
+    return q;
 }
 
 void put_frame(Json& json, const Frame& frame)
