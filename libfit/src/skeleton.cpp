@@ -66,7 +66,7 @@ const Vec3& Skeleton::head(int bone) const
 
 Pose::Pose() { rotations.fill(Eigen::Quaterniond::Identity()); }
 
-std::array<Eigen::Isometry3d, bone_count> bone_transforms(const Skeleton& own, const Pose& pose)
+BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose)
 {
     const auto about = [](const Vec3& from, const Vec3& to, const Eigen::Quaterniond& rotation) {
         Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
@@ -75,7 +75,7 @@ std::array<Eigen::Isometry3d, bone_count> bone_transforms(const Skeleton& own, c
         return t;
     };
     std::array<Eigen::Quaterniond, bone_count> world;
-    std::array<Eigen::Isometry3d, bone_count> transforms;
+    BoneTransforms transforms;
     for (int b = 0; b < bone_count; ++b) {
         const int p = parent_of(b);
         world[b] = (p < 0 ? pose.root_rotation : world[p]) * pose.rotations[b];
@@ -112,7 +112,7 @@ Pose slerp(const Pose& from, const Pose& to, double t)
 
 // Kavan et al. 2008, algorithm 1; antipodal quaternions are flipped towards the vertex's first bone.
 Positions skin(const Positions& own_positions, const SkinWeights& weights,
-               const std::array<Eigen::Isometry3d, bone_count>& transforms)
+               const BoneTransforms& transforms)
 {
     std::array<DualQuaternion, bone_count> dual;
     std::array<bool, bone_count> still {};

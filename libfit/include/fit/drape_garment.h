@@ -33,7 +33,7 @@ struct DrapeOptions {
     ClothOptions cloth;
     int inflation_steps = 24;       ///< from the bones to full size
     int settling_steps = 40;        ///< time steps under gravity
-    double largest_stretch = 0.3;   ///< stop when a body part stretches the cloth round it by more than this
+    double largest_stretch = 0.15;  ///< stop when a body part stretches the cloth round it by more than this, on the mean
 };
 
 /// Where a garment is too small.
@@ -52,7 +52,7 @@ struct WornGarment {
 struct DrapeResult {
     std::vector<WornGarment> garments;  ///< from the inside out; the last one is new
     Positions body;                     ///< the user's vertices in the fitted pose, at the size reached
-    double size_reached = 1;            ///< 1 = full size; less where the garment is too small
+    double size_reached = 1;            ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
     bool certified = false;             ///< every garment's certificate is clean and the body has its full size
 };

@@ -62,8 +62,11 @@ struct Pose {
     FIT_API Pose();                                                  ///< the own pose
 };
 
-/// Where each bone goes: world-from-own rigid transforms, parents composed in. O(1).
-FIT_API std::array<Eigen::Isometry3d, bone_count> bone_transforms(const Skeleton& own, const Pose& pose);
+/// Where each bone goes: world-from-own rigid transforms.
+using BoneTransforms = std::array<Eigen::Isometry3d, bone_count>;
+
+/// Parents composed in. O(1).
+FIT_API BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose);
 
 /// The joints in a pose.
 FIT_API Skeleton posed(const Skeleton& own, const Pose& pose);
@@ -80,7 +83,7 @@ struct SkinWeights {
 /// Poses vertices by dual quaternion blending; n x 3 in, n x 3 out. O(n).
 /// Vertices come back bit for bit when every transform is exactly the identity.
 FIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights,
-                       const std::array<Eigen::Isometry3d, bone_count>& transforms);
+                       const BoneTransforms& transforms);
 
 /// Everything that rigging a body finds out.
 struct Rig {

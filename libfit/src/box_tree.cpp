@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "box_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace fit {
+namespace {
+
+constexpr int k_leaf_size = 4;
+
+}  // namespace
+
+BoxTree::BoxTree(const std::vector<Box>& boxes)
+{
+    order_.resize(boxes.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    boxes_.resize(boxes.size());
+    if (boxes.empty())
+        return;
+    nodes_.reserve(2 * boxes.size());
+    nodes_.push_back({});
+    build(0, 0, int(boxes.size()), boxes);
+    refit(boxes);
+}
+
+int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
+{
+    if (end - begin <= k_leaf_size) {
+        nodes_[node] = { Box(), begin, end - begin };
+        return node;
+    }
+    Box centres;
+    for (int i = begin; i < end; ++i)
+        centres.extend(boxes[order_[i]].center());
+    int axis;
+    centres.sizes().maxCoeff(&axis);
+    const int middle = (begin + end) / 2;
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int i, int j) {
+        const double ci = boxes[i].center()[axis], cj = boxes[j].center()[axis];
+        return ci != cj ? ci < cj : i < j;
+    });
+    const int children = int(nodes_.size());
+    nodes_[node] = { Box(), children, 0 };
+    nodes_.resize(nodes_.size() + 2);
+    build(children, begin, middle, boxes);
+    build(children + 1, middle, end, boxes);
+    return node;
+}
+
+void BoxTree::refit(const std::vector<Box>& boxes)
+{
+    for (std::size_t i = 0; i < order_.size(); ++i)
+        boxes_[i] = boxes[order_[i]];
+    for (int n = int(nodes_.size()) - 1; n >= 0; --n) {  // children stand behind their parents
+        Node& node = nodes_[n];
+        node.box.setEmpty();
+        if (node.count == 0) {
+            node.box = nodes_[node.first].box.merged(nodes_[node.first + 1].box);
+            continue;
+        }
+        for (int i = node.first; i < node.first + node.count; ++i)
+            node.box.extend(boxes_[i]);
+    }
+}
+
+std::vector<int> BoxTree::front(int size) const
+{
+    std::vector<int> nodes { 0 };
+    for (std::size_t i = 0; i < nodes.size() && int(nodes.size()) < size;) {
+        const Node& node = nodes_[nodes[i]];
+        if (node.count > 0) {
+            ++i;
+            continue;
+        }
+        nodes.erase(nodes.begin() + i);
+        nodes.push_back(node.first);
+        nodes.push_back(node.first + 1);
+    }
+    return nodes;
+}
+
+template <class F> void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
+{
+    const Node &x = a.nodes_[na], &y = b.nodes_[nb];
+    if (!x.box.intersects(y.box))
+        return;
+    if (x.count > 0 && y.count > 0) {
+        for (int i = x.first; i < x.first + x.count; ++i)
+            for (int j = y.first; j < y.first + y.count; ++j)
+                if (a.boxes_[i].intersects(b.boxes_[j]))
+                    f(a.order_[i], b.order_[j]);
+    } else if (y.count > 0 || (x.count == 0 && x.box.sizes().sum() >= y.box.sizes().sum())) {
+        descend(a, x.first, b, nb, f);
+        descend(a, x.first + 1, b, nb, f);
+    } else {
+        descend(a, na, b, y.first, f);
+        descend(a, na, b, y.first + 1, f);
+    }
+}
+
+void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
+{
+    if (a.empty() || b.empty())
+        return;
+    const std::vector<int> roots = a.front(k_parts);
+    tbb::parallel_for(0, int(roots.size()), [&](int part) {
+        descend(a, roots[part], b, 0, [&](int i, int j) { visit(part, i, j); });
+    });
+}
+
+}  // namespace fit

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/certificate.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "contact.h"
+
+namespace fit {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangle = Kernel::Triangle_3;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Kernel::Point_3 point(const Positions& p, int v) { return { p(v, 0), p(v, 1), p(v, 2) }; }
+
+/// Triangles with area, in a tree. One without area is covered by its edges, which are edges of its neighbours.
+class TriangleTree {
+public:
+    explicit TriangleTree(const TriangleMesh& mesh)
+    {
+        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+            const Triangle t(point(mesh.positions, mesh.triangles(f, 0)), point(mesh.positions, mesh.triangles(f, 1)),
+                             point(mesh.positions, mesh.triangles(f, 2)));
+            if (t.is_degenerate())
+                continue;
+            triangles_.push_back(t);
+            index_.push_back(int(f));
+        }
+        tree_.rebuild(triangles_.cbegin(), triangles_.cend());
+        tree_.build();
+    }
+
+    std::vector<int> met_by(const Kernel::Segment_3& segment) const
+    {
+        std::vector<std::vector<Triangle>::const_iterator> hits;
+        if (!triangles_.empty())
+            tree_.all_intersected_primitives(segment, std::back_inserter(hits));
+        std::vector<int> result;
+        for (const auto& hit : hits)
+            result.push_back(index_[hit - triangles_.cbegin()]);
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+    double distance(const Kernel::Point_3& p) const
+    {
+        return triangles_.empty() ? INFINITY : std::sqrt(tree_.squared_distance(p));
+    }
+    void accelerate_distances() { tree_.accelerate_distance_queries(); }
+
+private:
+    std::vector<Triangle> triangles_;
+    std::vector<int> index_;
+    Tree tree_;
+};
+
+std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bool same)
+{
+    const auto edges = edges_of(a.triangles);
+    const TriangleTree tree(b);
+    std::vector<std::vector<int>> hits(edges.rows());
+    tbb::parallel_for(Eigen::Index(0), edges.rows(), [&](Eigen::Index e) {
+        const auto p = point(a.positions, edges(e, 0)), q = point(a.positions, edges(e, 1));
+        if (p != q)
+            hits[e] = tree.met_by({ p, q });
+    });
+    std::vector<Crossing> result;
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+        for (int f : hits[e]) {
+            const auto corners = b.triangles.row(f).array();
+            if (!same || !((corners == edges(e, 0)).any() || (corners == edges(e, 1)).any()))
+                result.emplace_back(int(e), f);
+        }
+    return result;
+}
+
+// Sum of signed solid angles of all triangles over the full sphere; van Oosterom and Strackee 1983.
+double winding_number(const TriangleMesh& mesh, const Vec3& p)
+{
+    double sum = 0;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)).transpose() - p,
+                   b = mesh.positions.row(mesh.triangles(f, 1)).transpose() - p,
+                   c = mesh.positions.row(mesh.triangles(f, 2)).transpose() - p;
+        const double la = a.norm(), lb = b.norm(), lc = c.norm();
+        sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    }
+    return sum / (2 * M_PI);
+}
+
+// Along an edge that does not cross the body the winding number stays the same: one evaluation serves a whole piece.
+int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const std::vector<Crossing>& through_body)
+{
+    const auto edges = edges_of(garment.triangles);
+    std::vector<char> crosses(edges.rows(), 0);
+    for (const auto& [e, f] : through_body)
+        crosses[e] = 1;
+    std::vector<int> piece(garment.positions.rows());
+    std::iota(piece.begin(), piece.end(), 0);
+    const auto root = [&](int v) {
+        while (piece[v] != v)
+            v = piece[v] = piece[piece[v]];
+        return v;
+    };
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+        if (!crosses[e])
+            piece[root(edges(e, 0))] = root(edges(e, 1));
+    std::vector<int> size(piece.size(), 0), roots;
+    for (int v = 0; v < int(piece.size()); ++v)
+        if (size[root(v)]++ == 0)
+            roots.push_back(root(v));
+    std::vector<char> inside(piece.size(), 0);
+    tbb::parallel_for(std::size_t(0), roots.size(), [&](std::size_t i) {
+        inside[roots[i]] = winding_number(body, garment.positions.row(roots[i])) > 0.5;
+    });
+    int count = 0;
+    for (int r : roots)
+        count += inside[r] ? size[r] : 0;
+    return count;
+}
+
+// Vertex distances bound the gap from above; the contact search below that bound finds edges that come closer.
+double smallest_gap(const TriangleMesh& a, const TriangleMesh& b)
+{
+    TriangleTree tree(b);
+    tree.accelerate_distances();
+    double bound = INFINITY;
+    for (Eigen::Index v = 0; v < a.positions.rows(); ++v)
+        bound = std::min(bound, tree.distance(point(a.positions, int(v))));
+    if (!std::isfinite(bound))
+        return bound;
+    Positions x(a.positions.rows() + b.positions.rows(), 3);
+    x << a.positions, b.positions;
+    Contact contact(a.triangles, int(a.positions.rows()), b.triangles, int(b.positions.rows()));
+    contact.detect(x, std::vector<double>(x.rows(), 0.5 * bound));
+    for (const ContactPair& pair : contact.pairs())
+        if (!pair.self)
+            bound = std::min(bound, pair.at.distance);
+    return bound;
+}
+
+double quantile(std::vector<double> values, double share)
+{
+    if (values.empty())
+        return 0;
+    const auto nth = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+}  // namespace
+
+std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b) { return crossings(a, b, false); }
+
+std::vector<Crossing> self_crossings(const TriangleMesh& mesh) { return crossings(mesh, mesh, true); }
+
+int crossing_count(const TriangleMesh& a, const TriangleMesh& b)
+{
+    return int(crossings(a, b).size() + crossings(b, a).size());
+}
+
+Strain strain_of(const GarmentMesh& rest, const Positions& positions)
+{
+    const auto edges = edges_of(rest.triangles);
+    std::vector<double> strains;
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const double l0 = (rest.positions.row(edges(e, 0)) - rest.positions.row(edges(e, 1))).norm();
+        const double l = (positions.row(edges(e, 0)) - positions.row(edges(e, 1))).norm();
+        if (l0 > 0)
+            strains.push_back(std::abs(l / l0 - 1));
+    }
+    return { quantile(strains, 0.5), quantile(strains, 0.95), quantile(strains, 1) };
+}
+
+Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Positions& positions,
+                    const std::vector<TriangleMesh>& under)
+{
+    const TriangleMesh garment { positions, rest.triangles };
+    const std::vector<Crossing> through_body = crossings(garment, body);
+    Certificate result;
+    result.body_crossings = int(through_body.size() + crossings(body, garment).size());
+    result.input_self_crossings = int(self_crossings({ rest.positions, rest.triangles }).size());
+    result.self_crossings = std::max(0, int(self_crossings(garment).size()) - result.input_self_crossings);
+    for (const TriangleMesh& layer : under)
+        result.layer_crossings += crossing_count(garment, layer);
+    result.vertices_inside = vertices_inside(body, garment, through_body);
+    result.smallest_gap = result.body_crossings > 0 ? 0 : smallest_gap(garment, body);
+    result.strain = strain_of(rest, positions);
+    return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloth_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "fit/error.h"
+
+namespace fit {
+namespace {
+
+// Slivers have cotangents without bound; past this they only say "this angle is small".
+constexpr double k_largest_cotangent = 10;
+// Vertices without area get the mass of a square millimetre of cotton, so that the system stays definite.
+constexpr double k_least_mass = 2e-7;
+
+double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b)
+{
+    const Vec3 u = a - apex, v = b - apex;
+    const double sine = u.cross(v).norm(), cosine = u.dot(v);
+    if (sine <= std::abs(cosine) / k_largest_cotangent)
+        return cosine < 0 ? -k_largest_cotangent : k_largest_cotangent;
+    return cosine / sine;
+}
+
+// Axes of a hinge as columns: its edge, the mean of its two normals, and what is across both.
+template <class P> Eigen::Matrix3d hinge_frame(const P& x, const std::array<int, 4>& v)
+{
+    const Vec3 a = x.row(v[0]), b = x.row(v[1]), c = x.row(v[2]), d = x.row(v[3]);
+    const Vec3 edge = (b - a).normalized();
+    Vec3 normal = (b - a).cross(c - a).normalized() + (d - a).cross(b - a).normalized();
+    normal = (normal - normal.dot(edge) * edge).normalized();
+    Eigen::Matrix3d frame;
+    frame << edge, normal, edge.cross(normal);
+    return frame;
+}
+
+template <class P> Vec3 weighted_sum(const P& x, const std::array<int, 4>& v, const std::array<double, 4>& w)
+{
+    return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
+}
+
+}  // namespace
+
+ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties, const ClothOptions& options)
+    : masses_(rest.positions.rows(), k_least_mass)
+{
+    std::map<std::pair<int, int>, double> area_at_edge;
+    for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
+        const Vec3 a = rest.positions.row(rest.triangles(f, 0)), b = rest.positions.row(rest.triangles(f, 1)),
+                   c = rest.positions.row(rest.triangles(f, 2));
+        const double area = 0.5 * (b - a).cross(c - a).norm();
+        for (int k = 0; k < 3; ++k) {
+            masses_[rest.triangles(f, k)] += options.density * area / 3;
+            area_at_edge[std::minmax(rest.triangles(f, k), rest.triangles(f, (k + 1) % 3))] += area;
+        }
+    }
+    const auto length = [&](int i, int j) { return (rest.positions.row(i) - rest.positions.row(j)).norm(); };
+    for (const auto& [edge, area] : area_at_edge) {
+        const auto [i, j] = edge;
+        // a spring stands for the strip of cloth beside it: width = area / length
+        if (const double l = length(i, j); l > 0)
+            springs_.push_back({ i, j, l, options.stretch_stiffness * std::min(area / (l * l), 1.0 * k_largest_cotangent) });
+    }
+    for (const auto& [i, j] : ties)
+        springs_.push_back({ i, j, length(i, j), options.stretch_stiffness });
+    add_hinges(rest, options.bend_stiffness);
+
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Spring& s : springs_) {
+        entries.insert(entries.end(), { { s.i, s.i, s.stiffness }, { s.j, s.j, s.stiffness },
+                                        { s.i, s.j, -s.stiffness }, { s.j, s.i, -s.stiffness } });
+    }
+    for (const Hinge& h : hinges_)
+        for (int r = 0; r < 4; ++r)
+            for (int c = 0; c < 4; ++c)
+                entries.emplace_back(h.v[r], h.v[c], h.stiffness * h.coefficients[r] * h.coefficients[c]);
+    for (std::size_t v = 0; v < masses_.size(); ++v)
+        entries.emplace_back(int(v), int(v), 0.0);  // every diagonal entry exists: prepare() writes there
+    elastic_.resize(rest.positions.rows(), rest.positions.rows());
+    elastic_.setFromTriplets(entries.begin(), entries.end());
+}
+
+void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
+{
+    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> corners_at;  // edge -> (opposite corner, first vertex)
+    for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int i = rest.triangles(f, k), j = rest.triangles(f, (k + 1) % 3);
+            corners_at[std::minmax(i, j)].emplace_back(rest.triangles(f, (k + 2) % 3), i);
+        }
+    for (const auto& [edge, corners] : corners_at) {
+        if (corners.size() != 2 || corners[0].first == corners[1].first)
+            continue;
+        const int a = corners[0].second, b = a == edge.first ? edge.second : edge.first;
+        Hinge h { { a, b, corners[0].first, corners[1].first }, {}, Vec3::Zero(), 0 };
+        const auto x = [&](int k) { return Vec3(rest.positions.row(h.v[k])); };
+        const double c01 = cotangent(x(0), x(1), x(2)), c02 = cotangent(x(0), x(1), x(3)),
+                     c11 = cotangent(x(1), x(0), x(2)), c12 = cotangent(x(1), x(0), x(3));
+        h.coefficients = { c11 + c12, c01 + c02, -c01 - c11, -c02 - c12 };
+        const double areas = 0.5 * ((x(1) - x(0)).cross(x(2) - x(0)).norm() + (x(1) - x(0)).cross(x(3) - x(0)).norm());
+        if (!(areas > 0))
+            continue;
+        h.stiffness = bend_stiffness * 3 / areas;
+        h.curvature = hinge_frame(rest.positions, h.v).transpose() * weighted_sum(rest.positions, h.v, h.coefficients);
+        hinges_.push_back(h);
+    }
+}
+
+void ClothEnergy::prepare(double time_step, const std::vector<double>& contact_stiffness)
+{
+    inertia_ = 1 / (time_step * time_step);
+    Eigen::SparseMatrix<double> system = elastic_;
+    for (Eigen::Index v = 0; v < system.rows(); ++v)
+        system.coeffRef(v, v) += masses_[v] * inertia_ + contact_stiffness[v];
+    if (!analysed_)
+        solver_.analyzePattern(system);
+    analysed_ = true;
+    solver_.factorize(system);
+    if (solver_.info() != Eigen::Success)
+        throw SolverFailure("cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
+}
+
+// Right side of the global system: where inertia, the projected springs and hinges, and contact pull.
+Eigen::MatrixXd ClothEnergy::loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
+{
+    Eigen::MatrixXd right(x.rows(), 3);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        right.row(v) = masses_[v] * inertia_ * inertial.row(v);
+    for (const Spring& s : springs_) {
+        const Vec3 edge = x.row(s.i) - x.row(s.j);
+        const double length = edge.norm();
+        if (length == 0)
+            continue;
+        const Vec3 pull = s.stiffness * s.length / length * edge;
+        right.row(s.i) += pull;
+        right.row(s.j) -= pull;
+    }
+    for (const Hinge& h : hinges_) {
+        const Vec3 target = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
+        for (int k = 0; k < 4; ++k)
+            right.row(h.v[k]) += h.coefficients[k] * target;
+    }
+    for (const Press& press : presses) {
+        const Vec3 pull = press.stiffness_times(press.target);
+        for (int k = 0; k < 4; ++k)
+            if (press.vertices[k] >= 0)
+                right.row(press.vertices[k]) += press.weights[k] * pull;
+    }
+    return right;
+}
+
+// Left side of the global system, n x 3.
+Eigen::MatrixXd ClothEnergy::applied(const Eigen::MatrixXd& x, const std::vector<Press>& presses) const
+{
+    Eigen::MatrixXd result = elastic_ * x;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        result.row(v) += masses_[v] * inertia_ * x.row(v);
+    for (const Press& press : presses) {
+        Vec3 sum = Vec3::Zero();
+        for (int k = 0; k < 4; ++k)
+            if (press.vertices[k] >= 0)
+                sum += press.weights[k] * x.row(press.vertices[k]).transpose();
+        const Vec3 pull = press.stiffness_times(sum);
+        for (int k = 0; k < 4; ++k)
+            if (press.vertices[k] >= 0)
+                result.row(press.vertices[k]) += press.weights[k] * pull;
+    }
+    return result;
+}
+
+Positions ClothEnergy::minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
+{
+    constexpr int k_gradient_steps = 5;        // the next local projection changes the system's right side anyway
+    constexpr double k_good_enough = 1e-4;     // of the first residual
+    Eigen::MatrixXd solution = x;
+    Eigen::MatrixXd residual = loads(x, inertial, presses) - applied(solution, presses);
+    Eigen::MatrixXd preconditioned = solver_.solve(residual), direction = preconditioned;
+    double square = residual.cwiseProduct(preconditioned).sum();
+    const double first = square;
+    for (int i = 0; i < k_gradient_steps && square > k_good_enough * k_good_enough * first; ++i) {
+        const Eigen::MatrixXd image = applied(direction, presses);
+        const double length = square / direction.cwiseProduct(image).sum();
+        solution += length * direction;
+        if (i + 1 == k_gradient_steps)
+            break;
+        residual -= length * image;
+        preconditioned = solver_.solve(residual);
+        const double next = residual.cwiseProduct(preconditioned).sum();
+        direction = preconditioned + next / square * direction;
+        square = next;
+    }
+    return solution;
+}
+
+}  // namespace fit

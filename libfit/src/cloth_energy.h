@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The elastic energy of a garment and its implicit time step.
+//
+// Method   projective dynamics, Bouaziz et al. 2014: local projections, then one sparse linear system for all of them.
+// Stretch  a spring along each edge that wants its rest length.
+// Bend     quadratic hinges, Bergou et al. 2006, that want the mean curvature vector they have at rest, turned along with the
+//          hinge: the garment's own folds stay.
+// Units    metres, kilograms, seconds.
+
+#include <Eigen/SparseCholesky>
+#include <array>
+#include <vector>
+
+#include "fit/drape_garment.h"
+
+namespace fit {
+
+/// A wish of contact for a weighted sum s of up to four vertices: be at `target`, energy 1/2 (s - target)^T K (s - target)
+/// with the stiffness K = normal_stiffness along the normal and tangent_stiffness across it, N/m.
+struct Press {
+    std::array<int, 4> vertices;    ///< -1: not cloth, takes no part
+    std::array<double, 4> weights;
+    Vec3 target, normal;
+    double normal_stiffness, tangent_stiffness;
+
+    Vec3 stiffness_times(const Vec3& s) const
+    {
+        return tangent_stiffness * s + (normal_stiffness - tangent_stiffness) * normal.dot(s) * normal;
+    }
+};
+
+class ClothEnergy {
+public:
+    /// @param ties  pairs of vertices held at their rest distance, beside the edges
+    ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties, const ClothOptions& options);
+
+    /// Fixes the time step and, vertex by vertex, about how stiff contact will be (N/m): one factorisation. It only steers
+    /// how fast minimize() gets on.
+    void prepare(double time_step, const std::vector<double>& contact_stiffness);
+
+    /// One local-global iteration from x towards the minimum of inertia (about `inertial`), stretch, bend and presses: local
+    /// projections, then a few steps of conjugate gradients on the global system, preconditioned by that factorisation.
+    Positions minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
+
+private:
+    struct Spring {
+        int i, j;
+        double length, stiffness;
+    };
+    struct Hinge {
+        std::array<int, 4> v;               // the shared edge, then the opposite corners
+        std::array<double, 4> coefficients; // their weighted sum is the mean curvature vector of the hinge
+        Vec3 curvature;                     // that vector at rest, in the hinge's own frame
+        double stiffness;
+    };
+    Eigen::MatrixXd loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
+    Eigen::MatrixXd applied(const Eigen::MatrixXd& x, const std::vector<Press>& presses) const;
+    void add_hinges(const GarmentMesh& rest, double bend_stiffness);
+
+    std::vector<double> masses_;
+    std::vector<Spring> springs_;
+    std::vector<Hinge> hinges_;
+    Eigen::SparseMatrix<double> elastic_;  // constant part of the system, n x n, both triangles
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver_;
+    bool analysed_ = false;
+    double inertia_ = 0;                   // 1 / h^2
+};
+
+}  // namespace fit

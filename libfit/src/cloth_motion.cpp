@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloth_motion.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace fit {
+namespace {
+
+// Contact is this many times as stiff as the cloth, so that a tight garment presses less than a millimetre into its
+// contact zone.
+constexpr double k_contact_stiffness = 3;
+// Pairs this much beyond the contact distance may come into contact while a step is solved.
+constexpr double k_lookout = 1.5e-3;
+
+// Vertices at exactly one place are one: seams of UV charts are no cuts.
+std::vector<int> weld(const Positions& rest)
+{
+    std::map<std::array<double, 3>, int> places;
+    std::vector<int> welded(rest.rows());
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+        welded[v] = places.try_emplace({ rest(v, 0), rest(v, 1), rest(v, 2) }, int(places.size())).first->second;
+    return welded;
+}
+
+int count(const std::vector<int>& welded) { return 1 + *std::max_element(welded.begin(), welded.end()); }
+
+Positions gathered(const std::vector<int>& welded, const Positions& positions)
+{
+    Positions result(count(welded), 3);
+    for (std::size_t v = 0; v < welded.size(); ++v)
+        result.row(welded[v]) = positions.row(v);
+    return result;
+}
+
+GarmentMesh gathered(const std::vector<int>& welded, const GarmentMesh& mesh)
+{
+    GarmentMesh result { gathered(welded, mesh.positions), Triangles(mesh.triangles.rows(), 3) };
+    Eigen::Index kept = 0;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const int a = welded[mesh.triangles(f, 0)], b = welded[mesh.triangles(f, 1)], c = welded[mesh.triangles(f, 2)];
+        if (a != b && b != c && c != a)
+            result.triangles.row(kept++) << a, b, c;
+    }
+    result.triangles.conservativeResize(kept, 3);
+    return result;
+}
+
+// What crosses at the start is held together as it is, so that it crosses no more at the end.
+std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossings, const GarmentMesh& mesh)
+{
+    const auto edges = edges_of(mesh.triangles);
+    std::vector<std::pair<int, int>> ties;
+    for (const auto& [e, f] : crossings)
+        for (int i = 0; i < 2; ++i)
+            for (int k = 0; k < 3; ++k)
+                ties.emplace_back(std::minmax(edges(e, i), mesh.triangles(f, k)));
+    std::sort(ties.begin(), ties.end());
+    ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
+    return ties;
+}
+
+std::vector<double> lengths(const Positions& displacements)
+{
+    const Eigen::VectorXd norms = displacements.rowwise().norm();
+    return { norms.data(), norms.data() + norms.size() };
+}
+
+void shorten(Positions& displacements, const std::vector<double>& limits)
+{
+    for (Eigen::Index v = 0; v < displacements.rows(); ++v)
+        if (const double length = displacements.row(v).norm(); length > limits[v])
+            displacements.row(v) *= limits[v] / length;
+}
+
+}  // namespace
+
+/// A pair near contact, linear in the positions: gap = normal . (sum of weight * position).
+struct ClothMotion::Touch {
+    const ContactPair* pair;
+    Vec3 normal;
+    double wanted;    // m; the gap below which force begins
+};
+
+ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle, const ClothOptions& options)
+    : options_(options)
+    , welded_(weld(rest.positions))
+    , rest_(gathered(welded_, rest))
+    , cloth_vertices_(int(rest_.positions.rows()))
+    , contact_(rest_.triangles, cloth_vertices_, obstacle.triangles, int(obstacle.positions.rows()))
+    , energy_(rest_, ties_across(self_crossings({ rest_.positions, rest_.triangles }), rest_), options)
+    , x_(cloth_vertices_ + obstacle.positions.rows(), 3)
+    , velocity_(Positions::Zero(cloth_vertices_, 3))
+{
+    x_ << gathered(welded_, start), obstacle.positions;
+    contact_.exempt(self_crossings({ Positions(x_.topRows(cloth_vertices_)), rest_.triangles }));
+}
+
+Positions ClothMotion::cloth() const
+{
+    Positions result(vertices(), 3);
+    for (int v = 0; v < vertices(); ++v)
+        result.row(v) = x_.row(welded_[v]);
+    return result;
+}
+
+Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth_vertices_); }
+
+// The one place where positions change.
+void ClothMotion::move(const Positions& displacements)
+{
+    const std::vector<double> shares = contact_.free_shares(x_, displacements, options_.smallest_gap);
+    for (Eigen::Index v = 0; v < x_.rows(); ++v)
+        x_.row(v) += shares[v] * displacements.row(v);
+}
+
+void ClothMotion::carry(const Positions& cloth, const Positions& obstacle)
+{
+    Positions displacements(x_.rows(), 3);
+    displacements << gathered(welded_, cloth), obstacle;
+    contact_.detect(x_, lengths(displacements));
+    move(displacements);
+}
+
+std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) const
+{
+    std::vector<Touch> result;
+    for (const ContactPair& pair : contact_.pairs()) {
+        Corners now, next, rest;
+        for (int k = 0; k < 4; ++k) {
+            now[k] = x_.row(pair.vertices[k]);
+            next[k] = wished.row(pair.vertices[k]);
+        }
+        const Vec3 normal = separation(pair.at.weights, now) / pair.at.distance;
+        if (normal.dot(separation(pair.at.weights, next)) > options_.contact_distance + k_lookout)
+            continue;
+        double wanted = options_.contact_distance;
+        if (pair.self) {  // sheets that lie closer at rest are left as they are
+            for (int k = 0; k < 4; ++k)
+                rest[k] = rest_.positions.row(pair.vertices[k]);
+            wanted = std::min(wanted, closest(pair.kind, rest).distance);
+        }
+        result.push_back({ &pair, normal, wanted });
+    }
+    return result;
+}
+
+std::vector<double> ClothMotion::contact_stiffness(const std::vector<Touch>& touches) const
+{
+    std::vector<double> stiffness(cloth_vertices_, 0.0);
+    for (const Touch& touch : touches)
+        for (int k = 0; k < 4; ++k)
+            if (const int v = touch.pair->vertices[k]; v < cloth_vertices_)
+                stiffness[v] += touch.pair->at.weights[k] * touch.pair->at.weights[k];
+    for (double& s : stiffness)
+        s = std::min(1.0, s) * k_contact_stiffness * options_.stretch_stiffness;
+    return stiffness;
+}
+
+// A touch that is too near wants its gap back along the normal, and holds against slipping with Coulomb's force.
+std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const
+{
+    std::vector<Press> result;
+    for (const Touch& touch : touches) {
+        Press press { touch.pair->vertices, touch.pair->at.weights, Vec3::Zero(), touch.normal,
+                      k_contact_stiffness * options_.stretch_stiffness, 0 };
+        Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) {
+            const int v = press.vertices[k];
+            before += press.weights[k] * x_.row(v).transpose();
+            now += press.weights[k] * wished.row(v).transpose();
+            if (v >= cloth_vertices_) {
+                obstacle += press.weights[k] * wished.row(v).transpose();
+                press.vertices[k] = -1;
+            }
+        }
+        const double depth = touch.wanted - touch.normal.dot(now);
+        if (depth <= 0)
+            continue;
+        const Vec3 slip = (now - before) - (now - before).dot(touch.normal) * touch.normal;
+        const double slipped = slip.norm();
+        press.tangent_stiffness = press.normal_stiffness * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
+        press.target = touch.wanted * touch.normal + (before - before.dot(touch.normal) * touch.normal) - obstacle;
+        result.push_back(press);
+    }
+    return result;
+}
+
+double ClothMotion::advance(const MotionStep& step)
+{
+    const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
+    Positions displacements = Positions::Zero(x_.rows(), 3);
+    displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
+    std::vector<double> reach = lengths(displacements);
+    for (Eigen::Index v = 0; v < x_.rows(); ++v)
+        reach[v] = v < cloth_vertices_ ? step.largest_move : std::min(reach[v], step.largest_obstacle_move);
+    contact_.detect(x_, reach);
+    shorten(displacements, reach);
+
+    Positions wished = x_ + displacements;
+    const std::vector<Touch> near = touches(wished);
+    energy_.prepare(step.time_step, contact_stiffness(near));
+    Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
+    inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
+    for (int i = 0; i < step.iterations; ++i)
+        wished.topRows(cloth_vertices_) = energy_.minimized(wished.topRows(cloth_vertices_), inertial,
+                                                            presses(near, wished, step.friction));
+    displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
+    shorten(displacements, reach);
+
+    const Positions before = x_.topRows(cloth_vertices_);
+    move(displacements);
+    velocity_ = (x_.topRows(cloth_vertices_) - before) / step.time_step;
+    return settle_obstacle(*step.obstacle_target);
+}
+
+double ClothMotion::settle_obstacle(const Positions& target)
+{
+    constexpr double k_rounding = 1e-12;  // m; nearer than this the target's own bits are taken
+    double longest_lag = 0;
+    for (Eigen::Index v = 0; v < target.rows(); ++v) {
+        auto here = x_.row(cloth_vertices_ + v);
+        if (const double lag = (target.row(v) - here).norm(); lag > k_rounding)
+            longest_lag = std::max(longest_lag, lag);
+        else
+            here = target.row(v);
+    }
+    return longest_lag;
+}
+
+}  // namespace fit

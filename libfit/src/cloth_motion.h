@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A garment and an obstacle in motion: the one place where positions change, and only by free motions.
+//
+// Each step wishes positions for all vertices (the obstacle its targets, the cloth the minimum of its energy) and lets
+// every vertex go as far towards its wish as nothing crosses. A vertex that is held back lags, and goes on at the next step;
+// nothing else waits for it.
+
+#include "cloth_energy.h"
+#include "contact.h"
+
+namespace fit {
+
+constexpr double k_gravity = 9.81;  ///< m/s^2
+
+struct MotionStep {
+    const Positions* obstacle_target;       ///< where the obstacle should go
+    double largest_move = 4e-3;             ///< m; no cloth vertex goes further
+    double largest_obstacle_move = 3e-3;    ///< m; no obstacle vertex goes further towards its target
+    double time_step = 0.02;                ///< s
+    double velocity_kept = 0;               ///< share of the cloth's velocity kept from the step before
+    double gravity = 0;                     ///< m/s^2, along -y
+    double friction = 0;
+    int iterations = 6;                     ///< local-global iterations
+};
+
+class ClothMotion {
+public:
+    /// The start must be free of crossings between cloth and obstacle; `start` is n x 3, the obstacle m x 3.
+    ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle, const ClothOptions& options);
+
+    /// Moves cloth and obstacle together by these displacements (n x 3, m x 3), as far as each vertex freely may. What was
+    /// lagging before keeps its lag, and nothing is left behind by it.
+    void carry(const Positions& cloth, const Positions& obstacle);
+
+    /// Lets the obstacle go to its target and the cloth find its rest around it.
+    /// @return the longest way that an obstacle vertex still has to its target, metres
+    double advance(const MotionStep& step);
+
+    Positions cloth() const;     ///< as the garment's own vertices, n x 3
+    Positions obstacle() const;  ///< m x 3
+    int vertices() const { return int(welded_.size()); }  ///< of the garment
+
+private:
+    struct Touch;
+    void move(const Positions& displacements);
+    double settle_obstacle(const Positions& target);
+    std::vector<Touch> touches(const Positions& wished) const;
+    std::vector<double> contact_stiffness(const std::vector<Touch>& touches) const;
+    std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const;
+
+    ClothOptions options_;
+    std::vector<int> welded_;       // garment vertex -> cloth vertex; vertices at one place are one
+    GarmentMesh rest_;              // welded
+    int cloth_vertices_;
+    Contact contact_;
+    ClothEnergy energy_;
+    Positions x_;                   // cloth, then obstacle
+    Positions velocity_;            // of the cloth, m/s
+};
+
+}  // namespace fit

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "creases.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/parallel_for.h>
+
+#include <numeric>
+#include <queue>
+
+#include "fit/mesh.h"
+
+namespace fit {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangle = Kernel::Triangle_3;
+using TriangleIterator = std::vector<Triangle>::const_iterator;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>>>;
+
+// The sides of a crease are part of it this far (metres, along edges) from where it is shut: where its membrane begins, cloth
+// must find room again.
+constexpr double k_side = 0.03;
+// A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
+constexpr double k_enclosed = 0.01;
+
+Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
+Kernel::Vector_3 vector(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
+
+/// How far each vertex sees along its normal until it meets the surface again; 0 when it sees it from behind, as it is inside
+/// then; infinite when it sees nothing.
+std::vector<double> room_above(const TriangleMesh& surface)
+{
+    std::vector<Triangle> triangles;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const auto corner = [&](int k) { return point(surface.positions.row(surface.triangles(f, k))); };
+        if (Triangle t(corner(0), corner(1), corner(2)); !t.is_degenerate())
+            triangles.push_back(t);
+    }
+    Tree tree(triangles.cbegin(), triangles.cend());
+    tree.build();
+    const Positions normals = vertex_normals(surface.positions, surface.triangles);
+    const double above = 1e-6 * (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
+    std::vector<double> result(surface.positions.rows(), INFINITY);
+    tbb::parallel_for(Eigen::Index(0), surface.positions.rows(), [&](Eigen::Index v) {
+        const Vec3 n = normals.row(v), p = surface.positions.row(v).transpose() + above * n;
+        if (n.isZero())
+            return;
+        const auto hit = tree.first_intersection(Kernel::Ray_3(point(p), vector(n)));
+        if (!hit)
+            return;
+        const Kernel::Point_3* where = boost::get<Kernel::Point_3>(&hit->first);
+        if (!where)
+            return;
+        const double distance = std::sqrt(CGAL::squared_distance(*where, point(p)));
+        const bool from_behind = hit->second->supporting_plane().orthogonal_vector() * vector(n) > 0;
+        result[v] = from_behind ? 0 : distance;
+    });
+    return result;
+}
+
+using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vertices)
+{
+    std::vector<std::vector<int>> neighbours(vertices);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        neighbours[edges(e, 0)].push_back(edges(e, 1));
+        neighbours[edges(e, 1)].push_back(edges(e, 0));
+    }
+    return neighbours;
+}
+
+/// Vertices without room, and the sides of the wedges that open from them.
+std::vector<char> creased(const Positions& positions, const std::vector<double>& room,
+                          const std::vector<std::vector<int>>& neighbours, double clearance)
+{
+    std::vector<double> way(room.size(), INFINITY);  // from the nearest vertex without room; Dijkstra's algorithm
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    for (std::size_t v = 0; v < room.size(); ++v)
+        if (room[v] < clearance)
+            front.emplace(way[v] = 0, int(v));
+    while (!front.empty()) {
+        const auto [here, v] = front.top();
+        front.pop();
+        if (here > way[v])
+            continue;
+        for (int n : neighbours[v])
+            if (const double there = here + (positions.row(v) - positions.row(n)).norm(); there < std::min(way[n], k_side))
+                front.emplace(way[n] = there, n);
+    }
+    std::vector<char> result(room.size());
+    for (std::size_t v = 0; v < room.size(); ++v)
+        result[v] = way[v] < k_side;
+    return result;
+}
+
+// Patches of skin that a crease encloses belong to it: left out, they would pin its membrane down inside.
+void add_enclosed(std::vector<char>& marked, const std::vector<std::vector<int>>& neighbours)
+{
+    std::vector<char> seen = marked;
+    for (std::size_t seed = 0; seed < marked.size(); ++seed) {
+        if (seen[seed])
+            continue;
+        std::vector<int> patch { int(seed) };
+        seen[seed] = 1;
+        for (std::size_t i = 0; i < patch.size(); ++i)
+            for (int n : neighbours[patch[i]])
+                if (!seen[n]) {
+                    seen[n] = 1;
+                    patch.push_back(n);
+                }
+        if (patch.size() < k_enclosed * marked.size())
+            for (int v : patch)
+                marked[v] = 1;
+    }
+}
+
+// A membrane needs a border: pieces that lie in a crease as a whole (eyeballs, say) are left alone.
+void drop_without_border(std::vector<char>& marked, const std::vector<std::vector<int>>& neighbours)
+{
+    std::vector<char> anchored(marked.size(), 0);
+    std::queue<int> front;
+    for (std::size_t v = 0; v < marked.size(); ++v)
+        if (!marked[v])
+            front.push(int(v));
+    while (!front.empty()) {
+        for (int n : neighbours[front.front()])
+            if (marked[n] && !anchored[n]) {
+                anchored[n] = 1;
+                front.push(n);
+            }
+        front.pop();
+    }
+    marked = anchored;
+}
+
+}  // namespace
+
+Creases::Creases(const TriangleMesh& surface, double clearance)
+{
+    const Edges edges = edges_of(surface.triangles);
+    const auto neighbours = neighbours_of(edges, std::size_t(surface.positions.rows()));
+    std::vector<char> inside = creased(surface.positions, room_above(surface), neighbours, clearance);
+    add_enclosed(inside, neighbours);
+    drop_without_border(inside, neighbours);
+
+    std::vector<int> row(inside.size(), -1);
+    for (std::size_t v = 0; v < inside.size(); ++v)
+        if (inside[v]) {
+            row[v] = int(inner_.size());
+            inner_.push_back(int(v));
+        }
+    std::vector<Eigen::Triplet<double>> laplacian, border;
+    const auto couple = [&](int v, int n) {
+        if (row[v] < 0)
+            return;
+        laplacian.emplace_back(row[v], row[v], 1.0);
+        if (row[n] >= 0)
+            laplacian.emplace_back(row[v], row[n], -1.0);
+        else
+            border.emplace_back(row[v], n, 1.0);
+    };
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        couple(edges(e, 0), edges(e, 1));
+        couple(edges(e, 1), edges(e, 0));
+    }
+    Eigen::SparseMatrix<double> system(inner_.size(), inner_.size());
+    system.setFromTriplets(laplacian.begin(), laplacian.end());
+    to_border_.resize(inner_.size(), surface.positions.rows());
+    to_border_.setFromTriplets(border.begin(), border.end());
+    if (!inner_.empty())
+        membrane_.compute(system);
+}
+
+Positions Creases::bridged(const Positions& positions) const
+{
+    Positions result = positions;
+    if (inner_.empty())
+        return result;
+    const Eigen::MatrixXd right = to_border_ * positions;
+    const Eigen::MatrixXd membrane = membrane_.solve(right);
+    for (std::size_t i = 0; i < inner_.size(); ++i)
+        result.row(inner_[i]) = membrane.row(i);
+    return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/drape_garment.h"
+
+#include <algorithm>
+#include <string>
+
+#include "cloth_motion.h"
+#include "collapse.h"
+#include "fit/error.h"
+#include "layers.h"
+#include "tightness.h"
+
+namespace fit {
+namespace {
+
+// The share of its thickness that the body starts with: under two millimetres for a limb, yet no face without area.
+constexpr double k_first_size = 0.01;
+// Parts of the body that cloth holds back get this many more steps to reach full size.
+constexpr int k_patience = 60;
+// Edges stretched by a part's mean are not yet torn; parts beyond this share of the limit are worth naming, too.
+constexpr double k_worth_naming = 0.7;
+
+/// What the garment meets: the body and the garments under it, anywhere between its bones and its full size.
+struct Inflatable {
+    TriangleMesh full;
+    Positions core;
+
+    TriangleMesh at(double size) const
+    {
+        return { size >= 1 ? full.positions : Positions(core + size * (full.positions - core)), full.triangles };
+    }
+};
+
+Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const std::vector<WornGarment>& worn)
+{
+    Inflatable result;
+    result.full = { skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
+    SkinWeights weights = rig.weights;
+    for (const WornGarment& garment : worn) {
+        append(weights, weights_of_nearest(garment.positions, result.full.positions.topRows(rig.weights.bones.rows()), rig.weights));
+        append(result.full, { garment.positions, garment.rest.triangles });
+    }
+    result.core = collapse(result.full.positions, weights, posed(rig.skeleton, pose));
+    return result;
+}
+
+std::string place(const Vec3& p)
+{
+    const auto number = [](double x) { return std::to_string(x).substr(0, std::to_string(x).find('.') + 3); };
+    return '(' + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") m";
+}
+
+void require_free(const TriangleMesh& collapsed, const GarmentMesh& garment, const SkinWeights& weights)
+{
+    const TriangleMesh cloth { garment.positions, garment.triangles };
+    const auto through_body = crossings(cloth, collapsed);
+    const auto through_cloth = crossings(collapsed, cloth);
+    if (through_body.empty() && through_cloth.empty())
+        return;
+    const int vertex = through_body.empty() ? edges_of(collapsed.triangles)(through_cloth.front().first, 0)
+                                            : collapsed.triangles(through_body.front().second, 0);
+    const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
+                                                           : std::string("a garment worn under it");
+    throw InvalidInput("drape: the garment passes through the body's skeleton, " + what + " at " + place(collapsed.positions.row(vertex))
+                       + "; fit the skeleton to this garment first, or give its type");
+}
+
+/// Inflates the body inside the garment. @return the size reached: 1, or less where the cloth would stretch too far.
+double inflate(ClothMotion& motion, const Inflatable& inside, const Tightness& tightness, const DrapeOptions& options,
+               const Progress& progress)
+{
+    MotionStep step;
+    step.largest_move = step.largest_obstacle_move = 1e-2;
+    double size = k_first_size, lag = 1;
+    for (int i = 1; i <= options.inflation_steps + k_patience && lag > 0; ++i) {
+        progress.at(double(i) / (options.inflation_steps + k_patience));
+        const double share = std::min(1.0, double(i) / options.inflation_steps);
+        size = share < 1 ? k_first_size + (1 - k_first_size) * share : 1;
+        const Positions target = inside.at(size).positions;
+        step.obstacle_target = &target;
+        lag = motion.advance(step);
+        if (tightness.largest_stretch(motion.cloth()) > options.largest_stretch)
+            return size;
+        lag = size < 1 ? 1 : lag;
+    }
+    return 1;
+}
+
+void settle(ClothMotion& motion, const DrapeOptions& options, const Progress& progress)
+{
+    const Positions still = motion.obstacle();
+    MotionStep step;
+    step.obstacle_target = &still;
+    step.gravity = k_gravity;
+    step.velocity_kept = 0.9;
+    step.friction = options.cloth.friction;
+    for (int i = 0; i < options.settling_steps; ++i) {
+        progress.at(double(i) / options.settling_steps);
+        motion.advance(step);
+    }
+}
+
+}  // namespace
+
+DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
+                          const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn)
+{
+    const Inflatable inside = inflatable(rig, body, pose, worn);
+    const TriangleMesh collapsed = inside.at(k_first_size);
+    require_free(collapsed, garment, rig.weights);
+
+    const Eigen::Index body_vertices = body.surface.positions.rows();
+    const SkinWeights follows = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
+    const Tightness tightness(garment, follows, posed(rig.skeleton, pose));
+    ClothMotion motion(garment, garment.positions, collapsed, options.cloth);
+
+    DrapeResult result;
+    result.size_reached = inflate(motion, inside, tightness, options, progress.part(0, 0.7));
+    if (result.size_reached < 1)
+        result.too_tight = tightness.too_tight(motion.cloth(), k_worth_naming * options.largest_stretch, result.size_reached);
+    else
+        settle(motion, options, progress.part(0.7, 1));
+
+    const Positions reached = motion.obstacle();
+    result.body = reached.topRows(body_vertices);
+    result.garments = worn;
+    put_positions(result.garments, reached.bottomRows(reached.rows() - body_vertices));
+    result.garments.push_back({ garment, motion.cloth(), {} });
+    const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
+    result.certified = clean && reached == inside.full.positions;
+    return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layers.h"
+
+#include "nearest.h"
+
+namespace fit {
+
+void append(TriangleMesh& mesh, const TriangleMesh& more)
+{
+    const Eigen::Index vertices = mesh.positions.rows(), triangles = mesh.triangles.rows();
+    mesh.positions.conservativeResize(vertices + more.positions.rows(), 3);
+    mesh.positions.bottomRows(more.positions.rows()) = more.positions;
+    mesh.triangles.conservativeResize(triangles + more.triangles.rows(), 3);
+    mesh.triangles.bottomRows(more.triangles.rows()) = (more.triangles.array() + int(vertices)).matrix();
+}
+
+void append(SkinWeights& weights, const SkinWeights& more)
+{
+    const Eigen::Index rows = weights.bones.rows();
+    weights.bones.conservativeResize(rows + more.bones.rows(), 4);
+    weights.bones.bottomRows(more.bones.rows()) = more.bones;
+    weights.weights.conservativeResize(rows + more.weights.rows(), 4);
+    weights.weights.bottomRows(more.weights.rows()) = more.weights;
+}
+
+void put_positions(std::vector<WornGarment>& garments, const Positions& positions)
+{
+    Eigen::Index first = 0;
+    for (WornGarment& garment : garments) {
+        garment.positions = positions.middleRows(first, garment.rest.positions.rows());
+        first += garment.rest.positions.rows();
+    }
+}
+
+bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
+{
+    bool clean = true;
+    std::vector<TriangleMesh> under;
+    for (WornGarment& garment : garments) {
+        garment.certificate = certify(body, garment.rest, garment.positions, under);
+        clean &= garment.certificate.clean();
+        under.push_back({ garment.positions, garment.rest.triangles });
+    }
+    return clean;
+}
+
+SkinWeights weights_of_nearest(const Positions& points, const Positions& body, const SkinWeights& weights)
+{
+    SkinWeights result;
+    result.bones.resize(points.rows(), 4);
+    result.weights.resize(points.rows(), 4);
+    const NearestPoint nearest(body);
+    for (Eigen::Index v = 0; v < points.rows(); ++v) {
+        const int there = nearest.index(points.row(v));
+        result.bones.row(v) = weights.bones.row(there);
+        result.weights.row(v) = weights.weights.row(there);
+    }
+    return result;
+}
+
+SkinWeights strongest_four(Eigen::MatrixXd dense)
+{
+    SkinWeights result;
+    result.bones.resize(dense.rows(), 4);
+    result.weights.resize(dense.rows(), 4);
+    for (Eigen::Index v = 0; v < dense.rows(); ++v) {
+        for (int k = 0; k < 4; ++k) {
+            result.weights(v, k) = dense.row(v).maxCoeff(&result.bones(v, k));
+            dense(v, result.bones(v, k)) = 0;
+        }
+        result.weights.row(v) /= result.weights.row(v).sum();
+    }
+    return result;
+}
+
+}  // namespace fit

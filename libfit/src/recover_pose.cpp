@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/recover_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth_motion.h"
+#include "collapse.h"
+#include "creases.h"
+#include "fit/error.h"
+#include "layers.h"
+
+namespace fit {
+namespace {
+
+// Passes over the edges that even out how the cloth hangs on the bones: what lies between two limbs follows both.
+constexpr int k_smoothing_passes = 30;
+// Layers of cloth need this much room (metres) between two parts of the body.
+constexpr double k_crease_clearance = 3e-3;
+// A body that moves works its clothes loose: this share of the friction is left.
+constexpr double k_moving_friction = 0.25;
+// Parts of the body that cloth holds back get this many more steps to arrive.
+constexpr int k_patience = 60;
+// With no part of the body further than this from its place (metres), a pose counts as reached on the way.
+constexpr double k_in_place = 1e-3;
+
+/// The body on its way from one pose to another.
+class Way {
+public:
+    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to)
+        : rig_(rig), body_(body), from_(from), to_(to), creases_({ at(1), body.surface.triangles }, k_crease_clearance)
+    {
+    }
+
+    BoneTransforms transforms(double t) const { return bone_transforms(rig_.skeleton, slerp(from_, to_, t)); }
+    Positions at(double t) const { return skin(body_.surface.positions, rig_.weights, transforms(t)); }
+
+    /// With the creases of the last pose bridged, more and more up to half of the way.
+    Positions bridged(double t) const
+    {
+        const Positions plain = at(t);
+        return plain + std::min(1.0, 2 * t) * (creases_.bridged(plain) - plain);
+    }
+
+    /// The last pose, with what is in creases pulled halfway to the bones: inside the body, where no cloth is.
+    Positions withdrawn() const
+    {
+        Positions result = at(1);
+        const Positions core = collapse(result, rig_.weights, posed(rig_.skeleton, to_));
+        for (int v : creases_.inner())
+            result.row(v) = 0.5 * (core.row(v) + result.row(v));
+        return result;
+    }
+
+    /// Metres that the vertex with the longest way goes.
+    double length() const
+    {
+        constexpr int k_chords = 20;
+        double sum = 0;
+        Positions before = at(0);
+        for (int i = 1; i <= k_chords; ++i) {
+            const Positions here = at(double(i) / k_chords);
+            sum += (here - before).rowwise().norm().maxCoeff();
+            before = here;
+        }
+        return sum;
+    }
+
+private:
+    const Rig& rig_;
+    const BodyMesh& body_;
+    const Pose &from_, &to_;
+    Creases creases_;
+};
+
+SkinWeights smoothed(const SkinWeights& weights, const Triangles& triangles)
+{
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(weights.bones.rows(), bone_count);
+    for (Eigen::Index v = 0; v < dense.rows(); ++v)
+        for (int k = 0; k < 4; ++k)
+            dense(v, weights.bones(v, k)) += weights.weights(v, k);
+    const auto edges = edges_of(triangles);
+    for (int pass = 0; pass < k_smoothing_passes; ++pass) {
+        Eigen::MatrixXd sum = dense;
+        Eigen::VectorXd count = Eigen::VectorXd::Ones(dense.rows());
+        for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+            sum.row(edges(e, 0)) += dense.row(edges(e, 1));
+            sum.row(edges(e, 1)) += dense.row(edges(e, 0));
+            count[edges(e, 0)] += 1;
+            count[edges(e, 1)] += 1;
+        }
+        dense = sum.array().colwise() / count.array();
+    }
+    return strongest_four(dense);
+}
+
+BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
+{
+    BoneTransforms result;
+    for (int b = 0; b < bone_count; ++b)
+        result[b] = to[b] * from[b].inverse();
+    return result;
+}
+
+/// Moves body and cloth along the way. @return the last share of it at which the whole body was in place
+double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, const SkinWeights& cloth_weights,
+          const RecoverOptions& options, const Progress& progress)
+{
+    const int steps = std::clamp(int(std::ceil(way.length() / options.step_length)), 1, options.largest_steps);
+    MotionStep step;
+    step.gravity = k_gravity;
+    step.friction = k_moving_friction * options.cloth.friction;
+    double reached = 0;
+    for (int i = 1; i <= steps; ++i) {
+        progress.at(double(i) / steps);
+        const double t = double(i) / steps;
+        const BoneTransforms along = between(way.transforms(double(i - 1) / steps), way.transforms(t));
+        const Positions cloth = motion.cloth(), body = motion.obstacle(), target = way.bridged(t);
+        motion.carry(skin(cloth, cloth_weights, along) - cloth, skin(body, body_weights, along) - body);
+        step.obstacle_target = &target;
+        if (motion.advance(step) < k_in_place)
+            reached = t;
+    }
+    return reached;
+}
+
+/// Lets the skin that bridged the creases go where it belongs: first inwards, then, inside the body, to its place. The cloth
+/// stands still meanwhile.
+void leave_creases(ClothMotion& motion, const Way& way)
+{
+    for (const Positions& target : { way.withdrawn(), way.at(1) })
+        motion.carry(Positions::Zero(motion.vertices(), 3), target - motion.obstacle());
+}
+
+/// @return whether the whole body has arrived
+bool settle(ClothMotion& motion, const Positions& arrived, const RecoverOptions& options, const Progress& progress)
+{
+    MotionStep step;
+    step.obstacle_target = &arrived;
+    step.gravity = k_gravity;
+    step.velocity_kept = 0.9;
+    step.friction = options.cloth.friction;
+    double lag = 1;
+    for (int i = 0; i < options.settling_steps || (lag > 0 && i < options.settling_steps + k_patience); ++i) {
+        progress.at(double(i) / (options.settling_steps + k_patience));
+        lag = motion.advance(step);
+    }
+    return lag == 0;
+}
+
+}  // namespace
+
+RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
+                           const std::vector<WornGarment>& worn, const RecoverOptions& options, const Progress& progress)
+{
+    RecoverResult result;
+    result.garments = worn;
+    const Way way(rig, body, from, to);
+    const TriangleMesh start { way.at(0), body.surface.triangles };
+    TriangleMesh rest, cloth;
+    for (const WornGarment& garment : worn) {
+        append(rest, { garment.rest.positions, garment.rest.triangles });
+        append(cloth, { garment.positions, garment.rest.triangles });
+    }
+    if (const int crossing = crossing_count(cloth, start); crossing > 0)
+        throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing) + " places in the pose to start from; drape the garment first");
+
+    const SkinWeights cloth_weights = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
+    ClothMotion motion({ rest.positions, rest.triangles }, cloth.positions, start, options.cloth);
+    const double reached = go(motion, way, rig.weights, cloth_weights, options, progress.part(0, 0.8));
+    leave_creases(motion, way);
+    const bool arrived = settle(motion, way.at(1), options, progress.part(0.8, 1));
+
+    put_positions(result.garments, motion.cloth());
+    result.body = motion.obstacle();
+    result.pose_reached = arrived ? 1 : std::min(reached, 1 - 1e-3);
+    result.certified = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived;
+    return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tightness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace fit {
+namespace {
+
+// Edges within 30 degrees of "across the bone" run round it; fewer than this many say nothing about a part.
+constexpr double k_across = 0.5;
+constexpr int k_fewest_edges = 20;
+
+struct Part {
+    const char* name;
+    std::vector<int> bones;
+};
+
+const std::vector<Part>& parts()
+{
+    static const std::vector<Part> table {
+        { "chest", { upperback, thorax } }, { "waist", { lowerback } }, { "hips", { lhipjoint, rhipjoint } },
+        { "neck", { lowerneck, upperneck } }, { "left shoulder", { lclavicle } }, { "right shoulder", { rclavicle } },
+        { "left upper arm", { lhumerus } }, { "right upper arm", { rhumerus } }, { "left forearm", { lradius } },
+        { "right forearm", { rradius } }, { "left thigh", { lfemur } }, { "right thigh", { rfemur } },
+        { "left calf", { ltibia } }, { "right calf", { rtibia } },
+    };
+    return table;
+}
+
+int part_of(int bone)
+{
+    for (std::size_t p = 0; p < parts().size(); ++p)
+        if (const auto& bones = parts()[p].bones; std::find(bones.begin(), bones.end(), bone) != bones.end())
+            return int(p);
+    return -1;
+}
+
+}  // namespace
+
+Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton)
+    : garment_(garment), skeleton_(skeleton), bones_(weights.bones.rows())
+{
+    for (std::size_t v = 0; v < bones_.size(); ++v) {
+        int k;
+        weights.weights.row(v).maxCoeff(&k);
+        bones_[v] = weights.bones(v, k);
+    }
+}
+
+std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) const
+{
+    struct Sums {
+        double now = 0, rest = 0, radius = 0;
+        int count = 0;
+    };
+    std::vector<Sums> sums(parts().size());
+    const auto edges = edges_of(garment_.triangles);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const int i = edges(e, 0), j = edges(e, 1), part = part_of(bones_[i]);
+        const Vec3 edge = positions.row(j) - positions.row(i);
+        // the hip joints point sideways: what goes round the hips goes round the spine
+        const int bone = bones_[i] == lhipjoint || bones_[i] == rhipjoint ? int(lowerback) : bones_[i];
+        const Vec3 axis = skeleton_.direction(bone);
+        if (part < 0 || part != part_of(bones_[j]) || std::abs(edge.dot(axis)) > k_across * edge.norm())
+            continue;
+        const Vec3 out = positions.row(i).transpose() - skeleton_.head(bone);
+        Sums& s = sums[part];
+        s.now += edge.norm();
+        s.rest += (garment_.positions.row(i) - garment_.positions.row(j)).norm();
+        s.radius += (out - out.dot(axis) * axis).norm();
+        ++s.count;
+    }
+    std::vector<Round> result;
+    for (std::size_t p = 0; p < sums.size(); ++p)
+        if (const Sums& s = sums[p]; s.count >= k_fewest_edges && s.rest > 0)
+            result.push_back({ int(p), s.now / s.rest - 1, 2 * M_PI * s.radius / s.count });
+    return result;
+}
+
+double Tightness::largest_stretch(const Positions& positions) const
+{
+    double largest = 0;
+    for (const Round& round : rounds(positions))
+        largest = std::max(largest, round.stretch);
+    return largest;
+}
+
+std::vector<TooTight> Tightness::too_tight(const Positions& positions, double allowed, double size) const
+{
+    std::vector<TooTight> result;
+    for (const Round& round : rounds(positions))
+        if (round.stretch > allowed) {
+            const double needed = round.girth / size, unstretched = round.girth / (1 + round.stretch);
+            result.push_back({ parts()[round.part].name, needed - unstretched });
+        }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });
+    return result;
+}
+
+}  // namespace fit

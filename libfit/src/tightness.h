@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How far a garment is stretched round each part of a body, and how much girth it lacks there.
+
+#include <vector>
+
+#include "fit/drape_garment.h"
+
+namespace fit {
+
+/// Follows one garment on one body, in one pose.
+class Tightness {
+public:
+    /// @param weights   skin weights of the garment's vertices
+    /// @param skeleton  in the pose of the garment
+    Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton);
+
+    /// The largest mean stretch round a part of the body, dimensionless; 0 = nowhere stretched.
+    double largest_stretch(const Positions& positions) const;
+
+    /// Parts stretched beyond `allowed`, worst first, for a body that has reached `size` of its thickness so far.
+    std::vector<TooTight> too_tight(const Positions& positions, double allowed, double size) const;
+
+private:
+    struct Round {
+        int part;
+        double stretch;  // mean over the edges that run round the part
+        double girth;    // m, of the cloth as it is now
+    };
+    std::vector<Round> rounds(const Positions& positions) const;
+
+    GarmentMesh garment_;
+    Skeleton skeleton_;
+    std::vector<int> bones_;  // of each garment vertex, the one it follows most
+};
+
+}  // namespace fit
