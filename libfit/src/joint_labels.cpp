@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include <Eigen/Eigenvalues>
+
 #include "fit/error.h"
 
 namespace fit {
@@ -17,6 +19,7 @@ constexpr double k_leg = 0.485;             // hip to knee to ankle
 constexpr double k_hip_to_crown = 0.48;
 constexpr double k_hand = 0.108;            // wrist to fingertip
 constexpr double k_ankle_height = 0.041;    // above the sole
+constexpr double k_ankle_below_shin = 0.05;  // at most, below where the shin is narrowest
 constexpr double k_skull_base = 0.095;      // below the crown
 constexpr double k_neck_base = 0.145;       // below the crown: the seventh vertebra of the neck
 constexpr double k_elbow_ratio = 0.51;      // of the way from shoulder to wrist
@@ -34,6 +37,13 @@ constexpr double k_straight_spread = 0.006;  // of stature
 constexpr double k_hand_spread = 0.02;       // of stature
 constexpr double k_girth_spread = 0.10;      // relative
 constexpr double k_widening = 1.15;          // of girth: wrist to palm, shin to heel
+
+constexpr int k_wider_in_a_row = 3;          // a single cut may go astray
+
+// Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
+constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
+constexpr double k_corner_gap = 0.03, k_corner_reach = 0.06, k_outlier = 0.06;  // of stature
+constexpr int k_fewest_cuts = 6;
 
 constexpr double k_spacing = 0.01;  // of stature, between cuts
 
@@ -93,15 +103,16 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 }
 
 /// Row between `from` and `to` where two straight bones explain the line best, weighed against the usual ratio.
-int bend(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
+int bend_row(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
 {
     int best = (from + to) / 2;
     double least = std::numeric_limits<double>::max();
+    const double outlier = std::pow(k_outlier * size, 2);  // in a deep bend some cuts go astray
     for (int i = from + 1; i < to; ++i) {
         double squares = 0;
         for (int k = from; k <= to; ++k)
-            squares += k < i ? squared_distance_to_segment(line.points[k], root, line.points[i])
-                             : squared_distance_to_segment(line.points[k], line.points[i], line.points[to]);
+            squares += std::min(outlier, k < i ? squared_distance_to_segment(line.points[k], root, line.points[i])
+                                               : squared_distance_to_segment(line.points[k], line.points[i], line.points[to]));
         const double upper = (line.points[i] - root).norm(), lower = (line.points[to] - line.points[i]).norm();
         const double off_line = squares / (to - from + 1) / std::pow(k_straight_spread * size, 2);
         const double off_ratio = std::pow((upper / (upper + lower) - usual_ratio) / k_ratio_spread, 2);
@@ -113,6 +124,50 @@ int bend(const Centreline& line, int from, int to, const Vec3& root, double usua
     return best;
 }
 
+struct StraightLine {
+    Vec3 middle, direction;
+};
+
+/// Through the middles of the cuts between two rows.
+StraightLine fitted(const Centreline& line, int from, int to)
+{
+    StraightLine result { Vec3::Zero(), Vec3::Zero() };
+    for (int i = from; i <= to; ++i)
+        result.middle += line.points[i] / (to - from + 1);
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (int i = from; i <= to; ++i) {
+        const Vec3 d = line.points[i] - result.middle;
+        spread += d * d.transpose();
+    }
+    result.direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    if (result.direction.dot(line.points[to] - line.points[from]) < 0)
+        result.direction = -result.direction;
+    return result;
+}
+
+/// The joint between two bones. A line through flesh cuts the corner of a bent limb: there the bones' own axes are made to
+/// meet, read off well away from the bend.
+Vec3 bend(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
+{
+    const int row = bend_row(line, from, to, root, usual_ratio, size);
+    const int upper = row - from, lower = to - row;
+    if (upper < k_fewest_cuts || lower < k_fewest_cuts)
+        return line.points[row];
+    const StraightLine a = fitted(line, from + upper / 5, row - upper * 3 / 10), b = fitted(line, row + lower * 3 / 10, to);
+    const double cosine = a.direction.dot(b.direction), angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double share = std::clamp((angle - k_corner_from) / (k_corner_to - k_corner_from), 0.0, 1.0);
+    if (share == 0)
+        return line.points[row];
+    const Vec3 between = b.middle - a.middle;
+    const double sine = 1 - cosine * cosine;
+    const Vec3 on_a = a.middle + (between.dot(a.direction) - cosine * between.dot(b.direction)) / sine * a.direction;
+    const Vec3 on_b = b.middle + (cosine * between.dot(a.direction) - between.dot(b.direction)) / sine * b.direction;
+    const Vec3 corner = 0.5 * (on_a + on_b);
+    if ((on_a - on_b).norm() > k_corner_gap * size || (corner - line.points[row]).norm() > k_corner_reach * size)
+        return line.points[row];
+    return line.points[row] + share * (corner - line.points[row]);
+}
+
 struct Reach {
     double least, usual, most, spread;  ///< m, straight to the limb's tip
 };
@@ -121,14 +176,17 @@ struct Reach {
 /// usual one counts as a larger girth.
 int narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
 {
-    int best = -1;
+    int best = -1, wider_in_a_row = 0;
     double least = std::numeric_limits<double>::max(), smallest = least;
     for (int i = line.first_free; i < line.size(); ++i) {
         const double off = (tip - line.points[i]).norm();
         if (!line.free[i] || !line.across[i] || off > reach.most || off < reach.least)
             continue;
-        if (line.girths[i] > k_widening * smallest)
+        wider_in_a_row = line.girths[i] > k_widening * smallest ? wider_in_a_row + 1 : 0;
+        if (wider_in_a_row == k_wider_in_a_row)
             break;
+        if (wider_in_a_row > 0)
+            continue;
         smallest = std::min(smallest, line.girths[i]);
         const double score = std::log(line.girths[i]) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
         if (score < least) {
@@ -177,7 +235,7 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, d
     const int wrist = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
-    joints.middle = line.points[bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size)];
+    joints.middle = bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size);
     // seen from the shoulder the armpit is a little below and to the inside, however the arm is held
     const Vec3 inwards = (arm.ring() - joints.middle).normalized();
     const double rise = inwards.dot(up);
@@ -201,15 +259,17 @@ LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
 {
     const Centreline& line = leg.line;
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
-    const int shin = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.25 * size, 0.04 * size });
+    const int shin = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.22 * size, 0.04 * size });
     require(shin > line.first_free + 4, "ankle", leg.tip());
     LimbJoints joints;
     const Vec3 along_thigh = (leg.ring() - line.at(line.arcs[line.first_free] + 0.12 * size)).normalized();
     joints.root = leg.ring() + k_hip_above_crotch * size * along_thigh;
-    joints.middle = line.points[bend(line, line.first_free, shin, joints.root, k_knee_above_shin, size)];
+    joints.middle = bend(line, line.first_free, shin, joints.root, k_knee_above_shin, size);
     const Vec3 shin_axis = (line.points[shin] - joints.middle).normalized();
     const Vec3 sole = sole_below(foot, joints.middle, shin_axis, 0.05 * size);
-    joints.end = joints.middle + ((sole - joints.middle).dot(shin_axis) - k_ankle_height * size) * shin_axis;
+    const double above_sole = (sole - line.points[shin]).dot(shin_axis) - k_ankle_height * size;
+    const double below_shin = std::min(above_sole, k_ankle_below_shin * size);  // of a pointed foot, the toes are the sole
+    joints.end = line.points[shin] + below_shin * shin_axis;
     joints.tip = farthest(foot, [&](const Vec3& p) { return (p - joints.end).dot(leg.tip() - joints.end); });
     return joints;
 }
