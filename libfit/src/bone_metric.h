@@ -27,10 +27,14 @@ public:
 
     /// E_B of a covered bone, m: the room at its five samples, as far as the limb needs it.
     double worn(int bone, const Vec3& head, const Vec3& tail) const;
-    /// What a bone that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the garment.
+    /// What an arm or leg that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the
+    /// garment. 0 for other bones.
     double bare(int bone, const Vec3& head, const Vec3& tail) const;
     /// The same for what lies beyond the last joint.
     double bare_tip(Extremity extremity, const Vec3& joint, const Vec3& tip) const;
+
+    /// How deep a forearm is inside its own trunk, m: a shirt's body has room for it, but the trunk is there already.
+    double overlap(int bone, const Vec3& head, const Vec3& tail, const Skeleton& joints) const;
 
     /// How many of the five samples are inside, by the cloth itself.
     int samples_inside(const Vec3& head, const Vec3& tail) const;

@@ -13,7 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include "fit/error.h"
-#include "garment_openings.h"
+#include "garment_type.h"
 #include "outward_cloth.h"
 #include "skeleton_search.h"
 
@@ -24,6 +24,8 @@ constexpr int k_headings = 12;                // coarse turns about the vertical
 constexpr double k_coarse_step = 0.08;        // m; the thickness of an upper arm
 constexpr int k_kept_places = 2;              // a heading
 constexpr int k_kept_starts = 3;              // of all of them, for the fine search
+constexpr double k_shortest_tip = 0.02;        // of an extremity; below, it ends at its joint
+constexpr int k_partly_inside = 2, k_mostly_inside = 3;  // of a bone's five samples
 constexpr double k_least_room = 0.2;          // of the room that covered bones need; tight clothes have 0.6 and more
 constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
 constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
@@ -71,6 +73,11 @@ std::vector<Vec3> coarse_roots(const ClothRoom& cloth, double trunk_length)
     return roots;
 }
 
+double total(const SkeletonSearch& search, const Posture& posture)
+{
+    return search.energy(posture) - search.crossing_cost(posture);
+}
+
 bool is_worn(const SkeletonSearch& search, const Limb& limb) { return search.metric().figure().covered[limb.bones[0]]; }
 
 Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Reach& reach)
@@ -102,6 +109,22 @@ std::vector<Scored> coarse_places(const SkeletonSearch& search, const Eigen::Qua
     return places;
 }
 
+// The best, no two of them alike: within a coarse step the fine search finds the same.
+std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
+{
+    std::stable_sort(all.begin(), all.end(), better);
+    std::vector<Scored> kept;
+    for (const Scored& one : all) {
+        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Scored& other) {
+            return (one.posture.root - other.posture.root).norm() < k_coarse_step
+                && one.posture.turn.angularDistance(other.posture.turn) < 0.1;
+        });
+        if (is_new && kept.size() < count)
+            kept.push_back(one);
+    }
+    return kept;
+}
+
 // Half a coarse step to each side, limbs searched anew at each place, now without passing through cloth.
 Scored settled(const SkeletonSearch& search, const Scored& start)
 {
@@ -115,7 +138,7 @@ Scored settled(const SkeletonSearch& search, const Scored& start)
     keep_best(places, k_kept_places);
     for (Scored& place : places) {
         place.posture = with_worn_limbs(search, place.posture, k_wide_limbs);
-        place.score = search.energy(place.posture) - 10 * search.crossings(place.posture);
+        place.score = total(search, place.posture);
     }
     keep_best(places, 1);
     return places[0];
@@ -138,8 +161,39 @@ std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search, const P
     keep_best(all, 3 * k_kept_starts);
     for (Scored& place : all)
         place = settled(search, place);
-    keep_best(all, k_kept_starts);
-    return all;
+    return distinct(all, k_kept_starts);
+}
+
+bool is_all_worn(const SkeletonSearch& search, const Limb& limb)
+{
+    const auto& covered = search.metric().figure().covered;
+    return covered[limb.bones[0]] && covered[limb.bones[1]];
+}
+
+// Looks about each limb's present directions; in the first round also where its twin is, and anywhere for a bare one.
+Posture limbs_moved(const SkeletonSearch& search, Posture present, int round)
+{
+    const double near = 0.6 * std::pow(0.5, round);
+    for (const Limb& limb : k_limbs) {
+        const double extent = round == 0 && !is_all_worn(search, limb) ? k_wide_limbs.extent : near;
+        std::vector<Posture> tries { search.limb_moved(present, limb, { extent, std::min(k_wide_limbs.spacing, extent / 4), 8 }) };
+        if (round == 0 && is_worn(search, limb))
+            tries.push_back(search.limb_moved(search.mirrored(present, limb), limb, { near, near / 4, 8 }));
+        for (const Posture& moved : tries)
+            if (total(search, moved) > total(search, present))
+                present = moved;
+    }
+    return present;
+}
+
+// A limb that still passes through cloth, a foot too long for its trouser leg, is searched ever more finely.
+Posture freed(const SkeletonSearch& search, Posture present)
+{
+    for (const Limb& limb : k_limbs)
+        for (double spacing = 0.2; spacing > 0.06 && search.crossing_cost(present, limb) > 0; spacing *= 0.6)
+            if (const Posture moved = search.limb_moved(present, limb, { 1.5, spacing, 40 }); total(search, moved) > total(search, present))
+                present = moved;
+    return present;
 }
 
 // The paper's rounds: translation, rotation, bones; each halves extents and spacings.
@@ -150,12 +204,11 @@ Scored refined(const SkeletonSearch& search, Scored present, int iterations)
         present.posture = search.translated(present.posture, { 0.06 * scale, 0.02 * scale });
         present.posture = search.rotated(present.posture, { 0.2 * scale, 0.1 * scale });
         present.posture = search.trunk_bent(present.posture, { 0.2 * scale, 0.1 * scale });
-        for (const Limb& limb : k_limbs) {
-            const double extent = i == 0 && !is_worn(search, limb) ? 2 * std::numbers::pi / 3 : 0.6 * scale;
-            present.posture = search.limb_moved(present.posture, limb, { extent, std::min(0.26, extent / 4), 8, true });
-        }
+        present.posture = limbs_moved(search, present.posture, i);
+        if (i == 0)
+            present.posture = freed(search, present.posture);
     }
-    present.score = search.energy(present.posture) - 10 * search.crossings(present.posture);
+    present.score = total(search, present.posture);
     return present;
 }
 
@@ -172,13 +225,13 @@ std::array<double, bone_count> scores(const SkeletonSearch& search, const Postur
 
 double sum(const std::array<double, bone_count>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// The evidence: a bone is covered where most of its samples are inside.
-std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& posture)
+// The evidence: of the bones that the type names, those that have at least so many of their five samples inside.
+std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& posture, int samples)
 {
     const Skeleton joints = placed(search.own(), posture).joints;
     std::vector<Bone> inside;
     for (int b = 0; b < bone_count; ++b)
-        if (search.metric().figure().covered[b] && search.metric().samples_inside(joints.head(b), joints.tail(b)) >= 3)
+        if (search.metric().figure().covered[b] && search.metric().samples_inside(joints.head(b), joints.tail(b)) >= samples)
             inside.push_back(Bone(b));
     return inside;
 }
@@ -194,14 +247,18 @@ std::string sizes(const Rig& rig, const ClothRoom& cloth)
 }
 
 // What is inside must also have some room there: above a plate everything is half inside.
-void require_fit(const SkeletonSearch& search, const Posture& posture, const std::vector<Bone>& inside, const std::string& sizes)
+void require_fit(const SkeletonSearch& search, const Posture& posture, const std::string& sizes)
 {
+    const std::vector<Bone> inside = bones_inside(search, posture, k_mostly_inside);
     const Figure& figure = search.metric().figure();
-    double needed = 0;
-    for (int b = 0; b < bone_count; ++b)
+    const auto by_bone = scores(search, posture);
+    double needed = 0, found = 0;
+    for (int b = 0; b < bone_count; ++b) {
         needed += figure.covered[b] ? 5 * figure.radii[b] : 0;
+        found += std::max(0.0, by_bone[b]);
+    }
     const auto covered = std::size_t(std::count(figure.covered.begin(), figure.covered.end(), true));
-    if (2 * inside.size() < covered || sum(scores(search, posture)) < k_least_room * needed)
+    if (2 * inside.size() < covered || found < k_least_room * needed)
         throw InvalidInput("no body fits into the garment: of the " + std::to_string(covered) + " bones it should cover, "
                            + std::to_string(inside.size()) + " can be put inside; " + sizes
                            + "; check the garment's units and type");
@@ -219,12 +276,9 @@ void require_clear(const SkeletonSearch& search, const Posture& posture)
         throw SolverFailure("no pose found that keeps the bones clear of the cloth: " + name + " passes through it between "
                             + place + "; check the garment's type, and that its openings are open");
     };
-    constexpr std::array<const char*, extremity_count> tips { "the head", "the left hand", "the right hand", "the left foot",
-                                                              "the right foot" };
     for (int b = 0; b < bone_count; ++b)
         require(std::string(bone_name(b)), joints.head(b), joints.tail(b));
-    for (int e = 0; e < extremity_count; ++e)
-        require(tips[e], joints.tail(bone_before(Extremity(e))), joints.tips[e]);
+    require("the head", joints.tail(upperneck), joints.tips[head_top]);
 }
 
 TypeGuess resolved_type(GarmentType given, const GarmentMesh& garment)
@@ -258,6 +312,21 @@ Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
 
 }  // namespace
 
+Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment)
+{
+    const SurfaceCrossings cloth({ garment.positions, garment.triangles });
+    Skeleton result = joints;
+    for (int e = 0; e < extremity_count; ++e) {
+        const Vec3& joint = joints.tail(bone_before(Extremity(e)));
+        double reach = 1;
+        while (reach > k_shortest_tip && cloth.crosses(joint, joint + reach * (joints.tips[e] - joint)))
+            reach *= 0.8;
+        if (reach < 1)  // once more, to keep some distance
+            result.tips[e] = joint + (reach > k_shortest_tip ? 0.8 * reach : 0.0) * (joints.tips[e] - joint);
+    }
+    return result;
+}
+
 FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options, const Progress& progress)
 {
     if (options.iterations < 1)
@@ -267,20 +336,20 @@ FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOpti
     if (is_sealed(outward))
         throw InvalidInput("garment is closed all round: nobody can get in; give a garment with openings");
     const ClothRoom cloth(outward, progress.part(0, 0.3, "look at the garment"));
-    const Vec3 front = front_of(openings_of(outward));
+    const std::vector<Opening> openings = openings_of(outward);
+    const GarmentCues cues { front_of(openings), cuffs_of(openings) };
     const JointLimits limits(rig);
 
-    const Figure nominal = figure_of(rig, bones_covered_by(guess.type));
+    const Figure nominal = figure_of(rig, bones_covered_by(guess.type, openings));
     const BoneMetric nominal_metric(cloth, nominal);
-    const SkeletonSearch first(rig, limits, nominal_metric, front);
+    const SkeletonSearch first(rig, limits, nominal_metric, cues);
     Scored fitted { best_posture(rig, first, options.iterations, progress.part(0.3, 0.8, "fit the skeleton")) };
-    const std::vector<Bone> inside = bones_inside(first, fitted.posture);
-    require_fit(first, fitted.posture, inside, sizes(rig, cloth));
+    require_fit(first, fitted.posture, sizes(rig, cloth));
 
     // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
-    const Figure figure = figure_of(rig, inside);
+    const Figure figure = figure_of(rig, bones_inside(first, fitted.posture, k_partly_inside));
     const BoneMetric metric(cloth, figure);
-    const SkeletonSearch search(rig, limits, metric, front);
+    const SkeletonSearch search(rig, limits, metric, cues);
     progress.part(0.8, 1, "fit the skeleton").at(0);
     fitted = refined(search, fitted, options.iterations);
     require_clear(search, fitted.posture);
@@ -288,7 +357,7 @@ FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOpti
     FitResult result;
     result.type = guess.type;
     result.type_margin = guess.margin;
-    result.covered = inside;
+    result.covered = bones_inside(search, fitted.posture, k_mostly_inside);
     result.pose = pose_of(rig.skeleton, fitted.posture);
     result.scores = scores(search, fitted.posture);
     result.score_before = sum(scores(search, at_barycentre(rig, search)));

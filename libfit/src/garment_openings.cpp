@@ -17,6 +17,7 @@ constexpr double k_smallest_girth = 0.07;  // of the garment's diagonal: a cuff 
 constexpr double k_slice = 0.02;           // of the diagonal: slices of a tube, two or three edges wide
 constexpr double k_widening = 1.5;         // a tube ends where its girth exceeds its own median by this factor
 
+using Ring = std::vector<std::pair<int, int>>;  // the edges of an opening
 using Neighbours = std::vector<std::vector<std::pair<int, double>>>;
 
 double diagonal_of(const TriangleMesh& mesh)
@@ -38,20 +39,20 @@ Neighbours neighbours_of(const TriangleMesh& mesh)
 }
 
 // Directed as in their triangles, so that the cloth lies to the left seen from outside.
-std::vector<std::pair<int, int>> border_edges(const Triangles& triangles)
+Ring border_edges(const Triangles& triangles)
 {
     std::set<std::pair<int, int>> edges;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k)
             edges.emplace(triangles(f, k), triangles(f, (k + 1) % 3));
-    std::vector<std::pair<int, int>> border;
+    Ring border;
     for (const auto& [a, b] : edges)
         if (!edges.count({ b, a }))
             border.emplace_back(a, b);
     return border;
 }
 
-std::vector<std::vector<std::pair<int, int>>> rings_of(const std::vector<std::pair<int, int>>& border)
+std::vector<Ring> rings_of(const Ring& border)
 {
     std::map<int, std::vector<int>> edges_at;
     for (int e = 0; e < int(border.size()); ++e) {
@@ -59,7 +60,7 @@ std::vector<std::vector<std::pair<int, int>>> rings_of(const std::vector<std::pa
         edges_at[border[e].second].push_back(e);
     }
     std::vector<bool> seen(border.size(), false);
-    std::vector<std::vector<std::pair<int, int>>> rings;
+    std::vector<Ring> rings;
     for (int seed = 0; seed < int(border.size()); ++seed) {
         if (seen[seed])
             continue;
@@ -79,7 +80,7 @@ std::vector<std::vector<std::pair<int, int>>> rings_of(const std::vector<std::pa
     return rings;
 }
 
-Opening opening_of(const Positions& positions, const std::vector<std::pair<int, int>>& ring)
+Opening opening_of(const Positions& positions, const Ring& ring)
 {
     const auto at = [&](int v) { return Vec3(positions.row(v)); };
     Opening opening;
@@ -100,7 +101,19 @@ Opening opening_of(const Positions& positions, const std::vector<std::pair<int, 
     return opening;
 }
 
-std::vector<double> distances_from(const Neighbours& neighbours, const std::vector<std::pair<int, int>>& ring)
+std::vector<Ring> large_rings(const Positions& positions, std::vector<Ring> rings, double smallest)
+{
+    const auto length = [&](const auto& ring) {
+        double sum = 0;
+        for (const auto& [a, b] : ring)
+            sum += (positions.row(b) - positions.row(a)).norm();
+        return sum;
+    };
+    std::erase_if(rings, [&](const auto& ring) { return length(ring) < smallest; });
+    return rings;
+}
+
+std::vector<double> distances_from(const Neighbours& neighbours, const Ring& ring)
 {
     std::vector<double> distance(neighbours.size(), std::numeric_limits<double>::infinity());
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
@@ -125,7 +138,7 @@ std::vector<double> distances_from(const Neighbours& neighbours, const std::vect
 // The area between two distances from the opening is the girth there times their difference.
 std::vector<double> girths_along(const TriangleMesh& mesh, const std::vector<double>& distance, double slice)
 {
-    std::vector<double> girths;
+    std::vector<double> girths(1, 0.0);
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
         const double mean = (distance[a] + distance[b] + distance[c]) / 3;
@@ -138,6 +151,17 @@ std::vector<double> girths_along(const TriangleMesh& mesh, const std::vector<dou
         girths[bin] += 0.5 * u.cross(v).norm() / slice;
     }
     return girths;
+}
+
+// How far it is to the nearest other opening: there, slices begin to lack a part.
+double reach_of(const std::vector<double>& distance, const std::vector<Ring>& rings, std::size_t own)
+{
+    double reach = std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < rings.size(); ++r)
+        if (r != own)
+            for (const auto& [a, b] : rings[r])
+                reach = std::min(reach, distance[a]);
+    return reach;
 }
 
 // Hems may be turned in or gathered: the first slices neither end a tube nor count as its waist.
@@ -199,14 +223,17 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
     const Neighbours neighbours = neighbours_of(outward);
     const std::vector<int> pieces = pieces_of(outward);
     const std::map<int, double> heights = heights_of(outward.positions, pieces);
+    const auto rings = large_rings(outward.positions, rings_of(border_edges(outward.triangles)), k_smallest_girth * diagonal);
     std::vector<Opening> openings;
-    for (const auto& ring : rings_of(border_edges(outward.triangles))) {
-        Opening opening = opening_of(outward.positions, ring);
-        if (opening.girth < k_smallest_girth * diagonal)
-            continue;
-        opening.piece = pieces[ring[0].first];
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+        Opening opening = opening_of(outward.positions, rings[r]);
+        opening.piece = pieces[rings[r][0].first];
         opening.piece_height = heights.at(opening.piece);
-        measure_tube(opening, girths_along(outward, distances_from(neighbours, ring), slice), slice);
+        const std::vector<double> distance = distances_from(neighbours, rings[r]);
+        std::vector<double> girths = girths_along(outward, distance, slice);
+        const double slices = std::clamp(reach_of(distance, rings, r) / slice, 1.0, double(girths.size()));
+        girths.resize(std::size_t(slices));
+        measure_tube(opening, girths, slice);
         openings.push_back(opening);
     }
     return openings;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "garment_type.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +9,6 @@
 #include <string>
 
 #include "fit/error.h"
-#include "fit/fit_skeleton.h"
-#include "garment_openings.h"
 #include "outward_cloth.h"
 
 namespace fit {
@@ -28,6 +28,9 @@ std::vector<Bone> together(std::initializer_list<std::vector<Bone>> groups)
     std::sort(bones.begin(), bones.end());
     return bones;
 }
+
+constexpr double k_armhole = 0.55;     // of armhole_likeness; sleeves have 0.1 to 0.4, a vest 0.7
+constexpr double k_long_sleeve = 0.9;  // girths; to the elbow 0.5, to the wrist 1.4
 
 // One connected piece of cloth, its openings told apart.
 struct Piece {
@@ -134,9 +137,9 @@ GarmentType type_with_hem(Piece& piece, const Opening& hem, const Opening& top)
 {
     if (piece.above(piece.height / hem.tube_waist, 1.1))
         return GarmentType::dress;
-    if (piece.sleeves.empty() || piece.above(armhole_likeness(piece.sleeves, hem), 0.55))
+    if (piece.sleeves.empty() || piece.above(armhole_likeness(piece.sleeves, hem), k_armhole))
         return GarmentType::vest;
-    if (!piece.above(length_in_girths(piece.sleeves), 0.9))
+    if (!piece.above(length_in_girths(piece.sleeves), k_long_sleeve))
         return GarmentType::tshirt;
     return top.facing.y() < 0.5 ? GarmentType::hoodie : GarmentType::longsleeve;
 }
@@ -157,6 +160,18 @@ std::optional<GarmentType> type_of(Piece& piece)
     if (piece.others.size() < 2)
         return {};
     return type_with_hem(piece, lowest, highest);
+}
+
+enum class Sleeves { none, upper_arm, whole_arm };
+
+Sleeves sleeves_of(const Piece& piece)
+{
+    constexpr double armhole = 0.25;  // girths long at most
+    if (piece.sleeves.empty() || length_in_girths(piece.sleeves) < armhole)
+        return Sleeves::none;
+    if (piece.legs.empty() && piece.others.size() > 1 && armhole_likeness(piece.sleeves, piece.others.front()) > k_armhole)
+        return Sleeves::none;
+    return length_in_girths(piece.sleeves) > k_long_sleeve ? Sleeves::whole_arm : Sleeves::upper_arm;
 }
 
 bool is_for_legs(GarmentType type)
@@ -227,6 +242,35 @@ std::vector<Bone> bones_covered_by(GarmentType type)
     case GarmentType::suit: return together({ k_trunk, k_upper_arms, k_forearms, k_thighs, k_shins });
     }
     return {};
+}
+
+std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings)
+{
+    std::vector<Bone> bones = bones_covered_by(type);
+    const bool any_sleeves = type == GarmentType::dress || type == GarmentType::jumpsuit || type == GarmentType::suit;
+    if (!any_sleeves || openings.empty())
+        return bones;
+    Sleeves longest = Sleeves::none;
+    for (const Piece& piece : pieces_of(openings))
+        longest = std::max(longest, sleeves_of(piece));
+    const auto is_bare = [&](Bone b) {
+        const bool upper = b == lhumerus || b == rhumerus, fore = b == lradius || b == rradius;
+        return (upper && longest == Sleeves::none) || (fore && longest != Sleeves::whole_arm);
+    };
+    bones.erase(std::remove_if(bones.begin(), bones.end(), is_bare), bones.end());
+    return bones;
+}
+
+std::vector<Vec3> cuffs_of(const std::vector<Opening>& openings)
+{
+    std::vector<Vec3> cuffs;
+    double longest = 0;
+    for (const Piece& piece : pieces_of(openings))
+        if (sleeves_of(piece) != Sleeves::none && length_of(piece.sleeves) > longest) {
+            longest = length_of(piece.sleeves);
+            cuffs = { piece.sleeves[0].centre, piece.sleeves[1].centre };
+        }
+    return cuffs;
 }
 
 }  // namespace fit

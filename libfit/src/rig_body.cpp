@@ -102,6 +102,7 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible_bones(curves, graph, sides));
     progress.at(0.9);
     rig.weights = transferred(proxy, weights, body.surface);
+    rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
     progress.at(1);
     return rig;
 }

@@ -11,21 +11,36 @@ namespace fit {
 namespace {
 
 constexpr double k_crossing = 10;        // m; more than any room can repay
+constexpr double k_stuck = 0.5;          // m; a foot stands across its trouser leg and may find no room there, nor may a hand
+                                         // that is bent at the wrist find a way out of its cuff
 constexpr double k_ease = 0.01;          // m/rad^2; worn bones stay near ease among near equals
+constexpr double k_trunk_ease = 0.2;     // m/rad^2; the trunk bends less than limbs turn
+constexpr double k_bare_trunk = 0.5;     // m/rad^2; above trousers the trunk is as it stands
+constexpr double k_twins = 0.1;          // m/rad^2; limbs in sleeves and trouser legs are held alike
 constexpr double k_own_pose = 0.05;      // m/rad^2; bare limbs stay near the body's own pose
 constexpr double k_limit = 2;            // m/rad beyond a joint's range
-constexpr double k_upright = 0.5;        // m/rad^2; the trunk stands
-constexpr double k_sag = 3;              // m/m; a shirt hangs from the shoulders, trousers are pulled up
+constexpr double k_upright = 3;          // m/rad^2; the trunk stands
+constexpr double k_sag = 1.5;             // m/m; a shirt hangs from the shoulders, trousers are pulled up
+constexpr double k_cuff = 0.3;           // m/rad^2; arms point from the shoulder to the cuff
 constexpr double k_front = 0.3;          // m; for each opening that faces forwards
 constexpr double k_own_front = 0.1;      // m; where the garment does not tell its front, the body keeps its own
-constexpr double k_empty = 6;            // m/m; mean distance of the cloth from the nearest limb that could fill it
-constexpr double k_far_cloth = 0.3;      // m; cloth further away than this is just far: trains, wide skirts
+constexpr double k_empty = 8;            // m/m; mean distance of the cloth from the nearest limb that could fill it
+constexpr double k_far_cloth = 0.25;     // m; cloth further away than this is just far: trains, wide skirts
 constexpr double k_cover_cells = 12, k_coarse_cover_cells = 6;  // along the garment's longest side
 constexpr double k_better = 1e-9;        // m; below this two poses are equal, and the nearer one wins
 
 constexpr std::array<int, 7> k_trunk { lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle };
 
+bool is_trunk(int bone) { return std::find(k_trunk.begin(), k_trunk.end(), bone) != k_trunk.end(); }
+
 double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); }
+
+bool is_foot(Extremity extremity) { return extremity == lfoot_tip || extremity == rfoot_tip; }
+
+// Ankles and wrists do not bend: what lies beyond is as the body held it.
+bool may_stick(Extremity extremity) { return extremity != head_top; }
+
+Vec3 reflected(const Vec3& direction, const Vec3& axis) { return direction - 2 * direction.dot(axis) * axis; }
 
 // One point, the mean, for each cell that has cloth.
 Eigen::ArrayX3f spread_points(const ClothRoom& cloth, double cells)
@@ -96,13 +111,13 @@ struct SkeletonSearch::Chain {
     CoverDistances distances;
 };
 
-SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const Vec3& front)
+SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues)
     : rig_(rig)
     , limits_(limits)
     , metric_(metric)
     , cover_(spread_points(metric.cloth(), k_cover_cells))
     , coarse_cover_(spread_points(metric.cloth(), k_coarse_cover_cells))
-    , front_(front)
+    , cues_(cues)
     , hangs_from_shoulders_(metric.figure().covered[lclavicle])
 {
 }
@@ -110,23 +125,53 @@ SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const 
 // Worn bones and the trunk would be at ease, bare limbs as they were given; nobody leaves the range of a joint.
 double SkeletonSearch::posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const
 {
-    const bool in_trunk = std::find(k_trunk.begin(), k_trunk.end(), bone) != k_trunk.end();
-    const bool eased = metric_.figure().covered[bone] || in_trunk;
-    const Vec3 wish = eased ? limits_.at_ease(bone, parent_turn) : parent_turn * rig_.skeleton.direction(bone);
+    const bool in_trunk = is_trunk(bone);
+    const bool worn = metric_.figure().covered[bone];
+    const Vec3 wish = worn || in_trunk ? limits_.at_ease(bone, parent_turn) : parent_turn * rig_.skeleton.direction(bone);
+    const double ease = in_trunk ? (worn ? k_trunk_ease : k_bare_trunk) : worn ? k_ease : k_own_pose;
     const double angle = angle_between(direction, wish);
-    return (eased ? k_ease : k_own_pose) * angle * angle + k_limit * limits_.excess(bone, parent_turn, direction);
+    return ease * angle * angle + k_limit * limits_.excess(bone, parent_turn, direction);
 }
 
-double SkeletonSearch::bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn) const
+double SkeletonSearch::twin_cost(int bone, const Vec3& direction, const Skeleton& joints) const
 {
-    return metric_.value(bone, head, tail) - posture_cost(bone, (tail - head).normalized(), parent_turn);
+    const int twin = mirror_of(bone);
+    if (twin == bone || is_trunk(bone) || !metric_.figure().covered[bone] || !metric_.figure().covered[twin])
+        return 0;
+    const Vec3 left = (joints.tail(lhipjoint) - joints.tail(rhipjoint)).normalized();
+    const double angle = angle_between(direction, reflected(joints.direction(twin), left));
+    return k_twins * angle * angle;
+}
+
+// An arm may find room elsewhere, in a wide shirt's body say, but what a sleeve is for is plain.
+double SkeletonSearch::cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const
+{
+    const bool is_left = bone == lhumerus || bone == lradius;
+    const bool is_right = bone == rhumerus || bone == rradius;
+    if (cues_.cuffs.empty() || !metric_.figure().covered[bone] || is_left == is_right)
+        return 0;
+    const Vec3 left = joints.tail(lhipjoint) - joints.tail(rhipjoint);
+    const bool first_is_left = left.dot(cues_.cuffs[0] - cues_.cuffs[1]) > 0;
+    const Vec3& cuff = cues_.cuffs[is_left == first_is_left ? 0 : 1];
+    const Vec3& shoulder = joints.tail(is_left ? lclavicle : rclavicle);
+    const double angle = angle_between((tail - shoulder).normalized(), (cuff - shoulder).normalized());
+    return k_cuff * angle * angle;
+}
+
+double SkeletonSearch::bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn,
+                                   const Skeleton& joints) const
+{
+    const Vec3 direction = (tail - head).normalized();
+    return metric_.value(bone, head, tail) - metric_.overlap(bone, head, tail, joints)
+        - posture_cost(bone, direction, parent_turn) - twin_cost(bone, direction, joints)
+        - cuff_cost(bone, tail, joints);
 }
 
 double SkeletonSearch::stance_energy(const Posture& posture) const
 {
     const Vec3 front = posture.turn * rig_.front;
     const double tilt = angle_between(posture.turn * rig_.up.normalized(), Vec3::UnitY());
-    const double facing = k_front * front.dot(front_) + k_own_front * front.dot(rig_.front);
+    const double facing = k_front * front.dot(cues_.front) + k_own_front * front.dot(rig_.front);
     return (hangs_from_shoulders_ ? k_sag : -k_sag) * posture.root.y() - k_upright * tilt * tilt + facing;
 }
 
@@ -158,21 +203,36 @@ double SkeletonSearch::energy(const Posture& posture) const
     const PlacedBones bones = placed(rig_.skeleton, posture);
     double sum = stance_energy(posture) - emptiness(cover_distances(bones, nullptr, false));
     for (int b = 0; b < bone_count; ++b)
-        sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b));
+        sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b), bones.joints);
     for (int e = 0; e < extremity_count; ++e)
         sum += metric_.bare_tip(Extremity(e), bones.joints.tail(bone_before(Extremity(e))), bones.joints.tips[e]);
     return sum;
 }
 
-int SkeletonSearch::crossings(const Posture& posture) const
+double SkeletonSearch::crossing_cost(const PlacedBones& bones, Extremity extremity) const
 {
-    const Skeleton joints = placed(rig_.skeleton, posture).joints;
-    int count = 0;
+    const bool crosses = metric_.cloth().crosses(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
+    return crosses ? (may_stick(extremity) ? k_stuck : k_crossing) : 0;
+}
+
+double SkeletonSearch::crossing_cost(const Posture& posture) const
+{
+    const PlacedBones bones = placed(rig_.skeleton, posture);
+    double cost = 0;
     for (int b = 0; b < bone_count; ++b)
-        count += metric_.cloth().crosses(joints.head(b), joints.tail(b));
+        cost += metric_.cloth().crosses(bones.joints.head(b), bones.joints.tail(b)) ? k_crossing : 0;
     for (int e = 0; e < extremity_count; ++e)
-        count += metric_.cloth().crosses(joints.tail(bone_before(Extremity(e))), joints.tips[e]);
-    return count;
+        cost += crossing_cost(bones, Extremity(e));
+    return cost;
+}
+
+double SkeletonSearch::crossing_cost(const Posture& posture, const Limb& limb) const
+{
+    const PlacedBones bones = placed(rig_.skeleton, posture);
+    double cost = crossing_cost(bones, limb.end);
+    for (const int b : limb.bones)
+        cost += metric_.cloth().crosses(bones.joints.head(b), bones.joints.tail(b)) ? k_crossing : 0;
+    return cost;
 }
 
 Posture SkeletonSearch::at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const
@@ -192,7 +252,7 @@ double SkeletonSearch::trunk_energy(const Posture& posture) const
     const PlacedBones bones = placed(rig_.skeleton, posture);
     double sum = stance_energy(posture);
     for (const int b : k_trunk)
-        sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b));
+        sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b), bones.joints);
     return sum;
 }
 
@@ -209,7 +269,7 @@ double SkeletonSearch::largest_limb_energy() const
 template <class Moved>
 Posture SkeletonSearch::best_of(const Posture& present, const Reach& reach, const std::vector<Vec3>& offsets, Moved moved) const
 {
-    const auto penalty = [&](const Posture& p) { return reach.exact ? k_crossing * crossings(p) : 0.0; };
+    const auto penalty = [&](const Posture& p) { return reach.exact ? crossing_cost(p) : 0.0; };
     Posture best = present;
     double best_score = energy(present) - penalty(present);
     for (const Vec3& offset : offsets) {
@@ -266,13 +326,13 @@ Posture SkeletonSearch::trunk_bent(const Posture& present, const Reach& reach) c
 // A limb fills a tube of its own where the garment covers its lower bone, or is a sleeve; legs in a skirt share theirs.
 bool SkeletonSearch::fills_tube(const Limb& limb) const
 {
-    const bool is_leg = limb.end == lfoot_tip || limb.end == rfoot_tip;
-    return metric_.figure().covered[limb.bones[is_leg ? 1 : 0]];
+    return metric_.figure().covered[limb.bones[is_foot(limb.end) ? 1 : 0]];
 }
 
 std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, const Limb& limb, int link, const Vec3& start,
-                                                            const Vec3& clavicle, const Reach& reach) const
+                                                            const Skeleton& joints, const Reach& reach) const
 {
+    const Vec3 clavicle = joints.direction(parent_of(limb.bones[0]));
     const int bone = limb.bones[link];
     const bool explains = chain.distances.size() > 0;
     const bool worn = metric_.figure().covered[bone];
@@ -284,7 +344,7 @@ std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, 
         Chain next = chain;
         next.directions[link] = direction;
         next.tail = chain.tail + rig_.skeleton.length(bone) * direction;
-        next.score += bone_energy(bone, chain.tail, next.tail, chain.turn);
+        next.score += bone_energy(bone, chain.tail, next.tail, chain.turn, joints);
         if (explains && worn) {
             lower_distances(next.distances, bone, chain.tail, next.tail);
             next.score += emptiness(chain.distances) - emptiness(next.distances);
@@ -293,6 +353,16 @@ std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, 
         result.push_back(std::move(next));
     }
     return result;
+}
+
+// Arms and legs come in pairs, and so do sleeves: what one of them found may suit the other.
+Posture SkeletonSearch::mirrored(const Posture& present, const Limb& limb) const
+{
+    const Vec3 left = present.turn * rig_.up.cross(rig_.front).normalized();
+    Posture moved = present;
+    for (const int b : limb.bones)
+        moved.directions[b] = reflected(present.directions[mirror_of(b)], left);
+    return moved;
 }
 
 Vec3 SkeletonSearch::tip_of(const Limb& limb, const Chain& chain) const
@@ -309,37 +379,47 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
 {
     const PlacedBones bones = placed(rig_.skeleton, present);
     const auto [upper, lower] = limb.bones;
-    const Vec3 parent_direction = bones.joints.direction(parent_of(upper));
     const auto better = [](const Chain& a, const Chain& b) { return a.score > b.score; };
     const auto crosses = [&](const Vec3& from, const Vec3& to) { return reach.exact && metric_.cloth().crosses(from, to); };
 
     Chain root { bones.joints.head(upper), bones.parent_turn(upper), { Vec3::Zero(), Vec3::Zero() }, 0, {} };
     if (fills_tube(limb))
         root.distances = cover_distances(bones, &limb, !reach.exact);
-    std::vector<Chain> uppers = extended(root, limb, 0, present.directions[upper], parent_direction, reach);
+    std::vector<Chain> uppers = extended(root, limb, 0, present.directions[upper], bones.joints, reach);
     std::stable_sort(uppers.begin(), uppers.end(), better);
 
     Chain best;
     bool found = false;
-    int kept = 0;
+    std::vector<Vec3> kept;
     for (const Chain& first : uppers) {
-        if (crosses(root.tail, first.tail))
+        const Vec3& direction = first.directions[0];
+        const bool alike = std::any_of(kept.begin(), kept.end(), [&](const Vec3& k) { return angle_between(k, direction) < 1.5 * reach.spacing; });
+        if (alike || crosses(root.tail, first.tail))
             continue;
-        if (++kept > reach.beam)
+        if (int(kept.size()) == reach.beam)
             break;
-        const Vec3 start = shortest_arc(present.directions[upper], first.directions[0]) * present.directions[lower];
-        std::vector<Chain> lowers = extended(first, limb, 1, start, parent_direction, reach);
+        kept.push_back(direction);
+        const Vec3 start = shortest_arc(present.directions[upper], direction) * present.directions[lower];
+        std::vector<Chain> lowers = extended(first, limb, 1, start, bones.joints, reach);
         for (Chain& second : lowers)
             second.score += tip_energy(limb, second);
         std::stable_sort(lowers.begin(), lowers.end(), better);
         for (const Chain& second : lowers) {
             if (found && second.score <= best.score + k_better)
                 break;
-            if (crosses(first.tail, second.tail) || crosses(second.tail, tip_of(limb, second)))
+            if (crosses(first.tail, second.tail))
+                continue;
+            const bool stuck = crosses(second.tail, tip_of(limb, second));
+            if (stuck && !may_stick(limb.end))
+                continue;
+            const double score = second.score - (stuck ? k_stuck : 0);
+            if (found && score <= best.score + k_better)
                 continue;
             best = second;
+            best.score = score;
             found = true;
-            break;
+            if (!stuck)
+                break;
         }
     }
     if (!found)

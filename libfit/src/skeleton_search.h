@@ -22,6 +22,12 @@ inline constexpr std::array<Limb, 5> k_limbs { {
     { { rhumerus, rradius }, rhand_tip }, { { lowerneck, upperneck }, head_top },
 } };
 
+/// What a garment's openings say about how it is worn.
+struct GarmentCues {
+    Vec3 front = Vec3::Zero();  // horizontal; where openings face, longer the more of them agree
+    std::vector<Vec3> cuffs;    // two, or none: where hands come out
+};
+
 /// How far and how finely a move looks. Grids are sorted by distance from the present: of equals, the nearest wins.
 struct Reach {
     double extent, spacing;  // metres or radians
@@ -32,14 +38,15 @@ struct Reach {
 class SkeletonSearch {
 public:
     /// Keeps references: the rig, the limits and the metric have to live as long.
-    /// @param front  horizontal; where the garment's openings face, longer the more of them agree
-    SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const Vec3& front);
+    SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues);
 
     /// E of equation (4) and what it leaves open: bare limbs keep away from cloth, poses are human, the garment hangs from
     /// the body, none of it is left empty. Metres, to be maximised. Crossings are counted apart.
     double energy(const Posture& posture) const;
-    /// Bones and extremities that pass through cloth.
-    int crossings(const Posture& posture) const;
+    /// For bones and extremities that pass through cloth: more than any room can repay, but for hands and
+    /// feet, which may find none.
+    double crossing_cost(const Posture& posture) const;
+    double crossing_cost(const Posture& posture, const Limb& limb) const;
 
     /// The body at ease, turned by `turn`, its root at `root`.
     Posture at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const;
@@ -55,6 +62,9 @@ public:
     Posture limb_moved(const Posture& present, const Limb& limb, const Reach& reach) const;
     Posture trunk_bent(const Posture& present, const Reach& reach) const;
 
+    /// The limb as the other of its pair is held, better or not.
+    Posture mirrored(const Posture& present, const Limb& limb) const;
+
     const BoneMetric& metric() const { return metric_; }
     const Skeleton& own() const { return rig_.skeleton; }
 
@@ -62,14 +72,18 @@ private:
     struct Chain;
     using CoverDistances = Eigen::ArrayXf;  // m, from points on the cloth to the nearest worn limb
 
-    double bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn) const;
+    double crossing_cost(const PlacedBones& bones, Extremity extremity) const;
+    double bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn,
+                       const Skeleton& joints) const;
     double posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const;
+    double cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
+    double twin_cost(int bone, const Vec3& direction, const Skeleton& joints) const;
     double stance_energy(const Posture& posture) const;
     CoverDistances cover_distances(const PlacedBones& bones, const Limb* without, bool coarse) const;
     double emptiness(const CoverDistances& distances) const;
     void lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const;
     bool fills_tube(const Limb& limb) const;
-    std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start, const Vec3& clavicle,
+    std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start, const Skeleton& joints,
                                 const Reach& reach) const;
     double tip_energy(const Limb& limb, const Chain& chain) const;
     Vec3 tip_of(const Limb& limb, const Chain& chain) const;
@@ -80,7 +94,7 @@ private:
     const JointLimits& limits_;
     const BoneMetric& metric_;
     Eigen::ArrayX3f cover_, coarse_cover_;  // points spread over the garment
-    Vec3 front_;
+    GarmentCues cues_;
     bool hangs_from_shoulders_;
 };
 

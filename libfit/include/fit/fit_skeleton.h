@@ -54,9 +54,15 @@ struct FitResult {
     double score_before = 0, score_after = 0;   ///< E of equation (4)
 };
 
+/// The joints with their tips drawn back to where the extremities no longer pass through the garment. O(log n).
+FIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment);
+
 /// @pre    The garment hangs upright (+y up), somewhere; the body may be anywhere.
-/// @post   Every bone, covered or not, and every extremity keeps clear of the garment's surface: no bone passes through cloth.
-/// @throws InvalidInput when no bone fits into the garment, saying which came closest. Cancelled.
+/// @post   No bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
+///         ankles and wrists do not bend, and a trouser leg longer than the leg has no room for a foot across it; there,
+///         with_clear_tips says how far they reach.
+/// @throws InvalidInput when no body fits into the garment; SolverFailure when no such pose was found, naming bone and place;
+///         Cancelled.
 FIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
                                const Progress& progress = {});
 

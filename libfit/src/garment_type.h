@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "fit/fit_skeleton.h"
+#include "garment_openings.h"
+
+namespace fit {
+
+/// The bones that a garment of this type covers; where a type may come with any sleeves, its openings tell.
+std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
+
+/// Middles of the two cuffs of the longest sleeves; none where there are no sleeves.
+std::vector<Vec3> cuffs_of(const std::vector<Opening>& openings);
+
+}  // namespace fit
