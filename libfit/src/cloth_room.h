@@ -28,7 +28,6 @@ public:
 
     const Vec3& low() const { return low_; }    ///< corners of the garment's box
     const Vec3& high() const { return high_; }
-    double spacing() const { return spacing_; }
     const Positions& points() const { return points_; }  ///< on the cloth, nowhere further apart than k_point_spacing
 
 private:
