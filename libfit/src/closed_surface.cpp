@@ -16,10 +16,10 @@
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/alpha_wrap_3.h>
 
 #include "cgal_mesh.h"
 #include "fit/error.h"
+#include "wrapped_surface.h"
 
 namespace fit {
 namespace {
@@ -27,8 +27,6 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr double k_weld = 1e-6;            // of the diagonal: on a body, 2 micrometres
-constexpr double k_wrap_alpha = 0.012;     // of the diagonal: holes narrower than this are wrapped over
-constexpr double k_wrap_offset = 0.001;    // of the diagonal: how far the wrap keeps off the surface
 constexpr double k_main_share = 0.5;       // of the area: with less, the body comes in parts
 constexpr int k_most_holes = 200;          // more than this is a surface in tatters
 
@@ -88,6 +86,8 @@ bool is_one_closed_manifold(const TriangleMesh& surface)
 /// Keeps the largest component; returns its share of the area.
 double keep_main_part(CgalMesh& mesh)
 {
+    if (mesh.number_of_faces() == 0)
+        return 0;
     const double whole = pmp::area(mesh);
     const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:component", 0).first;
     std::vector<double> areas(pmp::connected_components(mesh, labels), 0.0);
@@ -122,16 +122,6 @@ CgalMesh closed_soup(Soup soup)
     return mesh;
 }
 
-/// For tatters and for bodies in parts: shrink-wrapped.
-CgalMesh wrapped(const Soup& soup, double diagonal)
-{
-    CgalMesh mesh;
-    CGAL::alpha_wrap_3(soup.points, soup.triangles, k_wrap_alpha * diagonal, k_wrap_offset * diagonal, mesh);
-    if (mesh.number_of_faces() > 0)
-        keep_main_part(mesh);
-    return mesh;
-}
-
 bool is_solid(const CgalMesh& mesh)
 {
     return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
@@ -159,8 +149,10 @@ TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
         throw InvalidInput("body: all " + std::to_string(surface.triangles.rows()) + " faces are degenerate; give a surface with area");
     try {
         CgalMesh mesh = closed_soup(soup);
-        if (!is_solid(mesh))
-            mesh = wrapped(soup, diagonal(surface));
+        if (!is_solid(mesh)) {  // in tatters or in parts
+            mesh = to_cgal(wrapped_surface(surface));
+            keep_main_part(mesh);
+        }
         if (is_solid(mesh))
             return outward(from_cgal(mesh));
     } catch (const CGAL::Failure_exception&) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wrapped_surface.h"
+
+#include <array>
+#include <vector>
+
+#include <CGAL/alpha_wrap_3.h>
+
+#include "cgal_mesh.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_alpha = 0.012;   // of the diagonal: holes narrower than this are wrapped over
+constexpr double k_offset = 0.001;  // of the diagonal: how far the wrap keeps off the surface
+
+}  // namespace
+
+TriangleMesh wrapped_surface(const TriangleMesh& surface)
+{
+    std::vector<CgalKernel::Point_3> points;
+    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
+        points.emplace_back(surface.positions(v, 0), surface.positions(v, 1), surface.positions(v, 2));
+    std::vector<std::array<std::size_t, 3>> triangles;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        triangles.push_back({ std::size_t(surface.triangles(f, 0)), std::size_t(surface.triangles(f, 1)),
+                              std::size_t(surface.triangles(f, 2)) });
+    const double diagonal = (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
+    CgalMesh mesh;
+    CGAL::alpha_wrap_3(points, triangles, k_alpha * diagonal, k_offset * diagonal, mesh);
+    return from_cgal(mesh);
+}
+
+}  // namespace fit
