@@ -76,11 +76,9 @@ VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, 
     return visible;
 }
 
-}  // namespace
-
-Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
 {
-    const TriangleMesh proxy = proxy_surface(body.closed, options.proxy_vertices);
+    const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
     progress.at(0.15);
     const CurveSkeleton curves = curve_skeleton(proxy, progress.part(0.15, 0.7));
     const BodyGraph graph = body_graph(curves);
@@ -105,6 +103,18 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
     progress.at(1);
     return rig;
+}
+
+}  // namespace
+
+Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+{
+    try {
+        return rigged(body, options.proxy_vertices, options, progress.part(0, 1));
+    } catch (const InvalidInput&) {
+        // the flow may lose its way at a touching hand or a deep bend: other triangles, another way
+        return rigged(body, options.proxy_vertices * 2 / 3, options, progress.part(0.9, 1));
+    }
 }
 
 }  // namespace fit
