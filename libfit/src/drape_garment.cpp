@@ -7,6 +7,7 @@
 #include "cloth_motion.h"
 #include "collapse.h"
 #include "fit/error.h"
+#include "fit/fit_skeleton.h"
 #include "layers.h"
 #include "tightness.h"
 
@@ -31,16 +32,18 @@ struct Inflatable {
     }
 };
 
-Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const std::vector<WornGarment>& worn)
+Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
+                      const std::vector<WornGarment>& worn)
 {
     Inflatable result;
     result.full = { skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
     SkinWeights weights = rig.weights;
-    for (const WornGarment& garment : worn) {
-        append(weights, weights_of_nearest(garment.positions, result.full.positions.topRows(rig.weights.bones.rows()), rig.weights));
-        append(result.full, { garment.positions, garment.rest.triangles });
+    for (const WornGarment& under : worn) {
+        append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(rig.weights.bones.rows()), rig.weights));
+        append(result.full, { under.positions, under.rest.triangles });
     }
-    result.core = collapse(result.full.positions, weights, posed(rig.skeleton, pose));
+    // hands and feet do not bend: where one would poke through the cloth, it grows out of its wrist or ankle instead
+    result.core = collapse(result.full.positions, weights, with_clear_tips(posed(rig.skeleton, pose), garment));
     return result;
 }
 
@@ -105,7 +108,7 @@ void settle(ClothMotion& motion, const DrapeOptions& options, const Progress& pr
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                           const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn)
 {
-    const Inflatable inside = inflatable(rig, body, pose, worn);
+    const Inflatable inside = inflatable(rig, body, pose, garment, worn);
     const TriangleMesh collapsed = inside.at(k_first_size);
     require_free(collapsed, garment, rig.weights);
 

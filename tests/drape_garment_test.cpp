@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/drape_garment.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/error.h"
+#include "fit/recover_pose.h"
+#include "fit/rig_body.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+constexpr double k_degree = M_PI / 180;
+
+struct Dressing {
+    BodyMesh body;
+    Rig rig;
+};
+
+// Legs raised forward by `hip_angle` degrees, arms out of the way.
+Dressing person(double hip_angle = 0)
+{
+    PersonOptions options;
+    options.arm_angle = 20;
+    options.hip_angle = hip_angle;
+    const TriangleMesh mesh = capsule_person(options).mesh;
+    Dressing result;
+    result.body = make_body(mesh.positions, mesh.triangles);
+    result.rig = rig_body(result.body);
+    return result;
+}
+
+// Round a standing person, `ease` metres off the skin.
+GarmentMesh trousers(double ease)
+{
+    const TriangleMesh mesh = garment_round(person_skeleton({}), ease, [](const Vec3& p) {
+        return p.y() > 0.2 && p.y() < 1.0 && std::abs(p.x()) < 0.26;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+DrapeOptions short_settling()
+{
+    DrapeOptions options;
+    options.settling_steps = 10;
+    return options;
+}
+
+TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
+{
+    const Dressing d = person();
+    const GarmentMesh garment = trousers(0.02);
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), garment, short_settling());
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_TRUE(result.too_tight.empty());
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    ASSERT_EQ(result.garments.size(), 1u);
+    EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
+    EXPECT_EQ(result.garments[0].rest.positions, garment.positions);
+    EXPECT_LT(result.garments[0].certificate.strain.p95, 0.05);
+}
+
+TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
+{
+    const Dressing d = person();
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), trousers(-0.03), short_settling());
+    EXPECT_FALSE(result.certified);
+    EXPECT_LT(result.size_reached, 1);
+    ASSERT_FALSE(result.too_tight.empty());
+    EXPECT_GT(result.too_tight[0].missing_girth, 0.02);
+    EXPECT_TRUE(result.garments[0].certificate.clean());  // as far as it came, nothing crosses
+}
+
+TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
+{
+    const Dressing d = person();
+    GarmentMesh aside = trousers(0.02);
+    aside.positions.col(0).array() += 0.12;
+    try {
+        drape_garment(d.rig, d.body, Pose(), aside);
+        FAIL() << "took a garment beside the body";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("bone"), std::string::npos) << error.what();
+    }
+}
+
+TEST(DrapeGarment, PutsASecondGarmentOverTheFirst)
+{
+    const Dressing d = person();
+    const DrapeResult inner = drape_garment(d.rig, d.body, Pose(), trousers(0.012), short_settling());
+    ASSERT_TRUE(inner.certified);
+    const DrapeResult both = drape_garment(d.rig, d.body, Pose(), trousers(0.04), short_settling(), {}, inner.garments);
+    EXPECT_TRUE(both.certified);
+    ASSERT_EQ(both.garments.size(), 2u);
+    EXPECT_EQ(both.garments[1].certificate.layer_crossings, 0);
+    EXPECT_EQ(both.garments[0].positions, inner.garments[0].positions);
+}
+
+TEST(DrapeGarment, StopsWhenToldTo)
+{
+    const Dressing d = person();
+    const Progress stop([](double fraction, std::string_view) { return fraction < 0.2; });
+    EXPECT_THROW(drape_garment(d.rig, d.body, Pose(), trousers(0.02), {}, stop), Cancelled);
+}
+
+TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
+{
+    const Dressing d = person(35);
+    Pose standing;
+    for (const int thigh : { lfemur, rfemur })
+        standing.rotations[thigh] = Eigen::Quaterniond(Eigen::AngleAxisd(35 * k_degree, Vec3::UnitX()));
+    const DrapeResult draped = drape_garment(d.rig, d.body, standing, trousers(0.025), short_settling());
+    ASSERT_TRUE(draped.certified);
+    std::vector<double> fractions;
+    const Progress progress([&](double fraction, std::string_view) { return fractions.push_back(fraction), true; });
+    const RecoverResult result = recover_pose(d.rig, d.body, standing, Pose(), draped.garments, {}, progress);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.pose_reached, 1);
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
+    EXPECT_LT(result.garments[0].certificate.strain.p95, 0.15);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    // the thighs, and with them the cloth at the knees, came forward
+    EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
+}
+
+TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
+{
+    const Dressing d = person();
+    const GarmentMesh tight = trousers(-0.01);
+    EXPECT_THROW(recover_pose(d.rig, d.body, Pose(), Pose(), { { tight, tight.positions, {} } }), InvalidInput);
+}
+
+TEST(RecoverPose, StopsWhenToldTo)
+{
+    const Dressing d = person();
+    const GarmentMesh loose = trousers(0.02);
+    const Progress stop([](double, std::string_view) { return false; });
+    EXPECT_THROW(recover_pose(d.rig, d.body, Pose(), Pose(), { { loose, loose.positions, {} } }, {}, stop), Cancelled);
+}
+
+}  // namespace
