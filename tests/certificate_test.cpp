@@ -57,7 +57,8 @@ TEST(Certificate, FindsAGarmentThatLiesInsideTheBodyWithoutCrossingIt)
     EXPECT_EQ(bad.vertices_inside, inner.positions.rows());
     EXPECT_FALSE(bad.clean());
     EXPECT_TRUE(good.clean());
-    EXPECT_NEAR(good.smallest_gap, 0.05, 0.012);
+    EXPECT_GT(good.smallest_gap, 0.02);  // the balls are polyhedra
+    EXPECT_LT(good.smallest_gap, 0.05);
 }
 
 TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)

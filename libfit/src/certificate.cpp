@@ -98,6 +98,15 @@ double winding_number(const TriangleMesh& mesh, const Vec3& p)
     return sum / (2 * M_PI);
 }
 
+// Vertices that belong to a face; a stray one is no cloth.
+std::vector<int> vertices_of(const Triangles& triangles)
+{
+    std::vector<int> result(triangles.data(), triangles.data() + triangles.size());
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
 // Along an edge that does not cross the body the winding number stays the same: one evaluation serves a whole piece.
 int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const std::vector<Crossing>& through_body)
 {
@@ -116,7 +125,7 @@ int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const
         if (!crosses[e])
             piece[root(edges(e, 0))] = root(edges(e, 1));
     std::vector<int> size(piece.size(), 0), roots;
-    for (int v = 0; v < int(piece.size()); ++v)
+    for (int v : vertices_of(garment.triangles))
         if (size[root(v)]++ == 0)
             roots.push_back(root(v));
     std::vector<char> inside(piece.size(), 0);
@@ -135,8 +144,8 @@ double smallest_gap(const TriangleMesh& a, const TriangleMesh& b)
     TriangleTree tree(b);
     tree.accelerate_distances();
     double bound = INFINITY;
-    for (Eigen::Index v = 0; v < a.positions.rows(); ++v)
-        bound = std::min(bound, tree.distance(point(a.positions, int(v))));
+    for (int v : vertices_of(a.triangles))
+        bound = std::min(bound, tree.distance(point(a.positions, v)));
     if (!std::isfinite(bound))
         return bound;
     Positions x(a.positions.rows() + b.positions.rows(), 3);

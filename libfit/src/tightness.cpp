@@ -10,9 +10,10 @@
 namespace fit {
 namespace {
 
-// Edges within 30 degrees of "across the bone" run round it; fewer than this many say nothing about a part.
+// Edges within 30 degrees of "across the bone" run round it.
 constexpr double k_across = 0.5;
-constexpr int k_fewest_edges = 20;
+// A part speaks when its edges would go round it this often: a hem that just reaches it does not stretch as a whole.
+constexpr double k_fewest_rounds = 6;
 
 struct Part {
     const char* name;
@@ -76,8 +77,9 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
     }
     std::vector<Round> result;
     for (std::size_t p = 0; p < sums.size(); ++p)
-        if (const Sums& s = sums[p]; s.count >= k_fewest_edges && s.rest > 0)
-            result.push_back({ int(p), s.now / s.rest - 1, 2 * M_PI * s.radius / s.count });
+        if (const Sums& s = sums[p]; s.rest > 0)
+            if (const double girth = 2 * M_PI * s.radius / s.count; s.now > k_fewest_rounds * girth)
+                result.push_back({ int(p), s.now / s.rest - 1, girth });
     return result;
 }
 
