@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a warning
 
+/// Rounded down: a run that stopped on its way never says 100%.
+int percent(double share) { return static_cast<int>(std::floor(100 * share)); }
+
 // ---- writing ---------------------------------------------------------------------------------------------------
 
 void write_rigged(const Session& session, const fs::path& path)
@@ -45,8 +48,8 @@ std::vector<std::string> comments_of(const Dressing& dressing)
     if (dressing.certified)
         return { "garmentfit: certified" };
     std::ostringstream text;
-    text << "garmentfit: NOT certified; last certified state, body at " << 100 * dressing.size_reached
-         << "% of its size, pose reached " << 100 * dressing.pose_reached << '%';
+    text << "garmentfit: NOT certified; last certified state, body at " << percent(dressing.size_reached)
+         << "% of its size, pose reached " << percent(dressing.pose_reached) << '%';
     return { text.str() };
 }
 
@@ -171,14 +174,14 @@ std::string explain(const Session& session)
     if (outcome_of(session.scene) == Outcome::too_small) {
         const std::string parts = tight_parts(end);
         text << garment << " is too small" << (parts.empty() ? "" : " at " + parts) << "; the body fits in at "
-             << std::lround(100 * end.size_reached) << "% of its size";
+             << percent(end.size_reached) << "% of its size";
     } else if (!all_clean(end)) {
         const Certificate& c = end.garments.back().certificate;
         text << garment << " could not be certified: " << c.body_crossings << " crossings with the body, "
              << c.self_crossings << " with itself, " << c.layer_crossings << " with layers, " << c.vertices_inside
              << " vertices inside";
     } else {
-        text << garment << " could not be certified: stopped at " << std::lround(100 * end.pose_reached)
+        text << garment << " could not be certified: stopped at " << percent(end.pose_reached)
              << "% of the way between two poses";
     }
     return text.str();

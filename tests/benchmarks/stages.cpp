@@ -50,20 +50,20 @@ TriangleMesh at_level(const char* path, int level)
 
 BodyMesh body(int level = 0)
 {
-    const TriangleMesh mesh = at_level(FIT_SAMPLES "/man_leg_up.ply", level);
+    const TriangleMesh mesh = at_level(FIT_SAMPLES "/walking_woman.ply", level);
     return make_body(mesh.positions, mesh.triangles);
 }
 
-GarmentMesh trousers(int level)
+GarmentMesh coat(int level)
 {
-    const TriangleMesh mesh = at_level(FIT_SAMPLES "/trousers.ply", level);
+    const TriangleMesh mesh = at_level(FIT_SAMPLES "/coat.ply", level);
     return make_garment(mesh.positions, mesh.triangles);
 }
 
-FitOptions as_trousers()
+FitOptions as_coat()
 {
     FitOptions options;
-    options.type = GarmentType::trousers;
+    options.type = GarmentType::coat;
     return options;
 }
 
@@ -74,31 +74,31 @@ void count_vertices(benchmark::State& state, const Positions& positions)
 
 void rig(benchmark::State& state)
 {
-    const BodyMesh man = body(int(state.range(0)));
+    const BodyMesh woman = body(int(state.range(0)));
     for (auto _ : state)
-        benchmark::DoNotOptimize(rig_body(man));
-    count_vertices(state, man.surface.positions);
+        benchmark::DoNotOptimize(rig_body(woman));
+    count_vertices(state, woman.surface.positions);
 }
 BENCHMARK(rig)->DenseRange(0, 1)->Unit(benchmark::kSecond);
 
 void fit_to_garment(benchmark::State& state)
 {
     const Rig rigged = rig_body(body());
-    const GarmentMesh garment = trousers(int(state.range(0)));
+    const GarmentMesh garment = coat(int(state.range(0)));
     for (auto _ : state)
-        benchmark::DoNotOptimize(fit_skeleton(rigged, garment, as_trousers()));
+        benchmark::DoNotOptimize(fit_skeleton(rigged, garment, as_coat()));
     count_vertices(state, garment.positions);
 }
 BENCHMARK(fit_to_garment)->DenseRange(0, 2)->Unit(benchmark::kSecond);
 
 void drape(benchmark::State& state)
 {
-    const BodyMesh man = body();
-    const Rig rigged = rig_body(man);
-    const GarmentMesh garment = trousers(int(state.range(0)));
-    const Pose pose = fit_skeleton(rigged, garment, as_trousers()).pose;
+    const BodyMesh woman = body();
+    const Rig rigged = rig_body(woman);
+    const GarmentMesh garment = coat(int(state.range(0)));
+    const Pose pose = fit_skeleton(rigged, garment, as_coat()).pose;
     for (auto _ : state)
-        benchmark::DoNotOptimize(drape_garment(rigged, man, pose, garment));
+        benchmark::DoNotOptimize(drape_garment(rigged, woman, pose, garment));
     count_vertices(state, garment.positions);
 }
 BENCHMARK(drape)->DenseRange(0, 1)->Unit(benchmark::kSecond);
