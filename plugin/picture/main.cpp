@@ -15,7 +15,7 @@ namespace {
 
 using namespace fit::picture;
 
-constexpr double k_quarter_turn = 0.7;  // radians; shows a sleeve and the front at once
+constexpr double k_part_turn = 0.7;  // radians; shows a sleeve and the front at once
 
 std::vector<Panel> panels_of(const DressedFolder& folder)
 {
@@ -23,7 +23,7 @@ std::vector<Panel> panels_of(const DressedFolder& folder)
     if (folder.fitted.body.triangles.rows() > 0)
         panels.push_back({ &folder.fitted, "fitted: body in the garment", 0 });
     panels.push_back({ &folder.dressed, "dressed", 0 });
-    panels.push_back({ &folder.dressed, "dressed, from the side", k_quarter_turn });
+    panels.push_back({ &folder.dressed, "dressed, from the left", k_part_turn });
     return panels;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -32,9 +33,9 @@ constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15,
 constexpr Colour k_cloth[]
     = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
 constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
-constexpr double k_panel_aspect = 0.62;  // width / height of a panel
-constexpr double k_margin = 1.12;  // room around the largest figure
-constexpr double k_text_height = 0.085;  // of the picture, above and below the figures
+constexpr double k_narrowest = 0.42, k_widest = 1;  // width / height of a panel; a caption has to stand under it
+constexpr double k_margin = 1.06;  // room around the largest figure
+constexpr double k_text_height = 0.075;  // of the picture, above and below the figures
 
 vtkNew<vtkPolyDataNormals> shaded(const TriangleMesh& mesh)
 {
@@ -137,9 +138,18 @@ double common_scale(const std::vector<Panel>& panels)
     double scale = 0;
     for (const Panel& panel : panels) {
         const Extent extent = extent_of(panel);
-        scale = std::max({ scale, extent.half_height, extent.half_width / k_panel_aspect });
+        scale = std::max({ scale, extent.half_height, extent.half_width / k_widest });
     }
     return k_margin * scale;
+}
+
+/// Width / height of each panel: wide figures get more room.
+std::vector<double> aspects_of(const std::vector<Panel>& panels, double scale)
+{
+    std::vector<double> aspects;
+    for (const Panel& panel : panels)
+        aspects.push_back(std::clamp(k_margin * extent_of(panel).half_width / scale, k_narrowest, k_widest));
+    return aspects;
 }
 
 void light(vtkRenderer* renderer)
@@ -191,26 +201,28 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png)
 
 void draw(const std::vector<Panel>& panels, const std::string& headline, int height, const std::filesystem::path& png)
 {
-    const double figure_height = 1 - 2 * k_text_height, n = double(panels.size());
-    const int width = static_cast<int>(std::lround(n * k_panel_aspect * figure_height * height));
+    const double scale = common_scale(panels), figure_height = 1 - 2 * k_text_height;
+    const std::vector<double> aspects = aspects_of(panels, scale);
+    const double all_aspects = std::accumulate(aspects.begin(), aspects.end(), 0.0);
     const int font = std::max(8, height / 40);
     vtkNew<vtkRenderWindow> window;
     window->SetOffScreenRendering(1);
     window->SetMultiSamples(8);
-    window->SetSize(width, height);
+    window->SetSize(static_cast<int>(std::lround(all_aspects * figure_height * height)), height);
 
     vtkNew<vtkRenderer> page;  // behind the panels: paper and words
     page->SetBackground(k_paper.data());
     page->AddActor2D(text_of(headline, font, 0.5, 1 - 0.5 * k_text_height));
-    for (std::size_t i = 0; i < panels.size(); ++i)
-        page->AddActor2D(text_of(panels[i].caption, font, (double(i) + 0.5) / n, 0.5 * k_text_height));
     window->AddRenderer(page);
 
-    const double scale = common_scale(panels);
+    double left = 0;
     for (std::size_t i = 0; i < panels.size(); ++i) {
+        const double right = left + aspects[i] / all_aspects;
+        page->AddActor2D(text_of(panels[i].caption, font, 0.5 * (left + right), 0.5 * k_text_height));
         const vtkNew<vtkRenderer> renderer = renderer_of(panels[i], scale);
-        renderer->SetViewport(double(i) / n, k_text_height, double(i + 1) / n, 1 - k_text_height);
+        renderer->SetViewport(left, k_text_height, right, 1 - k_text_height);
         window->AddRenderer(renderer);
+        left = right;
     }
     window->Render();
     write_png(window, png);
