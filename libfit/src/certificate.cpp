@@ -84,6 +84,26 @@ std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bo
     return result;
 }
 
+// An edge that ends on one side of the triangle's plane and on the other, not on it.
+bool passes_through(const TriangleMesh& mesh, const Contact::Edges& edges, const Crossing& crossing)
+{
+    const auto corner = [&](int k) { return point(mesh.positions, mesh.triangles(crossing.second, k)); };
+    const auto side = [&](int k) { return CGAL::orientation(corner(0), corner(1), corner(2), point(mesh.positions, edges(crossing.first, k))); };
+    return side(0) * side(1) == CGAL::NEGATIVE;
+}
+
+// Pairs that cross in `now` and did not in `before`, or only touched there.
+int new_self_crossings(const TriangleMesh& before, const std::vector<Crossing>& crossed_before, const TriangleMesh& now)
+{
+    const auto edges = edges_of(now.triangles);
+    int count = 0;
+    for (const Crossing& crossing : self_crossings(now)) {
+        const bool known = std::binary_search(crossed_before.begin(), crossed_before.end(), crossing);
+        count += !known || (passes_through(now, edges, crossing) && !passes_through(before, edges, crossing));
+    }
+    return count;
+}
+
 // Sum of signed solid angles of all triangles over the full sphere; van Oosterom and Strackee 1983.
 double winding_number(const TriangleMesh& mesh, const Vec3& p)
 {
@@ -198,8 +218,10 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     const std::vector<Crossing> through_body = crossings(garment, body);
     Certificate result;
     result.body_crossings = int(through_body.size() + crossings(body, garment).size());
-    result.input_self_crossings = int(self_crossings({ rest.positions, rest.triangles }).size());
-    result.self_crossings = std::max(0, int(self_crossings(garment).size()) - result.input_self_crossings);
+    const TriangleMesh given { rest.positions, rest.triangles };
+    const std::vector<Crossing> crossed_before = self_crossings(given);
+    result.input_self_crossings = int(crossed_before.size());
+    result.self_crossings = new_self_crossings(given, crossed_before, garment);
     for (const TriangleMesh& layer : under)
         result.layer_crossings += crossing_count(garment, layer);
     result.vertices_inside = vertices_inside(body, garment, through_body);

@@ -47,7 +47,7 @@ GarmentMesh gathered(const std::vector<int>& welded, const GarmentMesh& mesh)
     return result;
 }
 
-// What crosses at the start is held together as it is, so that it crosses no more at the end.
+// What crosses in the garment as given is held together as it is: it can neither part nor cross further.
 std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossings, const GarmentMesh& mesh)
 {
     const auto edges = edges_of(mesh.triangles);
@@ -94,7 +94,6 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
     , velocity_(Positions::Zero(cloth_vertices_, 3))
 {
     x_ << gathered(welded_, start), obstacle.positions;
-    contact_.exempt(self_crossings({ Positions(x_.topRows(cloth_vertices_)), rest_.triangles }));
 }
 
 Positions ClothMotion::cloth() const
@@ -107,20 +106,65 @@ Positions ClothMotion::cloth() const
 
 Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth_vertices_); }
 
-// The one place where positions change.
-void ClothMotion::move(const Positions& displacements)
+// The one place where positions change. Vertices that are locked between others would stay behind, though all of them want the
+// same way: what is left over of their displacements is evened out among neighbours and tried once more.
+void ClothMotion::move(const Positions& displacements, const std::vector<double>& reach)
 {
-    const std::vector<double> shares = contact_.free_shares(x_, displacements, options_.smallest_gap);
-    for (Eigen::Index v = 0; v < x_.rows(); ++v)
-        x_.row(v) += shares[v] * displacements.row(v);
+    const auto go = [&](const Positions& way) {
+        const std::vector<double> shares = contact_.free_shares(x_, way, options_.smallest_gap);
+        return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal() * way);
+    };
+    const Positions first = go(displacements);
+    x_ += first;
+    if (first == displacements)
+        return;
+    Positions second = dragged(displacements - first);
+    std::vector<double> room = lengths(first);
+    for (std::size_t v = 0; v < room.size(); ++v)
+        room[v] = std::max(0.0, reach[v] - room[v]);
+    shorten(second, room);
+    x_ += go(second);
+}
+
+// Cloth follows the mean of its neighbours and of what it touches; the obstacle knows its own way.
+Positions ClothMotion::dragged(const Positions& left_over) const
+{
+    constexpr int k_passes = 12;  // a locked patch is some ten edges wide
+    std::vector<std::pair<int, int>> links;
+    const auto& edges = contact_.cloth_edges();
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+        links.emplace_back(edges(e, 0), edges(e, 1));
+    for (const ContactPair& pair : contact_.pairs())
+        if (pair.at.distance < options_.contact_distance) {
+            const auto& v = pair.vertices;
+            const int split = pair.kind == PairKind::vertex_face ? 1 : 2;
+            for (int i = 0; i < split; ++i)
+                for (int j = split; j < 4; ++j)
+                    links.emplace_back(v[i], v[j]);
+        }
+    Positions result = left_over;
+    for (int pass = 0; pass < k_passes; ++pass) {
+        Positions sum = result;
+        Eigen::VectorXd count = Eigen::VectorXd::Ones(result.rows());
+        for (const auto& [i, j] : links) {
+            sum.row(i) += result.row(j);
+            sum.row(j) += result.row(i);
+            ++count[i];
+            ++count[j];
+        }
+        for (int v = 0; v < cloth_vertices_; ++v)
+            result.row(v) = sum.row(v) / count[v];
+    }
+    return result;
 }
 
 void ClothMotion::carry(const Positions& cloth, const Positions& obstacle)
 {
     Positions displacements(x_.rows(), 3);
     displacements << gathered(welded_, cloth), obstacle;
-    contact_.detect(x_, lengths(displacements));
-    move(displacements);
+    const std::vector<double> reach = lengths(displacements);
+    contact_.detect(x_, reach);
+    move(displacements, reach);
 }
 
 std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) const
@@ -187,6 +231,11 @@ std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const
     return result;
 }
 
+void ClothMotion::carry_obstacle(const Positions& target)
+{
+    carry(Positions::Zero(vertices(), 3), target - obstacle());
+}
+
 double ClothMotion::advance(const MotionStep& step)
 {
     const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
@@ -210,7 +259,7 @@ double ClothMotion::advance(const MotionStep& step)
     shorten(displacements, reach);
 
     const Positions before = x_.topRows(cloth_vertices_);
-    move(displacements);
+    move(displacements, reach);
     velocity_ = (x_.topRows(cloth_vertices_) - before) / step.time_step;
     return settle_obstacle(*step.obstacle_target);
 }

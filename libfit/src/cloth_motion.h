@@ -34,6 +34,9 @@ public:
     /// lagging before keeps its lag, and nothing is left behind by it.
     void carry(const Positions& cloth, const Positions& obstacle);
 
+    /// Moves the obstacle towards a target, as far as each vertex freely may, while the cloth stands still.
+    void carry_obstacle(const Positions& target);
+
     /// Lets the obstacle go to its target and the cloth find its rest around it.
     /// @return the longest way that an obstacle vertex still has to its target, metres
     double advance(const MotionStep& step);
@@ -44,7 +47,8 @@ public:
 
 private:
     struct Touch;
-    void move(const Positions& displacements);
+    void move(const Positions& displacements, const std::vector<double>& reach);
+    Positions dragged(const Positions& left_over) const;
     double settle_obstacle(const Positions& target);
     std::vector<Touch> touches(const Positions& wished) const;
     std::vector<double> contact_stiffness(const std::vector<Touch>& touches) const;

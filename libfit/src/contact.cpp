@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
 
 #include "fit/mesh.h"
 
@@ -13,8 +12,6 @@ namespace fit {
 namespace {
 
 std::uint64_t key(int i, int j) { return (std::uint64_t(std::uint32_t(i)) << 32) | std::uint32_t(j); }
-
-std::uint64_t sorted_key(int i, int j) { return key(std::min(i, j), std::max(i, j)); }
 
 Corners corners(const Positions& x, const std::array<int, 4>& v)
 {
@@ -71,30 +68,6 @@ Contact::Surface Contact::surface(const Triangles& triangles, int offset)
 Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int)
     : cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices))
 {
-}
-
-// A crossing (e, f) involves e with the border of f and, at the ends of the cut, the corners of f with the triangles at e.
-void Contact::exempt(const std::vector<std::pair<int, int>>& self_crossings)
-{
-    std::map<std::pair<int, int>, int> edge_index;
-    for (Eigen::Index e = 0; e < cloth_.edges.rows(); ++e)
-        edge_index[{ cloth_.edges(e, 0), cloth_.edges(e, 1) }] = int(e);
-    std::vector<std::vector<int>> triangles_at(cloth_.edges.rows());
-    for (Eigen::Index f = 0; f < cloth_.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            if (const auto found = edge_index.find(std::minmax(cloth_.triangles(f, k), cloth_.triangles(f, (k + 1) % 3)));
-                found != edge_index.end())
-                triangles_at[found->second].push_back(int(f));
-    for (const auto& [e, f] : self_crossings) {
-        for (int k = 0; k < 2; ++k)
-            passing_vertex_face_.insert(key(cloth_.edges(e, k), f));
-        for (int k = 0; k < 3; ++k) {
-            const auto border = edge_index.find(std::minmax(cloth_.triangles(f, k), cloth_.triangles(f, (k + 1) % 3)));
-            passing_edge_edge_.insert(sorted_key(e, border->second));
-            for (int t : triangles_at[e])
-                passing_vertex_face_.insert(key(cloth_.triangles(f, k), t));
-        }
-    }
 }
 
 void Contact::renew(Surface& s, const Positions& x, const std::vector<double>& reach) const
@@ -169,7 +142,9 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
 {
     constexpr int k_rounds = 30;  // then what still meets stands still, which always ends: the present state is free
     std::vector<double> shares(x.rows(), 1.0);
-    std::vector<char> changed(x.rows(), 1);
+    std::vector<char> changed(x.rows());
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        changed[v] = !displacements.row(v).isZero(0);
     std::vector<std::atomic<double>> next(x.rows());
     for (int round = 0;; ++round) {
         for (std::size_t v = 0; v < shares.size(); ++v)
@@ -182,8 +157,6 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
                 Corners d = corners(displacements, v);
                 for (int k = 0; k < 4; ++k)
                     d[k] *= shares[v[k]];
-                if (relative_travel(pairs_[p].kind, d) <= pairs_[p].at.distance - kept_distance(pairs_[p].at.distance, gap))
-                    continue;
                 const double share = free_share(pairs_[p].kind, corners(x, v), d, gap);
                 if (share < 1)
                     for (int k = 0; k < 4; ++k)

@@ -4,6 +4,9 @@
 // Cloth against itself and against an obstacle (the body, and garments under it): which primitives come close, and how far
 // everything may move so that nothing crosses.
 //
+// What crosses must pass a state in which a vertex meets a face or an edge an edge. None does so here, so that crossings neither
+// come nor go: those that a garment was given with stay the same pairs.
+//
 // Vertices of both are numbered together: cloth first, then the obstacle. The obstacle does not meet itself.
 
 #include <unordered_set>
@@ -29,18 +32,15 @@ public:
     /// @param obstacle  triangles over [0, obstacle_vertices), numbered from 0
     Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int obstacle_vertices);
 
-    /// Primitives of the cloth around each crossing (edge, triangle) have no side to be kept on: they are left to
-    /// pass. All pairs of a state that crosses already must be named before the first motion.
-    void exempt(const std::vector<std::pair<int, int>>& self_crossings);
-
-    /// Finds all pairs that may meet when no vertex moves further than its reach (metres). Pairs that touch already at
-    /// the first detection (distance 0) are exempted.
+    /// Finds all pairs that may meet when no vertex moves further than its reach (metres). Pairs of cloth that touch (distance
+    /// 0) have no side to be kept on: from then on they are left to pass.
     void detect(const Positions& x, const std::vector<double>& reach);
 
     const std::vector<ContactPair>& pairs() const { return pairs_; }
 
     /// The share of its displacement, in [0, 1], that each vertex may go so that no pair comes nearer than `gap` (see
-    /// free_share). Displacements must keep within the reach of the detection. Same bits for any number of threads.
+    /// free_share). `x` may have moved since the detection: way and displacement together must keep within its reach. Same bits
+    /// for any number of threads.
     std::vector<double> free_shares(const Positions& x, const Positions& displacements, double gap) const;
 
     const Edges& cloth_edges() const { return cloth_.edges; }

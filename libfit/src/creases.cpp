@@ -20,6 +20,8 @@ using Triangle = Kernel::Triangle_3;
 using TriangleIterator = std::vector<Triangle>::const_iterator;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>>>;
 
+// Layers of cloth need this much room (metres) between two parts of the body.
+constexpr double k_clearance = 1e-3;
 // The sides of a crease are part of it this far (metres, along edges) from where it is shut: where its membrane begins, cloth
 // must find room again.
 constexpr double k_side = 0.03;
@@ -75,13 +77,13 @@ std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vert
 
 /// Vertices without room, and the sides of the wedges that open from them.
 std::vector<char> creased(const Positions& positions, const std::vector<double>& room,
-                          const std::vector<std::vector<int>>& neighbours, double clearance)
+                          const std::vector<std::vector<int>>& neighbours)
 {
     std::vector<double> way(room.size(), INFINITY);  // from the nearest vertex without room; Dijkstra's algorithm
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
     for (std::size_t v = 0; v < room.size(); ++v)
-        if (room[v] < clearance)
+        if (room[v] < k_clearance)
             front.emplace(way[v] = 0, int(v));
     while (!front.empty()) {
         const auto [here, v] = front.top();
@@ -140,11 +142,11 @@ void drop_without_border(std::vector<char>& marked, const std::vector<std::vecto
 
 }  // namespace
 
-Creases::Creases(const TriangleMesh& surface, double clearance)
+Creases::Creases(const TriangleMesh& surface)
 {
     const Edges edges = edges_of(surface.triangles);
     const auto neighbours = neighbours_of(edges, std::size_t(surface.positions.rows()));
-    std::vector<char> inside = creased(surface.positions, room_above(surface), neighbours, clearance);
+    std::vector<char> inside = creased(surface.positions, room_above(surface), neighbours);
     add_enclosed(inside, neighbours);
     drop_without_border(inside, neighbours);
 
@@ -185,6 +187,14 @@ Positions Creases::bridged(const Positions& positions) const
     const Eigen::MatrixXd membrane = membrane_.solve(right);
     for (std::size_t i = 0; i < inner_.size(); ++i)
         result.row(inner_[i]) = membrane.row(i);
+    return result;
+}
+
+Positions Creases::withdrawn(const Positions& positions, const Positions& core) const
+{
+    Positions result = positions;
+    for (int v : inner_)
+        result.row(v) = 0.5 * (core.row(v) + positions.row(v));
     return result;
 }
 

@@ -15,14 +15,16 @@ namespace fit {
 
 class Creases {
 public:
-    /// Finds the creases of a surface as it stands (n x 3): vertices that face another part of it within `clearance`
-    /// metres, or lie inside another part. Cost O(n log n).
-    Creases(const TriangleMesh& surface, double clearance);
+    /// Finds the creases of a surface as it stands (n x 3): vertices that face another part of it without room for cloth
+    /// between, or lie inside another part. Cost O(n log n).
+    explicit Creases(const TriangleMesh& surface);
 
     /// The surface, in any pose (n x 3), with its creases bridged: each crease is a harmonic membrane over its border.
     Positions bridged(const Positions& positions) const;
 
-    const std::vector<int>& inner() const { return inner_; }  ///< the vertices in creases
+    /// The surface with what is in creases pulled halfway to `core`, where it collapses to: inside the body, where no cloth
+    /// is. From a bridge into its crease the skin goes by way of this.
+    Positions withdrawn(const Positions& positions, const Positions& core) const;
 
 private:
     std::vector<int> inner_;                  // vertices of the creases

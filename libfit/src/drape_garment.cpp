@@ -6,6 +6,7 @@
 
 #include "cloth_motion.h"
 #include "collapse.h"
+#include "creases.h"
 #include "fit/error.h"
 #include "fit/fit_skeleton.h"
 #include "layers.h"
@@ -24,26 +25,31 @@ constexpr double k_worth_naming = 0.7;
 /// What the garment meets: the body and the garments under it, anywhere between its bones and its full size.
 struct Inflatable {
     TriangleMesh full;
+    Positions bridged;    // full, but for the body's creases
+    Positions withdrawn;  // full, with what is in creases drawn back from them
     Positions core;
 
-    TriangleMesh at(double size) const
-    {
-        return { size >= 1 ? full.positions : Positions(core + size * (full.positions - core)), full.triangles };
-    }
+    Positions at(double size) const { return core + size * (bridged - core); }
 };
 
 Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                       const std::vector<WornGarment>& worn)
 {
     Inflatable result;
+    const Eigen::Index body_vertices = body.surface.positions.rows();
     result.full = { skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
     SkinWeights weights = rig.weights;
     for (const WornGarment& under : worn) {
-        append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(rig.weights.bones.rows()), rig.weights));
+        append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(body_vertices), rig.weights));
         append(result.full, { under.positions, under.rest.triangles });
     }
     // hands and feet do not bend: where one would poke through the cloth, it grows out of its wrist or ankle instead
     result.core = collapse(result.full.positions, weights, with_clear_tips(posed(rig.skeleton, pose), garment));
+    const Positions skinned = result.full.positions.topRows(body_vertices);
+    const Creases creases({ skinned, body.surface.triangles });
+    result.bridged = result.withdrawn = result.full.positions;
+    result.bridged.topRows(body_vertices) = creases.bridged(skinned);
+    result.withdrawn.topRows(body_vertices) = creases.withdrawn(skinned, result.core.topRows(body_vertices));
     return result;
 }
 
@@ -74,32 +80,32 @@ double inflate(ClothMotion& motion, const Inflatable& inside, const Tightness& t
 {
     MotionStep step;
     step.largest_move = step.largest_obstacle_move = 1e-2;
-    double size = k_first_size, lag = 1;
-    for (int i = 1; i <= options.inflation_steps + k_patience && lag > 0; ++i) {
-        progress.at(double(i) / (options.inflation_steps + k_patience));
-        const double share = std::min(1.0, double(i) / options.inflation_steps);
-        size = share < 1 ? k_first_size + (1 - k_first_size) * share : 1;
-        const Positions target = inside.at(size).positions;
+    for (int i = 1; i <= options.inflation_steps; ++i) {
+        progress.at(double(i) / options.inflation_steps);
+        const double size = k_first_size + (1 - k_first_size) * i / options.inflation_steps;
+        const Positions target = inside.at(size);
         step.obstacle_target = &target;
-        lag = motion.advance(step);
+        motion.advance(step);
         if (tightness.largest_stretch(motion.cloth()) > options.largest_stretch)
-            return size;
-        lag = size < 1 ? 1 : lag;
+            return size < 1 ? size : 1 - 1e-3;
     }
+    motion.carry_obstacle(inside.withdrawn);
+    motion.carry_obstacle(inside.full.positions);
     return 1;
 }
 
-void settle(ClothMotion& motion, const DrapeOptions& options, const Progress& progress)
+/// Hangs the cloth on the body, which gets its last parts to full size meanwhile.
+void settle(ClothMotion& motion, const Inflatable& inside, const DrapeOptions& options, const Progress& progress)
 {
-    const Positions still = motion.obstacle();
     MotionStep step;
-    step.obstacle_target = &still;
+    step.obstacle_target = &inside.full.positions;
     step.gravity = k_gravity;
     step.velocity_kept = 0.9;
     step.friction = options.cloth.friction;
-    for (int i = 0; i < options.settling_steps; ++i) {
-        progress.at(double(i) / options.settling_steps);
-        motion.advance(step);
+    double lag = 1;
+    for (int i = 0; i < options.settling_steps || (lag > 0 && i < options.settling_steps + k_patience); ++i) {
+        progress.at(double(i) / (options.settling_steps + k_patience));
+        lag = motion.advance(step);
     }
 }
 
@@ -109,7 +115,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
                           const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn)
 {
     const Inflatable inside = inflatable(rig, body, pose, garment, worn);
-    const TriangleMesh collapsed = inside.at(k_first_size);
+    const TriangleMesh collapsed { inside.at(k_first_size), inside.full.triangles };
     require_free(collapsed, garment, rig.weights);
 
     const Eigen::Index body_vertices = body.surface.positions.rows();
@@ -122,7 +128,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     if (result.size_reached < 1)
         result.too_tight = tightness.too_tight(motion.cloth(), k_worth_naming * options.largest_stretch, result.size_reached);
     else
-        settle(motion, options, progress.part(0.7, 1));
+        settle(motion, inside, options, progress.part(0.7, 1));
 
     const Positions reached = motion.obstacle();
     result.body = reached.topRows(body_vertices);

@@ -15,8 +15,6 @@ namespace {
 
 // Passes over the edges that even out how the cloth hangs on the bones: what lies between two limbs follows both.
 constexpr int k_smoothing_passes = 30;
-// Layers of cloth need this much room (metres) between two parts of the body.
-constexpr double k_crease_clearance = 3e-3;
 // A body that moves works its clothes loose: this share of the friction is left.
 constexpr double k_moving_friction = 0.25;
 // Parts of the body that cloth holds back get this many more steps to arrive.
@@ -28,7 +26,7 @@ constexpr double k_in_place = 1e-3;
 class Way {
 public:
     Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to)
-        : rig_(rig), body_(body), from_(from), to_(to), creases_({ at(1), body.surface.triangles }, k_crease_clearance)
+        : rig_(rig), body_(body), from_(from), to_(to), creases_({ at(1), body.surface.triangles })
     {
     }
 
@@ -42,14 +40,11 @@ public:
         return plain + std::min(1.0, 2 * t) * (creases_.bridged(plain) - plain);
     }
 
-    /// The last pose, with what is in creases pulled halfway to the bones: inside the body, where no cloth is.
+    /// The last pose, with what is in creases drawn back from them.
     Positions withdrawn() const
     {
-        Positions result = at(1);
-        const Positions core = collapse(result, rig_.weights, posed(rig_.skeleton, to_));
-        for (int v : creases_.inner())
-            result.row(v) = 0.5 * (core.row(v) + result.row(v));
-        return result;
+        const Positions last = at(1);
+        return creases_.withdrawn(last, collapse(last, rig_.weights, posed(rig_.skeleton, to_)));
     }
 
     /// Metres that the vertex with the longest way goes.
@@ -124,14 +119,6 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
     return reached;
 }
 
-/// Lets the skin that bridged the creases go where it belongs: first inwards, then, inside the body, to its place. The cloth
-/// stands still meanwhile.
-void leave_creases(ClothMotion& motion, const Way& way)
-{
-    for (const Positions& target : { way.withdrawn(), way.at(1) })
-        motion.carry(Positions::Zero(motion.vertices(), 3), target - motion.obstacle());
-}
-
 /// @return whether the whole body has arrived
 bool settle(ClothMotion& motion, const Positions& arrived, const RecoverOptions& options, const Progress& progress)
 {
@@ -168,7 +155,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     const SkinWeights cloth_weights = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
     ClothMotion motion({ rest.positions, rest.triangles }, cloth.positions, start, options.cloth);
     const double reached = go(motion, way, rig.weights, cloth_weights, options, progress.part(0, 0.8));
-    leave_creases(motion, way);
+    motion.carry_obstacle(way.withdrawn());
+    motion.carry_obstacle(way.at(1));
     const bool arrived = settle(motion, way.at(1), options, progress.part(0.8, 1));
 
     put_positions(result.garments, motion.cloth());
