@@ -307,4 +307,25 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     EXPECT_LT(apart, 0.02) << "metres; files between the steps round, and contact is sensitive to it";
 }
 
+TEST_F(Slow, SaysWhereAGarmentIsTooSmallAndMarksTheStateItLeaves)
+{
+    const auto skirt = fit::MeshFile::read(k_skirt);
+    fit::Positions slimmer = skirt.positions();
+    slimmer.col(0) *= 0.8;
+    slimmer.col(2) *= 0.8;
+    skirt.write(folder / "tight.ply", slimmer);
+    const Ended ended
+        = run({ "dress", k_body, folder / "tight.ply", "--type", "skirt", "--json", "-o", folder / "result" });
+    ASSERT_EQ(ended.code, 3) << ended.err;
+    const auto report = nlohmann::json::parse(ended.out);
+    EXPECT_FALSE(report.at("certified").get<bool>());
+    EXPECT_LT(report.at("size_reached").get<double>(), 1);
+    const auto& tight = report.at("garments").at(0).at("too_tight");
+    ASSERT_FALSE(tight.empty());
+    EXPECT_GT(tight.at(0).at("missing_girth").get<double>(), 0);
+    EXPECT_NE(ended.err.find("tight.ply is too small at"), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.err.find("100%"), std::string::npos) << ended.err;
+    EXPECT_NE(read_text(folder / "result" / "body.ply").find("NOT certified"), std::string::npos);
+}
+
 }  // namespace

@@ -48,8 +48,11 @@ std::vector<std::string> comments_of(const Dressing& dressing)
     if (dressing.certified)
         return { "garmentfit: certified" };
     std::ostringstream text;
-    text << "garmentfit: NOT certified; last certified state, body at " << percent(dressing.size_reached)
-         << "% of its size, pose reached " << percent(dressing.pose_reached) << '%';
+    text << "garmentfit: NOT certified; last certified state, body at ";
+    if (dressing.size_reached < 1)
+        text << percent(dressing.size_reached) << "% of its size";
+    else
+        text << percent(dressing.pose_reached) << "% of the way between two poses";
     return { text.str() };
 }
 
