@@ -20,7 +20,8 @@ TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c)
 
 TriangleMesh ball(double radius, const Vec3& centre = Vec3::Zero())
 {
-    TriangleMesh mesh = polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-0.3), Vec3::Constant(0.3), 0.05);
+    TriangleMesh mesh
+        = polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-0.3), Vec3::Constant(0.3), 0.05);
     mesh.positions.rowwise() += centre.transpose();
     return mesh;
 }

@@ -23,7 +23,8 @@ GarmentMesh tube(double radius, int rings = 12, int around = 24)
     for (int r = 0; r < rings; ++r)
         for (int a = 0; a < around; ++a) {
             const double angle = 2 * M_PI * a / around;
-            mesh.positions.row(r * around + a) << radius * std::sin(angle), 0.03 * (r - rings / 2.0), radius * std::cos(angle);
+            mesh.positions.row(r * around + a) << radius * std::sin(angle), 0.03 * (r - rings / 2.0),
+                radius * std::cos(angle);
         }
     int f = 0;
     for (int r = 0; r + 1 < rings; ++r)
@@ -55,7 +56,8 @@ TEST(Proximity, ClosestPointsAreNoFurtherThanAnySample)
     std::mt19937 random(1);
     for (int trial = 0; trial < 200; ++trial) {
         const Corners x = random_corners(random);
-        const double face = closest(PairKind::vertex_face, x).distance, edges = closest(PairKind::edge_edge, x).distance;
+        const double face = closest(PairKind::vertex_face, x).distance,
+                     edges = closest(PairKind::edge_edge, x).distance;
         for (double s = 0; s <= 1; s += 0.1)
             for (double t = 0; t <= 1; t += 0.1) {
                 EXPECT_LE(edges, (x[0] + s * (x[1] - x[0]) - x[2] - t * (x[3] - x[2])).norm() + 1e-12);
@@ -95,8 +97,11 @@ TEST(Proximity, TheFreeShareNeverComesNearerThanItMay)
 TEST(Proximity, CommonMotionIsFree)
 {
     Corners x { Vec3(0, 1e-7, 0), Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(0, 0, 1) };
-    EXPECT_EQ(free_share(PairKind::vertex_face, x, { Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1) }, 1e-4), 1);
-    EXPECT_EQ(free_share(PairKind::vertex_face, x, { Vec3(0, 1, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero() }, 1e-4), 1);
+    EXPECT_EQ(
+        free_share(PairKind::vertex_face, x, { Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1) }, 1e-4),
+        1);
+    EXPECT_EQ(free_share(PairKind::vertex_face, x, { Vec3(0, 1, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero() }, 1e-4),
+              1);
 }
 
 TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
@@ -134,7 +139,8 @@ TEST(ClothEnergy, AGarmentAtRestStays)
 TEST(ClothEnergy, FallsFreelyByHalfGTimesTimeSquared)
 {
     const GarmentMesh cloth = tube(0.15);
-    const TriangleMesh far = { (ball(0.1).positions.rowwise() + Eigen::RowVector3d(9, 0, 0)).eval(), ball(0.1).triangles };
+    const TriangleMesh far
+        = { (ball(0.1).positions.rowwise() + Eigen::RowVector3d(9, 0, 0)).eval(), ball(0.1).triangles };
     ClothMotion motion(cloth, cloth.positions, far, {});
     const Positions target = far.positions;
     MotionStep step;

@@ -36,9 +36,8 @@ Dressing person(double hip_angle = 0)
 // Round a standing person, `ease` metres off the skin.
 GarmentMesh trousers(double ease)
 {
-    const TriangleMesh mesh = garment_round(person_skeleton({}), ease, [](const Vec3& p) {
-        return p.y() > 0.2 && p.y() < 1.0 && std::abs(p.x()) < 0.26;
-    });
+    const TriangleMesh mesh = garment_round(
+        person_skeleton({}), ease, [](const Vec3& p) { return p.y() > 0.2 && p.y() < 1.0 && std::abs(p.x()) < 0.26; });
     return make_garment(mesh.positions, mesh.triangles);
 }
 

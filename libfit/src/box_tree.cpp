@@ -82,7 +82,8 @@ std::vector<int> BoxTree::front(int size) const
     return nodes;
 }
 
-template <class F> void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
+template <class F>
+void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
 {
     const Node &x = a.nodes_[na], &y = b.nodes_[nb];
     if (!x.box.intersects(y.box))
@@ -106,9 +107,8 @@ void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
     if (a.empty() || b.empty())
         return;
     const std::vector<int> roots = a.front(k_parts);
-    tbb::parallel_for(0, int(roots.size()), [&](int part) {
-        descend(a, roots[part], b, 0, [&](int i, int j) { visit(part, i, j); });
-    });
+    tbb::parallel_for(0, int(roots.size()),
+                      [&](int part) { descend(a, roots[part], b, 0, [&](int i, int j) { visit(part, i, j); }); });
 }
 
 }  // namespace fit

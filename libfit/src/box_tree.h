@@ -38,7 +38,8 @@ private:
     };
     int build(int node, int begin, int end, const std::vector<Box>& boxes);
     std::vector<int> front(int size) const;
-    template <class F> static void descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f);
+    template <class F>
+    static void descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f);
 
     std::vector<Node> nodes_;
     std::vector<int> order_;

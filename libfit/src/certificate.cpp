@@ -88,7 +88,9 @@ std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bo
 bool passes_through(const TriangleMesh& mesh, const Contact::Edges& edges, const Crossing& crossing)
 {
     const auto corner = [&](int k) { return point(mesh.positions, mesh.triangles(crossing.second, k)); };
-    const auto side = [&](int k) { return CGAL::orientation(corner(0), corner(1), corner(2), point(mesh.positions, edges(crossing.first, k))); };
+    const auto side = [&](int k) {
+        return CGAL::orientation(corner(0), corner(1), corner(2), point(mesh.positions, edges(crossing.first, k)));
+    };
     return side(0) * side(1) == CGAL::NEGATIVE;
 }
 

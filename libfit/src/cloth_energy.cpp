@@ -25,7 +25,8 @@ double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b)
 }
 
 // Axes of a hinge as columns: its edge, the mean of its two normals, and what is across both.
-template <class P> Eigen::Matrix3d hinge_frame(const P& x, const std::array<int, 4>& v)
+template <class P>
+Eigen::Matrix3d hinge_frame(const P& x, const std::array<int, 4>& v)
 {
     const Vec3 a = x.row(v[0]), b = x.row(v[1]), c = x.row(v[2]), d = x.row(v[3]);
     const Vec3 edge = (b - a).normalized();
@@ -36,15 +37,17 @@ template <class P> Eigen::Matrix3d hinge_frame(const P& x, const std::array<int,
     return frame;
 }
 
-template <class P> Vec3 weighted_sum(const P& x, const std::array<int, 4>& v, const std::array<double, 4>& w)
+template <class P>
+Vec3 weighted_sum(const P& x, const std::array<int, 4>& v, const std::array<double, 4>& w)
 {
     return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
 }
 
 }  // namespace
 
-ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties, const ClothOptions& options)
-    : masses_(rest.positions.rows(), k_least_mass)
+ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties,
+                         const ClothOptions& options) :
+    masses_(rest.positions.rows(), k_least_mass)
 {
     std::map<std::pair<int, int>, double> area_at_edge;
     for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
@@ -61,7 +64,8 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
         const auto [i, j] = edge;
         // a spring stands for the strip of cloth beside it: width = area / length
         if (const double l = length(i, j); l > 0)
-            springs_.push_back({ i, j, l, options.stretch_stiffness * std::min(area / (l * l), 1.0 * k_largest_cotangent) });
+            springs_.push_back(
+                { i, j, l, options.stretch_stiffness * std::min(area / (l * l), 1.0 * k_largest_cotangent) });
     }
     for (const auto& [i, j] : ties)
         springs_.push_back({ i, j, length(i, j), options.stretch_stiffness });
@@ -69,8 +73,11 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
 
     std::vector<Eigen::Triplet<double>> entries;
     for (const Spring& s : springs_) {
-        entries.insert(entries.end(), { { s.i, s.i, s.stiffness }, { s.j, s.j, s.stiffness },
-                                        { s.i, s.j, -s.stiffness }, { s.j, s.i, -s.stiffness } });
+        entries.insert(entries.end(),
+                       { { s.i, s.i, s.stiffness },
+                         { s.j, s.j, s.stiffness },
+                         { s.i, s.j, -s.stiffness },
+                         { s.j, s.i, -s.stiffness } });
     }
     for (const Hinge& h : hinges_)
         for (int r = 0; r < 4; ++r)
@@ -84,7 +91,8 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
 
 void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
 {
-    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> corners_at;  // edge -> (opposite corner, first vertex)
+    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>>
+        corners_at;  // edge -> (opposite corner, first vertex)
     for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) {
             const int i = rest.triangles(f, k), j = rest.triangles(f, (k + 1) % 3);
@@ -119,11 +127,13 @@ void ClothEnergy::prepare(double time_step, const std::vector<double>& contact_s
     analysed_ = true;
     solver_.factorize(system);
     if (solver_.info() != Eigen::Success)
-        throw SolverFailure("cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
+        throw SolverFailure(
+            "cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
 }
 
 // Right side of the global system: where inertia, the projected springs and hinges, and contact pull.
-Eigen::MatrixXd ClothEnergy::loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
+Eigen::MatrixXd ClothEnergy::loads(const Positions& x, const Positions& inertial,
+                                   const std::vector<Press>& presses) const
 {
     Eigen::MatrixXd right(x.rows(), 3);
     for (Eigen::Index v = 0; v < x.rows(); ++v)
@@ -172,8 +182,8 @@ Eigen::MatrixXd ClothEnergy::applied(const Eigen::MatrixXd& x, const std::vector
 
 Positions ClothEnergy::minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
 {
-    constexpr int k_gradient_steps = 5;        // the next local projection changes the system's right side anyway
-    constexpr double k_good_enough = 1e-4;     // of the first residual
+    constexpr int k_gradient_steps = 5;  // the next local projection changes the system's right side anyway
+    constexpr double k_good_enough = 1e-4;  // of the first residual
     Eigen::MatrixXd solution = x;
     Eigen::MatrixXd residual = loads(x, inertial, presses) - applied(solution, presses);
     Eigen::MatrixXd preconditioned = solver_.solve(residual), direction = preconditioned;

@@ -20,7 +20,7 @@ namespace fit {
 /// A wish of contact for a weighted sum s of up to four vertices: be at `target`, energy 1/2 (s - target)^T K (s - target)
 /// with the stiffness K = normal_stiffness along the normal and tangent_stiffness across it, N/m.
 struct Press {
-    std::array<int, 4> vertices;    ///< -1: not cloth, takes no part
+    std::array<int, 4> vertices;  ///< -1: not cloth, takes no part
     std::array<double, 4> weights;
     Vec3 target, normal;
     double normal_stiffness, tangent_stiffness;
@@ -50,9 +50,9 @@ private:
         double length, stiffness;
     };
     struct Hinge {
-        std::array<int, 4> v;               // the shared edge, then the opposite corners
-        std::array<double, 4> coefficients; // their weighted sum is the mean curvature vector of the hinge
-        Vec3 curvature;                     // that vector at rest, in the hinge's own frame
+        std::array<int, 4> v;  // the shared edge, then the opposite corners
+        std::array<double, 4> coefficients;  // their weighted sum is the mean curvature vector of the hinge
+        Vec3 curvature;  // that vector at rest, in the hinge's own frame
         double stiffness;
     };
     Eigen::MatrixXd loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
@@ -65,7 +65,7 @@ private:
     Eigen::SparseMatrix<double> elastic_;  // constant part of the system, n x n, both triangles
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver_;
     bool analysed_ = false;
-    double inertia_ = 0;                   // 1 / h^2
+    double inertia_ = 0;  // 1 / h^2
 };
 
 }  // namespace fit

@@ -80,18 +80,16 @@ void shorten(Positions& displacements, const std::vector<double>& limits)
 struct ClothMotion::Touch {
     const ContactPair* pair;
     Vec3 normal;
-    double wanted;    // m; the gap below which force begins
+    double wanted;  // m; the gap below which force begins
 };
 
-ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle, const ClothOptions& options)
-    : options_(options)
-    , welded_(weld(rest.positions))
-    , rest_(gathered(welded_, rest))
-    , cloth_vertices_(int(rest_.positions.rows()))
-    , contact_(rest_.triangles, cloth_vertices_, obstacle.triangles, int(obstacle.positions.rows()))
-    , energy_(rest_, ties_across(self_crossings({ rest_.positions, rest_.triangles }), rest_), options)
-    , x_(cloth_vertices_ + obstacle.positions.rows(), 3)
-    , velocity_(Positions::Zero(cloth_vertices_, 3))
+ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
+                         const ClothOptions& options) :
+    options_(options),
+    welded_(weld(rest.positions)), rest_(gathered(welded_, rest)), cloth_vertices_(int(rest_.positions.rows())),
+    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles, int(obstacle.positions.rows())),
+    energy_(rest_, ties_across(self_crossings({ rest_.positions, rest_.triangles }), rest_), options),
+    x_(cloth_vertices_ + obstacle.positions.rows(), 3), velocity_(Positions::Zero(cloth_vertices_, 3))
 {
     x_ << gathered(welded_, start), obstacle.positions;
 }
@@ -112,7 +110,8 @@ void ClothMotion::move(const Positions& displacements, const std::vector<double>
 {
     const auto go = [&](const Positions& way) {
         const std::vector<double> shares = contact_.free_shares(x_, way, options_.smallest_gap);
-        return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal() * way);
+        return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal()
+                         * way);
     };
     const Positions first = go(displacements);
     x_ += first;
@@ -203,12 +202,17 @@ std::vector<double> ClothMotion::contact_stiffness(const std::vector<Touch>& tou
 }
 
 // A touch that is too near wants its gap back along the normal, and holds against slipping with Coulomb's force.
-std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const
+std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const Positions& wished,
+                                        double friction) const
 {
     std::vector<Press> result;
     for (const Touch& touch : touches) {
-        Press press { touch.pair->vertices, touch.pair->at.weights, Vec3::Zero(), touch.normal,
-                      k_contact_stiffness * options_.stretch_stiffness, 0 };
+        Press press { touch.pair->vertices,
+                      touch.pair->at.weights,
+                      Vec3::Zero(),
+                      touch.normal,
+                      k_contact_stiffness * options_.stretch_stiffness,
+                      0 };
         Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
         for (int k = 0; k < 4; ++k) {
             const int v = press.vertices[k];
@@ -224,7 +228,8 @@ std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const
             continue;
         const Vec3 slip = (now - before) - (now - before).dot(touch.normal) * touch.normal;
         const double slipped = slip.norm();
-        press.tangent_stiffness = press.normal_stiffness * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
+        press.tangent_stiffness
+            = press.normal_stiffness * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
         press.target = touch.wanted * touch.normal + (before - before.dot(touch.normal) * touch.normal) - obstacle;
         result.push_back(press);
     }
@@ -253,8 +258,8 @@ double ClothMotion::advance(const MotionStep& step)
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
     for (int i = 0; i < step.iterations; ++i)
-        wished.topRows(cloth_vertices_) = energy_.minimized(wished.topRows(cloth_vertices_), inertial,
-                                                            presses(near, wished, step.friction));
+        wished.topRows(cloth_vertices_)
+            = energy_.minimized(wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction));
     displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
     shorten(displacements, reach);
 
@@ -276,6 +281,22 @@ double ClothMotion::settle_obstacle(const Positions& target)
             here = target.row(v);
     }
     return longest_lag;
+}
+
+bool settle(ClothMotion& motion, const Positions& target, double friction, int steps, const Progress& progress)
+{
+    constexpr int k_patience = 60;
+    MotionStep step;
+    step.obstacle_target = &target;
+    step.gravity = k_gravity;
+    step.velocity_kept = 0.9;
+    step.friction = friction;
+    double lag = 1;
+    for (int i = 0; i < steps || (lag > 0 && i < steps + k_patience); ++i) {
+        progress.at(double(i) / (steps + k_patience));
+        lag = motion.advance(step);
+    }
+    return lag == 0;
 }
 
 }  // namespace fit

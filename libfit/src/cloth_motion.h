@@ -9,26 +9,28 @@
 
 #include "cloth_energy.h"
 #include "contact.h"
+#include "fit/progress.h"
 
 namespace fit {
 
 constexpr double k_gravity = 9.81;  ///< m/s^2
 
 struct MotionStep {
-    const Positions* obstacle_target;       ///< where the obstacle should go
-    double largest_move = 4e-3;             ///< m; no cloth vertex goes further
-    double largest_obstacle_move = 3e-3;    ///< m; no obstacle vertex goes further towards its target
-    double time_step = 0.02;                ///< s
-    double velocity_kept = 0;               ///< share of the cloth's velocity kept from the step before
-    double gravity = 0;                     ///< m/s^2, along -y
+    const Positions* obstacle_target;  ///< where the obstacle should go
+    double largest_move = 4e-3;  ///< m; no cloth vertex goes further
+    double largest_obstacle_move = 3e-3;  ///< m; no obstacle vertex goes further towards its target
+    double time_step = 0.02;  ///< s
+    double velocity_kept = 0;  ///< share of the cloth's velocity kept from the step before
+    double gravity = 0;  ///< m/s^2, along -y
     double friction = 0;
-    int iterations = 6;                     ///< local-global iterations
+    int iterations = 6;  ///< local-global iterations
 };
 
 class ClothMotion {
 public:
     /// The start must be free of crossings between cloth and obstacle; `start` is n x 3, the obstacle m x 3.
-    ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle, const ClothOptions& options);
+    ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
+                const ClothOptions& options);
 
     /// Moves cloth and obstacle together by these displacements (n x 3, m x 3), as far as each vertex freely may. What was
     /// lagging before keeps its lag, and nothing is left behind by it.
@@ -41,7 +43,7 @@ public:
     /// @return the longest way that an obstacle vertex still has to its target, metres
     double advance(const MotionStep& step);
 
-    Positions cloth() const;     ///< as the garment's own vertices, n x 3
+    Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
     int vertices() const { return int(welded_.size()); }  ///< of the garment
 
@@ -55,13 +57,17 @@ private:
     std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const;
 
     ClothOptions options_;
-    std::vector<int> welded_;       // garment vertex -> cloth vertex; vertices at one place are one
-    GarmentMesh rest_;              // welded
+    std::vector<int> welded_;  // garment vertex -> cloth vertex; vertices at one place are one
+    GarmentMesh rest_;  // welded
     int cloth_vertices_;
     Contact contact_;
     ClothEnergy energy_;
-    Positions x_;                   // cloth, then obstacle
-    Positions velocity_;            // of the cloth, m/s
+    Positions x_;  // cloth, then obstacle
+    Positions velocity_;  // of the cloth, m/s
 };
+
+/// Hangs the cloth on the obstacle under gravity, for so many time steps and some more where parts of it are still held back.
+/// @return whether the whole obstacle has arrived at its target
+bool settle(ClothMotion& motion, const Positions& target, double friction, int steps, const Progress& progress);
 
 }  // namespace fit

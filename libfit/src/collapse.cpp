@@ -28,8 +28,9 @@ public:
 
     Vec3 point(const Place& p) const
     {
-        return length_[p.segment] > 0 ? Vec3(head(p.segment) + p.at / length_[p.segment] * (tail(p.segment) - head(p.segment)))
-                                      : head(p.segment);
+        return length_[p.segment] > 0
+            ? Vec3(head(p.segment) + p.at / length_[p.segment] * (tail(p.segment) - head(p.segment)))
+            : head(p.segment);
     }
 
     /// The nearest point on a bone, or beyond it on the extremity that it carries.
@@ -38,7 +39,8 @@ public:
         Place best = nearest_on(p, bone);
         for (int e = 0; e < extremity_count; ++e)
             if (bone_before(Extremity(e)) == bone)
-                if (const Place beyond = nearest_on(p, bone_count + e); (p - point(beyond)).squaredNorm() < (p - point(best)).squaredNorm())
+                if (const Place beyond = nearest_on(p, bone_count + e);
+                    (p - point(beyond)).squaredNorm() < (p - point(best)).squaredNorm())
                     best = beyond;
         return best;
     }

@@ -18,7 +18,8 @@ Corners corners(const Positions& x, const std::array<int, 4>& v)
     return { Vec3(x.row(v[0])), Vec3(x.row(v[1])), Vec3(x.row(v[2])), Vec3(x.row(v[3])) };
 }
 
-template <class Row> Box box_of(const Row& vertices, const Positions& x, const std::vector<double>& reach)
+template <class Row>
+Box box_of(const Row& vertices, const Positions& x, const std::vector<double>& reach)
 {
     Box box;
     for (int k = 0; k < int(vertices.size()); ++k) {
@@ -65,8 +66,8 @@ Contact::Surface Contact::surface(const Triangles& triangles, int offset)
     return s;
 }
 
-Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int)
-    : cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices))
+Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int) :
+    cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices))
 {
 }
 
@@ -115,13 +116,15 @@ void Contact::detect(const Positions& x, const std::vector<double>& reach)
     const auto vertex_faces = [&](const Surface& a, const Surface& b, bool self) {
         BoxTree::overlaps(a.vertex_tree, b.triangle_tree, [&](int part, int i, int t) {
             const int v = a.vertices[i];
-            keep(part, PairKind::vertex_face, self, { v, b.triangles(t, 0), b.triangles(t, 1), b.triangles(t, 2) }, key(v, t));
+            keep(part, PairKind::vertex_face, self, { v, b.triangles(t, 0), b.triangles(t, 1), b.triangles(t, 2) },
+                 key(v, t));
         });
     };
     const auto edge_edges = [&](const Surface& a, const Surface& b, bool self) {
         BoxTree::overlaps(a.edge_tree, b.edge_tree, [&](int part, int i, int j) {
             if (!self || i < j)
-                keep(part, PairKind::edge_edge, self, { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) }, key(i, j));
+                keep(part, PairKind::edge_edge, self, { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) },
+                     key(i, j));
         });
     };
     vertex_faces(cloth_, obstacle_, false);

@@ -19,9 +19,9 @@ namespace fit {
 
 struct ContactPair {
     PairKind kind;
-    bool self;                  ///< both primitives are cloth
+    bool self;  ///< both primitives are cloth
     std::array<int, 4> vertices;
-    Closest at;                 ///< where the pair was detected
+    Closest at;  ///< where the pair was detected
 };
 
 class Contact {

@@ -44,7 +44,8 @@ std::vector<double> room_above(const TriangleMesh& surface)
     Tree tree(triangles.cbegin(), triangles.cend());
     tree.build();
     const Positions normals = vertex_normals(surface.positions, surface.triangles);
-    const double above = 1e-6 * (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
+    const double above
+        = 1e-6 * (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
     std::vector<double> result(surface.positions.rows(), INFINITY);
     tbb::parallel_for(Eigen::Index(0), surface.positions.rows(), [&](Eigen::Index v) {
         const Vec3 n = normals.row(v), p = surface.positions.row(v).transpose() + above * n;
@@ -91,7 +92,8 @@ std::vector<char> creased(const Positions& positions, const std::vector<double>&
         if (here > way[v])
             continue;
         for (int n : neighbours[v])
-            if (const double there = here + (positions.row(v) - positions.row(n)).norm(); there < std::min(way[n], k_side))
+            if (const double there = here + (positions.row(v) - positions.row(n)).norm();
+                there < std::min(way[n], k_side))
                 front.emplace(way[n] = there, n);
     }
     std::vector<char> result(room.size());

@@ -27,8 +27,8 @@ public:
     Positions withdrawn(const Positions& positions, const Positions& core) const;
 
 private:
-    std::vector<int> inner_;                  // vertices of the creases
-    Eigen::SparseMatrix<double> to_border_;   // couples inner vertices to the fixed ones
+    std::vector<int> inner_;  // vertices of the creases
+    Eigen::SparseMatrix<double> to_border_;  // couples inner vertices to the fixed ones
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> membrane_;
 };
 

@@ -17,15 +17,13 @@ namespace {
 
 // The share of its thickness that the body starts with: under two millimetres for a limb, yet no face without area.
 constexpr double k_first_size = 0.01;
-// Parts of the body that cloth holds back get this many more steps to reach full size.
-constexpr int k_patience = 60;
-// Edges stretched by a part's mean are not yet torn; parts beyond this share of the limit are worth naming, too.
+// Where one part stops the inflation, others beyond this share of the limit are worth naming, too.
 constexpr double k_worth_naming = 0.7;
 
 /// What the garment meets: the body and the garments under it, anywhere between its bones and its full size.
 struct Inflatable {
     TriangleMesh full;
-    Positions bridged;    // full, but for the body's creases
+    Positions bridged;  // full, but for the body's creases
     Positions withdrawn;  // full, with what is in creases drawn back from them
     Positions core;
 
@@ -37,7 +35,8 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
 {
     Inflatable result;
     const Eigen::Index body_vertices = body.surface.positions.rows();
-    result.full = { skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
+    result.full
+        = { skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
     SkinWeights weights = rig.weights;
     for (const WornGarment& under : worn) {
         append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(body_vertices), rig.weights));
@@ -70,7 +69,8 @@ void require_free(const TriangleMesh& collapsed, const GarmentMesh& garment, con
                                             : collapsed.triangles(through_body.front().second, 0);
     const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
                                                            : std::string("a garment worn under it");
-    throw InvalidInput("drape: the garment passes through the body's skeleton, " + what + " at " + place(collapsed.positions.row(vertex))
+    throw InvalidInput("drape: the garment passes through the body's skeleton, " + what + " at "
+                       + place(collapsed.positions.row(vertex))
                        + "; fit the skeleton to this garment first, or give its type");
 }
 
@@ -94,21 +94,6 @@ double inflate(ClothMotion& motion, const Inflatable& inside, const Tightness& t
     return 1;
 }
 
-/// Hangs the cloth on the body, which gets its last parts to full size meanwhile.
-void settle(ClothMotion& motion, const Inflatable& inside, const DrapeOptions& options, const Progress& progress)
-{
-    MotionStep step;
-    step.obstacle_target = &inside.full.positions;
-    step.gravity = k_gravity;
-    step.velocity_kept = 0.9;
-    step.friction = options.cloth.friction;
-    double lag = 1;
-    for (int i = 0; i < options.settling_steps || (lag > 0 && i < options.settling_steps + k_patience); ++i) {
-        progress.at(double(i) / (options.settling_steps + k_patience));
-        lag = motion.advance(step);
-    }
-}
-
 }  // namespace
 
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
@@ -119,16 +104,18 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     require_free(collapsed, garment, rig.weights);
 
     const Eigen::Index body_vertices = body.surface.positions.rows();
-    const SkinWeights follows = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
+    const SkinWeights follows
+        = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
     const Tightness tightness(garment, follows, posed(rig.skeleton, pose));
     ClothMotion motion(garment, garment.positions, collapsed, options.cloth);
 
     DrapeResult result;
     result.size_reached = inflate(motion, inside, tightness, options, progress.part(0, 0.7));
     if (result.size_reached < 1)
-        result.too_tight = tightness.too_tight(motion.cloth(), k_worth_naming * options.largest_stretch, result.size_reached);
+        result.too_tight
+            = tightness.too_tight(motion.cloth(), k_worth_naming * options.largest_stretch, result.size_reached);
     else
-        settle(motion, inside, options, progress.part(0.7, 1));
+        settle(motion, inside.full.positions, options.cloth.friction, options.settling_steps, progress.part(0.7, 1));
 
     const Positions reached = motion.obstacle();
     result.body = reached.topRows(body_vertices);

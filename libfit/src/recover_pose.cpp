@@ -17,16 +17,14 @@ namespace {
 constexpr int k_smoothing_passes = 30;
 // A body that moves works its clothes loose: this share of the friction is left.
 constexpr double k_moving_friction = 0.25;
-// Parts of the body that cloth holds back get this many more steps to arrive.
-constexpr int k_patience = 60;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
 
 /// The body on its way from one pose to another.
 class Way {
 public:
-    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to)
-        : rig_(rig), body_(body), from_(from), to_(to), creases_({ at(1), body.surface.triangles })
+    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to) :
+        rig_(rig), body_(body), from_(from), to_(to), creases_({ at(1), body.surface.triangles })
     {
     }
 
@@ -119,26 +117,11 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
     return reached;
 }
 
-/// @return whether the whole body has arrived
-bool settle(ClothMotion& motion, const Positions& arrived, const RecoverOptions& options, const Progress& progress)
-{
-    MotionStep step;
-    step.obstacle_target = &arrived;
-    step.gravity = k_gravity;
-    step.velocity_kept = 0.9;
-    step.friction = options.cloth.friction;
-    double lag = 1;
-    for (int i = 0; i < options.settling_steps || (lag > 0 && i < options.settling_steps + k_patience); ++i) {
-        progress.at(double(i) / (options.settling_steps + k_patience));
-        lag = motion.advance(step);
-    }
-    return lag == 0;
-}
-
 }  // namespace
 
 RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
-                           const std::vector<WornGarment>& worn, const RecoverOptions& options, const Progress& progress)
+                           const std::vector<WornGarment>& worn, const RecoverOptions& options,
+                           const Progress& progress)
 {
     RecoverResult result;
     result.garments = worn;
@@ -150,14 +133,17 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
         append(cloth, { garment.positions, garment.rest.triangles });
     }
     if (const int crossing = crossing_count(cloth, start); crossing > 0)
-        throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing) + " places in the pose to start from; drape the garment first");
+        throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing)
+                           + " places in the pose to start from; drape the garment first");
 
-    const SkinWeights cloth_weights = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
+    const SkinWeights cloth_weights
+        = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
     ClothMotion motion({ rest.positions, rest.triangles }, cloth.positions, start, options.cloth);
     const double reached = go(motion, way, rig.weights, cloth_weights, options, progress.part(0, 0.8));
     motion.carry_obstacle(way.withdrawn());
     motion.carry_obstacle(way.at(1));
-    const bool arrived = settle(motion, way.at(1), options, progress.part(0.8, 1));
+    const bool arrived
+        = settle(motion, way.at(1), options.cloth.friction, options.settling_steps, progress.part(0.8, 1));
 
     put_positions(result.garments, motion.cloth());
     result.body = motion.obstacle();

@@ -23,11 +23,11 @@ struct Part {
 const std::vector<Part>& parts()
 {
     static const std::vector<Part> table {
-        { "chest", { upperback, thorax } }, { "waist", { lowerback } }, { "hips", { lhipjoint, rhipjoint } },
-        { "neck", { lowerneck, upperneck } }, { "left shoulder", { lclavicle } }, { "right shoulder", { rclavicle } },
-        { "left upper arm", { lhumerus } }, { "right upper arm", { rhumerus } }, { "left forearm", { lradius } },
-        { "right forearm", { rradius } }, { "left thigh", { lfemur } }, { "right thigh", { rfemur } },
-        { "left calf", { ltibia } }, { "right calf", { rtibia } },
+        { "chest", { upperback, thorax } },   { "waist", { lowerback } },          { "hips", { lhipjoint, rhipjoint } },
+        { "neck", { lowerneck, upperneck } }, { "left shoulder", { lclavicle } },  { "right shoulder", { rclavicle } },
+        { "left upper arm", { lhumerus } },   { "right upper arm", { rhumerus } }, { "left forearm", { lradius } },
+        { "right forearm", { rradius } },     { "left thigh", { lfemur } },        { "right thigh", { rfemur } },
+        { "left calf", { ltibia } },          { "right calf", { rtibia } },
     };
     return table;
 }
@@ -42,8 +42,8 @@ int part_of(int bone)
 
 }  // namespace
 
-Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton)
-    : garment_(garment), skeleton_(skeleton), bones_(weights.bones.rows())
+Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton) :
+    garment_(garment), skeleton_(skeleton), bones_(weights.bones.rows())
 {
     for (std::size_t v = 0; v < bones_.size(); ++v) {
         int k;
@@ -99,7 +99,8 @@ std::vector<TooTight> Tightness::too_tight(const Positions& positions, double al
             const double needed = round.girth / size, unstretched = round.girth / (1 + round.stretch);
             result.push_back({ parts()[round.part].name, needed - unstretched });
         }
-    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });
+    std::sort(result.begin(), result.end(),
+              [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });
     return result;
 }
 

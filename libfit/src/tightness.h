@@ -26,7 +26,7 @@ private:
     struct Round {
         int part;
         double stretch;  // mean over the edges that run round the part
-        double girth;    // m, of the cloth as it is now
+        double girth;  // m, of the cloth as it is now
     };
     std::vector<Round> rounds(const Positions& positions) const;
 

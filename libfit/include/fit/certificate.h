@@ -30,12 +30,12 @@ struct Strain {
 FIT_API Strain strain_of(const GarmentMesh& rest, const Positions& positions);
 
 struct Certificate {
-    int body_crossings = 0;         ///< between garment and body, both ways
-    int self_crossings = 0;         ///< of the garment with itself, pairs that the input did not have
-    int input_self_crossings = 0;   ///< that the garment was given with
-    int layer_crossings = 0;        ///< with the garments worn under it
-    int vertices_inside = 0;        ///< garment vertices inside the body
-    double smallest_gap = 0;        ///< m, between garment and body
+    int body_crossings = 0;  ///< between garment and body, both ways
+    int self_crossings = 0;  ///< of the garment with itself, pairs that the input did not have
+    int input_self_crossings = 0;  ///< that the garment was given with
+    int layer_crossings = 0;  ///< with the garments worn under it
+    int vertices_inside = 0;  ///< garment vertices inside the body
+    double smallest_gap = 0;  ///< m, between garment and body
     Strain strain;
 
     bool clean() const

@@ -22,39 +22,40 @@ namespace fit {
 
 struct ClothOptions {
     double contact_distance = 2.5e-3;  ///< m; contact force begins below this gap
-    double smallest_gap = 1e-4;        ///< m; motion is cut before a gap falls below this
-    double density = 0.2;              ///< kg/m^2; plain cotton
-    double stretch_stiffness = 400;    ///< N/m
-    double bend_stiffness = 2e-5;      ///< N m
-    double friction = 0.4;             ///< of cloth on body, dimensionless
+    double smallest_gap = 1e-4;  ///< m; motion is cut before a gap falls below this
+    double density = 0.2;  ///< kg/m^2; plain cotton
+    double stretch_stiffness = 400;  ///< N/m
+    double bend_stiffness = 2e-5;  ///< N m
+    double friction = 0.4;  ///< of cloth on body, dimensionless
 };
 
 struct DrapeOptions {
     ClothOptions cloth;
-    int inflation_steps = 24;       ///< from the bones to full size
-    int settling_steps = 40;        ///< time steps under gravity
-    double largest_stretch = 0.15;  ///< stop when a body part stretches the cloth round it by more than this, on the mean
+    int inflation_steps = 24;  ///< from the bones to full size
+    int settling_steps = 40;  ///< time steps under gravity
+    double largest_stretch
+        = 0.15;  ///< stop when a body part stretches the cloth round it by more than this, on the mean
 };
 
 /// Where a garment is too small.
 struct TooTight {
-    std::string part;         ///< "chest", "waist", "hips", "left thigh", ...
-    double missing_girth;     ///< m; girth the cloth lacks there to lie unstretched
+    std::string part;  ///< "chest", "waist", "hips", "left thigh", ...
+    double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
 };
 
 /// A garment on a body, layer upon layer.
 struct WornGarment {
-    GarmentMesh rest;       ///< as given: edge lengths and folds
-    Positions positions;    ///< as worn, n x 3
+    GarmentMesh rest;  ///< as given: edge lengths and folds
+    Positions positions;  ///< as worn, n x 3
     Certificate certificate;
 };
 
 struct DrapeResult {
     std::vector<WornGarment> garments;  ///< from the inside out; the last one is new
-    Positions body;                     ///< the user's vertices in the fitted pose, at the size reached
-    double size_reached = 1;            ///< of the body's thickness; less than 1 where the garment is too small
+    Positions body;  ///< the user's vertices in the fitted pose, at the size reached
+    double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
-    bool certified = false;             ///< every garment's certificate is clean and the body has its full size
+    bool certified = false;  ///< every garment's certificate is clean and the body has its full size
 };
 
 /// @param pose    takes the body from its own pose into the garment (from fit_skeleton)

@@ -19,7 +19,20 @@
 namespace fit {
 
 enum class GarmentType {
-    automatic, tshirt, longsleeve, blouse, hoodie, jacket, coat, vest, trousers, shorts, skirt, dress, jumpsuit, suit
+    automatic,
+    tshirt,
+    longsleeve,
+    blouse,
+    hoodie,
+    jacket,
+    coat,
+    vest,
+    trousers,
+    shorts,
+    skirt,
+    dress,
+    jumpsuit,
+    suit
 };
 
 /// "auto", "tshirt", ... all of them, in the order of GarmentType.
@@ -42,16 +55,16 @@ FIT_API std::vector<Bone> bones_covered_by(GarmentType type);
 
 struct FitOptions {
     GarmentType type = GarmentType::automatic;
-    int iterations = 6;         ///< rounds of translation, rotation and bones; each halves spacing and extent
+    int iterations = 6;  ///< rounds of translation, rotation and bones; each halves spacing and extent
 };
 
 struct FitResult {
-    Pose pose;                                  ///< takes the body from its own pose into the garment
+    Pose pose;  ///< takes the body from its own pose into the garment
     GarmentType type = GarmentType::automatic;  ///< as given, or as found
-    double type_margin = 1;                     ///< 1 when the type was given
+    double type_margin = 1;  ///< 1 when the type was given
     std::vector<Bone> covered;
-    std::array<double, bone_count> scores {};   ///< E_B of equation (1), metres; 0 for bones that take no part
-    double score_before = 0, score_after = 0;   ///< E of equation (4)
+    std::array<double, bone_count> scores {};  ///< E_B of equation (1), metres; 0 for bones that take no part
+    double score_before = 0, score_after = 0;  ///< E of equation (4)
 };
 
 /// The joints with their tips drawn back to where the extremities no longer pass through the garment. O(log n).

@@ -25,7 +25,7 @@ public:
 
     const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
     const Triangles& triangles() const;  ///< polygons cut into fans
-    const std::string& format() const;   ///< "obj", "ply", "off", "stl", "glb" or "gltf"
+    const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" or "gltf"
 
     /// Writes the file as it was read but for the positions (n x 3, same order). Never leaves a half-written file:
     /// written beside, then renamed. @throws InvalidInput when the place cannot be written.
@@ -46,7 +46,8 @@ struct VertexProperty {
 
 /// Binary little-endian PLY with double positions. Never leaves a half-written file.
 FIT_API void write_ply(const std::filesystem::path& path, const Positions& positions, const Triangles& triangles,
-                       const std::vector<VertexProperty>& properties = {}, const std::vector<std::string>& comments = {});
+                       const std::vector<VertexProperty>& properties = {},
+                       const std::vector<std::string>& comments = {});
 
 /// Scalar vertex properties of a PLY file by name. @throws InvalidInput.
 FIT_API std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& path);

@@ -11,13 +11,13 @@ namespace fit {
 /// A body: the user's own surface and the repaired closed surface that geometry is read from.
 struct BodyMesh {
     TriangleMesh surface;  ///< every vertex and face as given
-    TriangleMesh closed;   ///< one closed, oriented, connected 2-manifold: equal to `surface` where that is one already
-    bool repaired = false; ///< true when `closed` differs from `surface`
+    TriangleMesh closed;  ///< one closed, oriented, connected 2-manifold: equal to `surface` where that is one already
+    bool repaired = false;  ///< true when `closed` differs from `surface`
 };
 
 /// A garment: triangles with or without thickness, open edges welcome.
 struct GarmentMesh {
-    Positions positions;   ///< n x 3, metres; also the rest shape: edge lengths and folds come from here
+    Positions positions;  ///< n x 3, metres; also the rest shape: edge lengths and folds come from here
     Triangles triangles;
 };
 

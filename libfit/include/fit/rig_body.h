@@ -17,8 +17,8 @@
 namespace fit {
 
 struct RigOptions {
-    int proxy_vertices = 8000;   ///< the skeleton is read from a surface decimated to about this many vertices
-    bool swap_sides = false;     ///< exchange left and right where the vote is known to be wrong
+    int proxy_vertices = 8000;  ///< the skeleton is read from a surface decimated to about this many vertices
+    bool swap_sides = false;  ///< exchange left and right where the vote is known to be wrong
 };
 
 /// @throws InvalidInput naming the gate that failed, with numbers, where the mesh is not a human body. Cancelled.

@@ -18,11 +18,23 @@ namespace fit {
 
 /// Bones in the order of every table in libfit. Parents come before children.
 enum Bone : int {
-    lhipjoint, lfemur, ltibia,
-    rhipjoint, rfemur, rtibia,
-    lowerback, upperback, thorax, lowerneck, upperneck,
-    lclavicle, lhumerus, lradius,
-    rclavicle, rhumerus, rradius,
+    lhipjoint,
+    lfemur,
+    ltibia,
+    rhipjoint,
+    rfemur,
+    rtibia,
+    lowerback,
+    upperback,
+    thorax,
+    lowerneck,
+    upperneck,
+    lclavicle,
+    lhumerus,
+    lradius,
+    rclavicle,
+    rhumerus,
+    rradius,
     bone_count
 };
 
@@ -55,11 +67,11 @@ struct Skeleton {
 
 /// Turns of the bones away from the own pose.
 struct Pose {
-    Vec3 root_translation = Vec3::Zero();                            ///< metres, added to the root
+    Vec3 root_translation = Vec3::Zero();  ///< metres, added to the root
     Eigen::Quaterniond root_rotation = Eigen::Quaterniond::Identity();  ///< about the root, of the whole body
-    std::array<Eigen::Quaterniond, bone_count> rotations;            ///< of each bone about its head, in the axes of the own
-                                                                     ///< pose: world rotation = parent's world rotation * this
-    FIT_API Pose();                                                  ///< the own pose
+    std::array<Eigen::Quaterniond, bone_count> rotations;  ///< of each bone about its head, in the axes of the own
+        ///< pose: world rotation = parent's world rotation * this
+    FIT_API Pose();  ///< the own pose
 };
 
 /// Where each bone goes: world-from-own rigid transforms.
@@ -82,21 +94,22 @@ struct SkinWeights {
 
 /// Poses vertices by dual quaternion blending; n x 3 in, n x 3 out. O(n).
 /// Vertices come back bit for bit when every transform is exactly the identity.
-FIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights,
-                       const BoneTransforms& transforms);
+FIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights, const BoneTransforms& transforms);
 
 /// Everything that rigging a body finds out.
 struct Rig {
-    Skeleton skeleton;        ///< in the body's own pose
-    SkinWeights weights;      ///< of the user's own vertices, all of them
+    Skeleton skeleton;  ///< in the body's own pose
+    SkinWeights weights;  ///< of the user's own vertices, all of them
     Vec3 up = Vec3::UnitY();  ///< of the trunk: pelvis towards neck
     Vec3 front = Vec3::UnitZ();  ///< of the trunk: where the chest faces
-    double side_margin = 0;   ///< how sure left and right are, 0 (a guess) to 1 (every cue agrees)
-    std::array<double, bone_count> radii {};  ///< m, room that a bone needs, from bone_radii; 0: unknown, taken from the leg's length
+    double side_margin = 0;  ///< how sure left and right are, 0 (a guess) to 1 (every cue agrees)
+    std::array<double, bone_count>
+        radii {};  ///< m, room that a bone needs, from bone_radii; 0: unknown, taken from the leg's length
 };
 
 /// How far the skin is from each bone, m: the lower quartile over the vertices that hang mostly on it, so that a flat part
 /// counts with its thin side; 0 for a bone on which nothing hangs. O(n log n).
-FIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights, const Positions& own_positions);
+FIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights,
+                                                  const Positions& own_positions);
 
 }  // namespace fit

@@ -14,7 +14,7 @@ namespace fit {
 using Vec3 = Eigen::Vector3d;
 
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< n x 3, metres
-using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;     ///< m x 3, rows of Positions
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< m x 3, rows of Positions
 
 struct TriangleMesh {
     Positions positions;

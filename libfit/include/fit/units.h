@@ -29,7 +29,7 @@ FIT_API Vec3 axis_of(std::string_view name);
 struct FrameGuess {
     Frame frame;
     double unit_margin = 0, up_margin = 0;  ///< 0 (a toss-up) to 1 (sure)
-    std::string why;                        ///< one sentence for the user
+    std::string why;  ///< one sentence for the user
 };
 
 /// Guesses units and up axis of a human body from its size and shape.
