@@ -109,7 +109,7 @@ TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
     const GarmentMesh cloth = tube(0.15);
     const TriangleMesh obstacle = ball(0.1);
     const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
-    Contact contact(cloth.triangles, n, obstacle.triangles, m);
+    Contact contact(cloth.triangles, n, obstacle.triangles);
     Positions x(n + m, 3);
     x << cloth.positions, obstacle.positions;
     std::srand(3);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "box_tree.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -107,8 +107,8 @@ void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
     if (a.empty() || b.empty())
         return;
     const std::vector<int> roots = a.front(k_parts);
-    tbb::parallel_for(0, int(roots.size()),
-                      [&](int part) { descend(a, roots[part], b, 0, [&](int i, int j) { visit(part, i, j); }); });
+    parallel_for(int(roots.size()),
+                 [&](int part) { descend(a, roots[part], b, 0, [&](int i, int j) { visit(part, i, j); }); });
 }
 
 }  // namespace fit

@@ -1,78 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/certificate.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "contact.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "winding_number.h"
 
 namespace fit {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangle = Kernel::Triangle_3;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Kernel::Point_3 point(const Positions& p, int v) { return { p(v, 0), p(v, 1), p(v, 2) }; }
-
-/// Triangles with area, in a tree. One without area is covered by its edges, which are edges of its neighbours.
-class TriangleTree {
-public:
-    explicit TriangleTree(const TriangleMesh& mesh)
-    {
-        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-            const Triangle t(point(mesh.positions, mesh.triangles(f, 0)), point(mesh.positions, mesh.triangles(f, 1)),
-                             point(mesh.positions, mesh.triangles(f, 2)));
-            if (t.is_degenerate())
-                continue;
-            triangles_.push_back(t);
-            index_.push_back(int(f));
-        }
-        tree_.rebuild(triangles_.cbegin(), triangles_.cend());
-        tree_.build();
-    }
-
-    std::vector<int> met_by(const Kernel::Segment_3& segment) const
-    {
-        std::vector<std::vector<Triangle>::const_iterator> hits;
-        if (!triangles_.empty())
-            tree_.all_intersected_primitives(segment, std::back_inserter(hits));
-        std::vector<int> result;
-        for (const auto& hit : hits)
-            result.push_back(index_[hit - triangles_.cbegin()]);
-        std::sort(result.begin(), result.end());
-        return result;
-    }
-
-    double distance(const Kernel::Point_3& p) const
-    {
-        return triangles_.empty() ? INFINITY : std::sqrt(tree_.squared_distance(p));
-    }
-    void accelerate_distances() { tree_.accelerate_distance_queries(); }
-
-private:
-    std::vector<Triangle> triangles_;
-    std::vector<int> index_;
-    Tree tree_;
-};
 
 std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bool same)
 {
     const auto edges = edges_of(a.triangles);
     const TriangleTree tree(b);
     std::vector<std::vector<int>> hits(edges.rows());
-    tbb::parallel_for(Eigen::Index(0), edges.rows(), [&](Eigen::Index e) {
-        const auto p = point(a.positions, edges(e, 0)), q = point(a.positions, edges(e, 1));
-        if (p != q)
-            hits[e] = tree.met_by({ p, q });
+    parallel_for(edges.rows(), [&](Eigen::Index e) {
+        hits[e] = tree.met_by(a.positions.row(edges(e, 0)), a.positions.row(edges(e, 1)));
     });
     std::vector<Crossing> result;
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
@@ -87,10 +36,11 @@ std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bo
 // An edge that ends on one side of the triangle's plane and on the other, not on it.
 bool passes_through(const TriangleMesh& mesh, const Contact::Edges& edges, const Crossing& crossing)
 {
-    const auto corner = [&](int k) { return point(mesh.positions, mesh.triangles(crossing.second, k)); };
-    const auto side = [&](int k) {
-        return CGAL::orientation(corner(0), corner(1), corner(2), point(mesh.positions, edges(crossing.first, k)));
-    };
+    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+    const auto point = [&](int v) { return Point(mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2)); };
+    const auto corner = [&](int k) { return point(mesh.triangles(crossing.second, k)); };
+    const auto side
+        = [&](int k) { return CGAL::orientation(corner(0), corner(1), corner(2), point(edges(crossing.first, k))); };
     return side(0) * side(1) == CGAL::NEGATIVE;
 }
 
@@ -104,20 +54,6 @@ int new_self_crossings(const TriangleMesh& before, const std::vector<Crossing>& 
         count += !known || (passes_through(now, edges, crossing) && !passes_through(before, edges, crossing));
     }
     return count;
-}
-
-// Sum of signed solid angles of all triangles over the full sphere; van Oosterom and Strackee 1983.
-double winding_number(const TriangleMesh& mesh, const Vec3& p)
-{
-    double sum = 0;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)).transpose() - p,
-                   b = mesh.positions.row(mesh.triangles(f, 1)).transpose() - p,
-                   c = mesh.positions.row(mesh.triangles(f, 2)).transpose() - p;
-        const double la = a.norm(), lb = b.norm(), lc = c.norm();
-        sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    }
-    return sum / (2 * M_PI);
 }
 
 // Vertices that belong to a face; a stray one is no cloth.
@@ -151,7 +87,7 @@ int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const
         if (size[root(v)]++ == 0)
             roots.push_back(root(v));
     std::vector<char> inside(piece.size(), 0);
-    tbb::parallel_for(std::size_t(0), roots.size(), [&](std::size_t i) {
+    parallel_for(roots.size(), [&](std::size_t i) {
         inside[roots[i]] = winding_number(body, garment.positions.row(roots[i])) > 0.5;
     });
     int count = 0;
@@ -163,16 +99,15 @@ int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const
 // Vertex distances bound the gap from above; the contact search below that bound finds edges that come closer.
 double smallest_gap(const TriangleMesh& a, const TriangleMesh& b)
 {
-    TriangleTree tree(b);
-    tree.accelerate_distances();
+    const TriangleTree tree(b);
     double bound = INFINITY;
     for (int v : vertices_of(a.triangles))
-        bound = std::min(bound, tree.distance(point(a.positions, v)));
+        bound = std::min(bound, tree.distance(a.positions.row(v)));
     if (!std::isfinite(bound))
         return bound;
     Positions x(a.positions.rows() + b.positions.rows(), 3);
     x << a.positions, b.positions;
-    Contact contact(a.triangles, int(a.positions.rows()), b.triangles, int(b.positions.rows()));
+    Contact contact(a.triangles, int(a.positions.rows()), b.triangles);
     contact.detect(x, std::vector<double>(x.rows(), 0.5 * bound));
     for (const ContactPair& pair : contact.pairs())
         if (!pair.self)

@@ -87,7 +87,7 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
                          const ClothOptions& options) :
     options_(options),
     welded_(weld(rest.positions)), rest_(gathered(welded_, rest)), cloth_vertices_(int(rest_.positions.rows())),
-    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles, int(obstacle.positions.rows())),
+    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles),
     energy_(rest_, ties_across(self_crossings({ rest_.positions, rest_.triangles }), rest_), options),
     x_(cloth_vertices_ + obstacle.positions.rows(), 3), velocity_(Positions::Zero(cloth_vertices_, 3))
 {

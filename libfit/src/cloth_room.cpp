@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -71,7 +71,7 @@ void ClothRoom::fill(const Progress& progress)
     nodes_.resize(std::size_t(size_.x()) * size_.y() * size_.z());
     for (int z = 0; z < size_.z(); ++z) {
         progress.at(double(z) / size_.z());
-        tbb::parallel_for(0, size_.y(), [&](int y) {
+        parallel_for(size_.y(), [&](int y) {
             for (int x = 0; x < size_.x(); ++x) {
                 const Room room = exact(origin_ + spacing_ * Vec3(x, y, z));
                 nodes_[node(x, y, z)] = { float(room.distance), float(room.inside) };

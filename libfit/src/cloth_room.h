@@ -24,7 +24,7 @@ public:
 
     Room at(const Vec3& point) const;     ///< from the grid, trilinear
     Room exact(const Vec3& point) const;  ///< from the cloth
-    bool crosses(const Vec3& from, const Vec3& to) const { return crossings_.crosses(from, to); }
+    bool crosses(const Vec3& from, const Vec3& to) const { return crossings_.is_met(from, to); }
 
     const Vec3& low() const { return low_; }    ///< corners of the garment's box
     const Vec3& high() const { return high_; }
@@ -38,7 +38,7 @@ private:
     Positions points_;
     NearestPoint nearest_;
     WindingNumber winding_;
-    SurfaceCrossings crossings_;
+    TriangleTree crossings_;
     Vec3 origin_ = Vec3::Zero();
     double spacing_ = 0;
     Eigen::Vector3i size_ = Eigen::Vector3i::Zero();

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 
 #include "fit/mesh.h"
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -66,7 +65,7 @@ Contact::Surface Contact::surface(const Triangles& triangles, int offset)
     return s;
 }
 
-Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int) :
+Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle) :
     cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices))
 {
 }
@@ -152,20 +151,19 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
     for (int round = 0;; ++round) {
         for (std::size_t v = 0; v < shares.size(); ++v)
             next[v].store(shares[v], std::memory_order_relaxed);
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs_.size(), 1024), [&](const auto& range) {
-            for (std::size_t p = range.begin(); p < range.end(); ++p) {
-                const auto& v = pairs_[p].vertices;
-                if (!(changed[v[0]] || changed[v[1]] || changed[v[2]] || changed[v[3]]))
-                    continue;
-                Corners d = corners(displacements, v);
+        const auto cut = [&](std::size_t p) {
+            const auto& v = pairs_[p].vertices;
+            if (!(changed[v[0]] || changed[v[1]] || changed[v[2]] || changed[v[3]]))
+                return;
+            Corners d = corners(displacements, v);
+            for (int k = 0; k < 4; ++k)
+                d[k] *= shares[v[k]];
+            const double share = free_share(pairs_[p].kind, corners(x, v), d, gap);
+            if (share < 1)
                 for (int k = 0; k < 4; ++k)
-                    d[k] *= shares[v[k]];
-                const double share = free_share(pairs_[p].kind, corners(x, v), d, gap);
-                if (share < 1)
-                    for (int k = 0; k < 4; ++k)
-                        lower(next[v[k]], round < k_rounds ? shares[v[k]] * std::min(share, 0.9) : 0.0);
-            }
-        });
+                    lower(next[v[k]], round < k_rounds ? shares[v[k]] * std::min(share, 0.9) : 0.0);
+        };
+        parallel_for(pairs_.size(), cut, std::size_t(1024));
         bool any = false;
         for (std::size_t v = 0; v < shares.size(); ++v) {
             const double share = next[v].load(std::memory_order_relaxed);

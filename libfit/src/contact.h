@@ -29,8 +29,8 @@ public:
     using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
     /// @param cloth     triangles over [0, cloth_vertices)
-    /// @param obstacle  triangles over [0, obstacle_vertices), numbered from 0
-    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int obstacle_vertices);
+    /// @param obstacle  triangles over the obstacle's vertices, numbered from 0
+    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle);
 
     /// Finds all pairs that may meet when no vertex moves further than its reach (metres). Pairs of cloth that touch (distance
     /// 0) have no side to be kept on: from then on they are left to pass.

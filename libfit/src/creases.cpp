@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "creases.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <tbb/parallel_for.h>
-
 #include <numeric>
 #include <queue>
 
 #include "fit/mesh.h"
+#include "nearest.h"
+#include "parallel.h"
 
 namespace fit {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangle = Kernel::Triangle_3;
-using TriangleIterator = std::vector<Triangle>::const_iterator;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>>>;
 
 // Layers of cloth need this much room (metres) between two parts of the body.
 constexpr double k_clearance = 1e-3;
@@ -28,38 +19,21 @@ constexpr double k_side = 0.03;
 // A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
 constexpr double k_enclosed = 0.01;
 
-Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
-Kernel::Vector_3 vector(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
-
 /// How far each vertex sees along its normal until it meets the surface again; 0 when it sees it from behind, as it is inside
 /// then; infinite when it sees nothing.
 std::vector<double> room_above(const TriangleMesh& surface)
 {
-    std::vector<Triangle> triangles;
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        const auto corner = [&](int k) { return point(surface.positions.row(surface.triangles(f, k))); };
-        if (Triangle t(corner(0), corner(1), corner(2)); !t.is_degenerate())
-            triangles.push_back(t);
-    }
-    Tree tree(triangles.cbegin(), triangles.cend());
-    tree.build();
+    const TriangleTree tree(surface);
     const Positions normals = vertex_normals(surface.positions, surface.triangles);
     const double above
         = 1e-6 * (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
     std::vector<double> result(surface.positions.rows(), INFINITY);
-    tbb::parallel_for(Eigen::Index(0), surface.positions.rows(), [&](Eigen::Index v) {
-        const Vec3 n = normals.row(v), p = surface.positions.row(v).transpose() + above * n;
+    parallel_for(surface.positions.rows(), [&](Eigen::Index v) {
+        const Vec3 n = normals.row(v);
         if (n.isZero())
             return;
-        const auto hit = tree.first_intersection(Kernel::Ray_3(point(p), vector(n)));
-        if (!hit)
-            return;
-        const Kernel::Point_3* where = boost::get<Kernel::Point_3>(&hit->first);
-        if (!where)
-            return;
-        const double distance = std::sqrt(CGAL::squared_distance(*where, point(p)));
-        const bool from_behind = hit->second->supporting_plane().orthogonal_vector() * vector(n) > 0;
-        result[v] = from_behind ? 0 : distance;
+        if (const auto hit = tree.first_hit(surface.positions.row(v).transpose() + above * n, n))
+            result[v] = hit->from_behind ? 0 : hit->distance;
     });
     return result;
 }

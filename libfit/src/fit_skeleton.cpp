@@ -10,11 +10,10 @@
 #include <string>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 #include "fit/error.h"
 #include "garment_type.h"
 #include "outward_cloth.h"
+#include "parallel.h"
 #include "skeleton_search.h"
 
 namespace fit {
@@ -151,7 +150,8 @@ std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search, const P
     std::vector<std::vector<Scored>> places(k_headings);
     for (int begin = 0; begin < k_headings; begin += 4) {
         progress.at(double(begin) / k_headings);
-        tbb::parallel_for(begin, begin + 4, [&](int h) {
+        parallel_for(4, [&](int i) {
+            const int h = begin + i;
             places[h] = coarse_places(search, heading(rig, 2 * std::numbers::pi * h / k_headings), roots);
         });
     }
@@ -314,12 +314,12 @@ Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
 
 Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment)
 {
-    const SurfaceCrossings cloth({ garment.positions, garment.triangles });
+    const TriangleTree cloth({ garment.positions, garment.triangles });
     Skeleton result = joints;
     for (int e = 0; e < extremity_count; ++e) {
         const Vec3& joint = joints.tail(bone_before(Extremity(e)));
         double reach = 1;
-        while (reach > k_shortest_tip && cloth.crosses(joint, joint + reach * (joints.tips[e] - joint)))
+        while (reach > k_shortest_tip && cloth.is_met(joint, joint + reach * (joints.tips[e] - joint)))
             reach *= 0.8;
         if (reach < 1)  // once more, to keep some distance
             result.tips[e] = joint + (reach > k_shortest_tip ? 0.8 * reach : 0.0) * (joints.tips[e] - joint);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "nearest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -16,29 +16,18 @@ namespace fit {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+using TriangleIterator = std::vector<Kernel::Triangle_3>::const_iterator;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>;
 using Aabb = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
 
-std::vector<Kernel::Triangle_3> triangles_of(const TriangleMesh& surface)
-{
-    std::vector<Kernel::Triangle_3> result;
-    result.reserve(surface.triangles.rows());
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        const auto corner = [&](int k) { return point(surface.positions.row(surface.triangles(f, k))); };
-        if (const Kernel::Triangle_3 triangle(corner(0), corner(1), corner(2)); !triangle.is_degenerate())
-            result.push_back(triangle);
-    }
-    return result;
-}
-
 }  // namespace
 
 struct NearestPoint::Tree {
-    explicit Tree(const Positions& given)
-        : points(given)
-        , index(flann::Matrix<double>(points.data(), points.rows(), 3), flann::KDTreeSingleIndexParams(10, true))
+    explicit Tree(const Positions& given) :
+        points(given),
+        index(flann::Matrix<double>(points.data(), points.rows(), 3), flann::KDTreeSingleIndexParams(10, true))
     {
         index.buildIndex();
     }
@@ -59,21 +48,58 @@ NearestPoint::NearestPoint(const Positions& points) : tree_(std::make_shared<con
 double NearestPoint::distance(const Vec3& query) const { return tree_->nearest(query).second; }
 int NearestPoint::index(const Vec3& query) const { return tree_->nearest(query).first; }
 
-struct SurfaceCrossings::Tree {
+struct TriangleTree::Tree {
     explicit Tree(const TriangleMesh& surface)
-        : triangles(triangles_of(surface)), aabb(triangles.cbegin(), triangles.cend())
     {
+        for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+            const auto corner = [&](int k) { return point(surface.positions.row(surface.triangles(f, k))); };
+            if (const Kernel::Triangle_3 triangle(corner(0), corner(1), corner(2)); !triangle.is_degenerate()) {
+                triangles.push_back(triangle);
+                index.push_back(int(f));
+            }
+        }
+        aabb.rebuild(triangles.cbegin(), triangles.cend());
         aabb.build();  // now, not at the first query: queries come from several threads
+        aabb.accelerate_distance_queries();
     }
     std::vector<Kernel::Triangle_3> triangles;
+    std::vector<int> index;  // of each of them in the surface
     Aabb aabb;
 };
 
-SurfaceCrossings::SurfaceCrossings(const TriangleMesh& surface) : tree_(std::make_shared<const Tree>(surface)) { }
+TriangleTree::TriangleTree(const TriangleMesh& surface) : tree_(std::make_shared<const Tree>(surface)) { }
 
-bool SurfaceCrossings::crosses(const Vec3& from, const Vec3& to) const
+bool TriangleTree::is_met(const Vec3& from, const Vec3& to) const
 {
     return from != to && tree_->aabb.do_intersect(Kernel::Segment_3(point(from), point(to)));
+}
+
+std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to) const
+{
+    std::vector<TriangleIterator> hits;
+    if (from != to)
+        tree_->aabb.all_intersected_primitives(Kernel::Segment_3(point(from), point(to)), std::back_inserter(hits));
+    std::vector<int> result;
+    for (const TriangleIterator& hit : hits)
+        result.push_back(tree_->index[hit - tree_->triangles.cbegin()]);
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+double TriangleTree::distance(const Vec3& query) const
+{
+    return tree_->triangles.empty() ? INFINITY : std::sqrt(tree_->aabb.squared_distance(point(query)));
+}
+
+std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& direction) const
+{
+    const Kernel::Vector_3 along(direction.x(), direction.y(), direction.z());
+    const auto hit = tree_->aabb.first_intersection(Kernel::Ray_3(point(from), along));
+    const Kernel::Point_3* where = hit ? boost::get<Kernel::Point_3>(&hit->first) : nullptr;
+    if (!where)
+        return {};
+    return Hit { std::sqrt(CGAL::squared_distance(*where, point(from))),
+                 hit->second->supporting_plane().orthogonal_vector() * along > 0 };
 }
 
 }  // namespace fit

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Point and segment queries: the only place that knows FLANN and the CGAL tree of the fit.
+// Point, segment and ray queries: the only place that knows FLANN and the CGAL AABB tree. All of them may be asked from several
+// threads at a time.
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "fit/types.h"
 
@@ -22,12 +25,22 @@ private:
     std::shared_ptr<const Tree> tree_;
 };
 
-/// Does a segment pass through a surface? Decided by exact predicates on an AABB tree; triangles without area are left out.
-class SurfaceCrossings {
+/// A surface in an AABB tree. Whether something meets it is decided by exact predicates. Triangles without area are left out: their
+/// edges are edges of their neighbours.
+class TriangleTree {
 public:
-    explicit SurfaceCrossings(const TriangleMesh& surface);
+    explicit TriangleTree(const TriangleMesh& surface);
 
-    bool crosses(const Vec3& from, const Vec3& to) const;
+    bool is_met(const Vec3& from, const Vec3& to) const;
+    std::vector<int> met_by(const Vec3& from, const Vec3& to) const;  ///< triangles that the segment meets, ascending
+    double distance(const Vec3& query) const;  ///< infinite from an empty surface
+
+    struct Hit {
+        double distance;
+        bool from_behind;  ///< along the triangle's normal
+    };
+    /// First triangle met by a ray (of unit direction) and not parallel to it.
+    std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;
 
 private:
     struct Tree;

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "fit/error.h"
+#include "winding_number.h"
 
 namespace fit {
 namespace {
 
-constexpr double k_pi = 3.14159265358979323846;
 constexpr int k_samples = 5;             // of each bone, ends included
 constexpr double k_inside_share = 0.85;  // of all samples: mouth, armpit and crotch come close to bones
 constexpr double k_side_tolerance = 0.2; // between a left length and its right one; humans stay below 0.05
@@ -25,20 +25,6 @@ std::string text(double value)
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.2f", value);
     return buffer;
-}
-
-/// Generalised winding number [jacobson_2013_winding]: 1 inside, 0 outside.
-double winding_number(const TriangleMesh& mesh, const Vec3& p)
-{
-    double angle = 0;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)).transpose() - p;
-        const Vec3 b = mesh.positions.row(mesh.triangles(f, 1)).transpose() - p;
-        const Vec3 c = mesh.positions.row(mesh.triangles(f, 2)).transpose() - p;
-        const double la = a.norm(), lb = b.norm(), lc = c.norm();
-        angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    }
-    return angle / (4 * k_pi);
 }
 
 void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)

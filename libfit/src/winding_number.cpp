@@ -105,4 +105,12 @@ double WindingNumber::operator()(const Vec3& query) const
     return angle / (4 * std::numbers::pi);
 }
 
+double winding_number(const TriangleMesh& surface, const Vec3& query)
+{
+    double angle = 0;
+    for (int f = 0; f < surface.triangles.rows(); ++f)
+        angle += solid_angle(corners_of(surface, f), query);
+    return angle / (4 * std::numbers::pi);
+}
+
 }  // namespace fit

@@ -32,4 +32,7 @@ private:
     std::vector<Eigen::Matrix3d> corners_;  // of each triangle, one corner a column
 };
 
+/// The same at one query or a few: all solid angles, exact; no cost beforehand.
+double winding_number(const TriangleMesh& surface, const Vec3& query);
+
 }  // namespace fit
