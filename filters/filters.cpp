@@ -24,7 +24,8 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
         if (garment.type != GarmentType::automatic)
             options.type = garment.type;
         const double i = double(scene.fits.size());
-        scene.fits.push_back(fit_skeleton(*scene.rig, garment.mesh, options, progress.part(i / n, (i + 1) / n)));
+        scene.fits.push_back(
+            fit_skeleton(*scene.rig, scene.body->surface, garment.mesh, options, progress.part(i / n, (i + 1) / n)));
     }
 }
 

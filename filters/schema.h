@@ -36,9 +36,19 @@ void describe(Options& o, Visitor&& visit)
           About { "type", "Garment type", "", 0, 0,
                   "What the garment is, which tells the bones it covers; auto finds it from the openings",
                   &garment_type_names() });
+    visit(
+        o.method,
+        About {
+            "method", "Method", "", 0, 0,
+            "fast; or, for comparison and slow: paper, Wu et al. 2018 to the letter, tisserand, Tisserand et al. 2017",
+            &fit_method_names() });
     visit(o.iterations,
           About { "iterations", "Iterations", "", 1, 20,
                   "Rounds of translation, rotation and bones; each halves spacing and extent of the search" });
+    visit(o.nearest,
+          About { "nearest", "Nearest vertex", "", 0, 0,
+                  "How the methods paper and tisserand look for the nearest vertex; the answers are the same",
+                  &nearest_search_names() });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>

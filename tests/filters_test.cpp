@@ -35,8 +35,8 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
 {
     [[maybe_unused]] const auto [proxy_vertices, swap_sides] = RigOptions();
     EXPECT_EQ(count_of(RigOptions()), 2u);
-    [[maybe_unused]] const auto [type, iterations] = FitOptions();
-    EXPECT_EQ(count_of(FitOptions()), 2u);
+    [[maybe_unused]] const auto [type, method, iterations, nearest] = FitOptions();
+    EXPECT_EQ(count_of(FitOptions()), 4u);
     [[maybe_unused]] const auto [contact, gap, density, stretch, bend, friction] = ClothOptions();
     EXPECT_EQ(count_of(ClothOptions()), 6u);
     [[maybe_unused]] const auto [drape_cloth, inflation, settling, largest_stretch] = DrapeOptions();

@@ -3,33 +3,25 @@
 
 #include <algorithm>
 
+#include "error_metric.h"
+
 namespace fit {
 namespace {
 
-constexpr int k_samples = 5;              // a bone, as in the paper
-constexpr double k_outside = 1;           // weight of a sample outside of the garment; crossings are tested apart
-constexpr double k_largest_outside = 0.1; // m; further out is not worse: long arms reach beyond their cuffs
-constexpr double k_bare = 2;               // weight of the room that a bare limb lacks
-constexpr double k_surplus = 0.15;        // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
-                                          // does not draw an arm out of its sleeve
+constexpr double k_outside = 1;  // weight of a sample outside of the garment; crossings are tested apart
+constexpr double k_largest_outside = 0.1;  // m; further out is not worse: long arms reach beyond their cuffs
+constexpr double k_bare = 2;  // weight of the room that a bare limb lacks
+constexpr double k_surplus = 0.15;  // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
+    // does not draw an arm out of its sleeve
 
 // m per metre of the leg (hip to ankle); an adult's leg has 0.8 m. In the order of Bone.
-constexpr std::array<double, bone_count> k_radii {
-    0.10, 0.085, 0.06, 0.10, 0.085, 0.06, 0.12, 0.12, 0.11, 0.065, 0.065, 0.06, 0.055, 0.042, 0.06, 0.055, 0.042
-};
+constexpr std::array<double, bone_count> k_radii { 0.10,  0.085, 0.06, 0.10,  0.085, 0.06, 0.12,  0.12, 0.11,
+                                                   0.065, 0.065, 0.06, 0.055, 0.042, 0.06, 0.055, 0.042 };
 // of the distance from the last joint to the tip; in the order of Extremity
 constexpr std::array<double, extremity_count> k_tip_radii { 0.4, 0.2, 0.2, 0.2, 0.2 };
 
 bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
 bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bone == rfemur || bone == rtibia; }
-
-Vec3 sample(const Vec3& head, const Vec3& tail, int i) { return head + (i + 0.5) / k_samples * (tail - head); }
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
-{
-    const Vec3 ab = b - a, ap = p - a;
-    return (ap - std::clamp(ap.dot(ab) / ab.squaredNorm(), 0.0, 1.0) * ab).norm();
-}
 
 // Equation (3), with the room counted up to what the limb needs.
 double delta(const Room& room, double radius)
@@ -60,7 +52,7 @@ double BoneMetric::worn(int bone, const Vec3& head, const Vec3& tail) const
 {
     double sum = 0;
     for (int i = 0; i < k_samples; ++i)
-        sum += delta(cloth_.at(sample(head, tail, i)), figure_.radii[bone]);
+        sum += delta(cloth_.at(bone_sample(head, tail, i)), figure_.radii[bone]);
     return sum;
 }
 
@@ -70,7 +62,7 @@ double BoneMetric::bare(int bone, const Vec3& head, const Vec3& tail) const
         return 0;  // a shirt hangs round hips and neck without covering them
     double sum = 0;
     for (int i = 0; i < k_samples; ++i) {
-        const Room room = cloth_.at(sample(head, tail, i));
+        const Room room = cloth_.at(bone_sample(head, tail, i));
         sum += k_bare * std::min(room.distance - figure_.radii[bone], 0.0);
         if (is_arm(bone))
             sum -= 0.5 * room.inside * figure_.radii[bone];
@@ -82,7 +74,7 @@ double BoneMetric::bare_tip(Extremity extremity, const Vec3& joint, const Vec3& 
 {
     double sum = 0;
     for (int i = 1; i < k_samples; i += 2)  // near the joint, the bone before has had its say
-        sum += k_bare * std::min(cloth_.at(sample(joint, tip, i)).distance - figure_.tip_radii[extremity], 0.0);
+        sum += k_bare * std::min(cloth_.at(bone_sample(joint, tip, i)).distance - figure_.tip_radii[extremity], 0.0);
     return sum;
 }
 
@@ -93,7 +85,8 @@ double BoneMetric::overlap(int bone, const Vec3& head, const Vec3& tail, const S
     double sum = 0;
     for (int i = 0; i < k_samples; ++i)
         for (const int spine : { lowerback, upperback, thorax }) {
-            const double distance = distance_to_segment(sample(head, tail, i), joints.head(spine), joints.tail(spine));
+            const double distance
+                = distance_to_segment(bone_sample(head, tail, i), joints.head(spine), joints.tail(spine));
             sum += std::max(0.0, figure_.radii[spine] + figure_.radii[bone] - distance);
         }
     return sum;
@@ -103,7 +96,7 @@ int BoneMetric::samples_inside(const Vec3& head, const Vec3& tail) const
 {
     int count = 0;
     for (int i = 0; i < k_samples; ++i)
-        count += cloth_.exact(sample(head, tail, i)).inside > 0.5;
+        count += cloth_.exact(bone_sample(head, tail, i)).inside > 0.5;
     return count;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <CGAL/AABB_traits.h>
@@ -22,6 +23,26 @@ using Aabb = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
 
+// Of points equally near, the one with the lowest index, whatever the order in which the tree comes across them.
+class FirstNearest : public flann::ResultSet<double> {
+public:
+    bool full() const override { return true; }
+    void addPoint(double squared, std::size_t candidate) override
+    {
+        if (squared < squared_ || (squared == squared_ && candidate < index_)) {
+            squared_ = squared;
+            index_ = candidate;
+        }
+    }
+    double worstDist() const override { return std::nextafter(squared_, INFINITY); }  // FLANN passes on what is below
+
+    std::pair<int, double> found() const { return { int(index_), std::sqrt(squared_) }; }
+
+private:
+    std::size_t index_ = 0;
+    double squared_ = std::numeric_limits<double>::max();
+};
+
 }  // namespace
 
 struct NearestPoint::Tree {
@@ -33,12 +54,9 @@ struct NearestPoint::Tree {
     }
     std::pair<int, double> nearest(const Vec3& query) const
     {
-        flann::KNNSimpleResultSet<double> best(1);
+        FirstNearest best;
         index.findNeighbors(best, query.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, 0));
-        std::size_t found = 0;
-        double squared = 0;
-        best.copy(&found, &squared, 1, false);
-        return { int(found), std::sqrt(squared) };
+        return best.found();
     }
     Positions points;
     flann::KDTreeSingleIndex<flann::L2_3D<double>> index;
@@ -47,6 +65,24 @@ struct NearestPoint::Tree {
 NearestPoint::NearestPoint(const Positions& points) : tree_(std::make_shared<const Tree>(points)) { }
 double NearestPoint::distance(const Vec3& query) const { return tree_->nearest(query).second; }
 int NearestPoint::index(const Vec3& query) const { return tree_->nearest(query).first; }
+
+int PointScan::index(const Vec3& query) const
+{
+    constexpr Eigen::Index block = 256;  // fits the nearest cache; only blocks that improve are looked into
+    double nearest = INFINITY;
+    Eigen::Index index = 0;
+    for (Eigen::Index begin = 0; begin < points_.rows(); begin += block) {
+        const auto points = points_.middleRows(begin, std::min(block, points_.rows() - begin));
+        const Eigen::Array<double, Eigen::Dynamic, 1, 0, block, 1> squared = (points.col(0) - query.x()).square()
+            + (points.col(1) - query.y()).square() + (points.col(2) - query.z()).square();
+        if (const double least = squared.minCoeff(); least < nearest) {
+            nearest = least;
+            squared.minCoeff(&index);
+            index += begin;
+        }
+    }
+    return int(index);
+}
 
 struct TriangleTree::Tree {
     explicit Tree(const TriangleMesh& surface)

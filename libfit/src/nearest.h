@@ -12,7 +12,7 @@
 
 namespace fit {
 
-/// Nearest of a set of points: FLANN, one KD-tree, exact.
+/// Nearest of a set of points: FLANN, one KD-tree, exact. Of points equally near, the first.
 class NearestPoint {
 public:
     explicit NearestPoint(const Positions& points);
@@ -23,6 +23,17 @@ public:
 private:
     struct Tree;
     std::shared_ptr<const Tree> tree_;
+};
+
+/// The same by looking at every point.
+class PointScan {
+public:
+    explicit PointScan(const Positions& points) : points_(points.array()) { }
+
+    int index(const Vec3& query) const;
+
+private:
+    Eigen::Array<double, Eigen::Dynamic, 3> points_;  // column by column, for wide instructions
 };
 
 /// A surface in an AABB tree. Whether something meets it is decided by exact predicates. Triangles without area are left out: their

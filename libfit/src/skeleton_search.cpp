@@ -4,30 +4,31 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <tuple>
+
+#include "search_grids.h"
 
 namespace fit {
 namespace {
 
-constexpr double k_crossing = 10;        // m; more than any room can repay
-constexpr double k_stuck = 0.5;          // m; a foot stands across its trouser leg and may find no room there, nor may a hand
-                                         // that is bent at the wrist find a way out of its cuff
-constexpr double k_ease = 0.01;          // m/rad^2; worn bones stay near ease among near equals
-constexpr double k_trunk_ease = 0.2;     // m/rad^2; the trunk bends less than limbs turn
-constexpr double k_bare_trunk = 0.5;     // m/rad^2; above trousers the trunk is as it stands
-constexpr double k_twins = 0.1;          // m/rad^2; limbs in sleeves and trouser legs are held alike
-constexpr double k_own_pose = 0.05;      // m/rad^2; bare limbs stay near the body's own pose
-constexpr double k_limit = 2;            // m/rad beyond a joint's range
-constexpr double k_upright = 3;          // m/rad^2; the trunk stands
-constexpr double k_sag = 1.5;             // m/m; a shirt hangs from the shoulders, trousers are pulled up
-constexpr double k_cuff = 0.3;           // m/rad^2; arms point from the shoulder to the cuff
-constexpr double k_front = 0.3;          // m; for each opening that faces forwards
-constexpr double k_own_front = 0.1;      // m; where the garment does not tell its front, the body keeps its own
-constexpr double k_empty = 8;            // m/m; mean distance of the cloth from the nearest limb that could fill it
-constexpr double k_far_cloth = 0.25;     // m; cloth further away than this is just far: trains, wide skirts
+constexpr double k_crossing = 10;  // m; more than any room can repay
+constexpr double k_stuck = 0.5;  // m; a foot stands across its trouser leg and may find no room there, nor may a hand
+    // that is bent at the wrist find a way out of its cuff
+constexpr double k_ease = 0.01;  // m/rad^2; worn bones stay near ease among near equals
+constexpr double k_trunk_ease = 0.2;  // m/rad^2; the trunk bends less than limbs turn
+constexpr double k_bare_trunk = 0.5;  // m/rad^2; above trousers the trunk is as it stands
+constexpr double k_twins = 0.1;  // m/rad^2; limbs in sleeves and trouser legs are held alike
+constexpr double k_own_pose = 0.05;  // m/rad^2; bare limbs stay near the body's own pose
+constexpr double k_limit = 2;  // m/rad beyond a joint's range
+constexpr double k_upright = 3;  // m/rad^2; the trunk stands
+constexpr double k_sag = 1.5;  // m/m; a shirt hangs from the shoulders, trousers are pulled up
+constexpr double k_cuff = 0.3;  // m/rad^2; arms point from the shoulder to the cuff
+constexpr double k_front = 0.3;  // m; for each opening that faces forwards
+constexpr double k_own_front = 0.1;  // m; where the garment does not tell its front, the body keeps its own
+constexpr double k_empty = 8;  // m/m; mean distance of the cloth from the nearest limb that could fill it
+constexpr double k_far_cloth = 0.25;  // m; cloth further away than this is just far: trains, wide skirts
 constexpr double k_cover_cells = 12, k_coarse_cover_cells = 6;  // along the garment's longest side
-constexpr double k_better = 1e-9;        // m; below this two poses are equal, and the nearer one wins
+constexpr double k_better = 1e-9;  // m; below this two poses are equal, and the nearer one wins
 
 constexpr std::array<int, 7> k_trunk { lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle };
 
@@ -61,46 +62,7 @@ Eigen::ArrayX3f spread_points(const ClothRoom& cloth, double cells)
     return points;
 }
 
-bool by_norm(const Vec3& a, const Vec3& b)
-{
-    return std::make_tuple(a.squaredNorm(), a.y(), a.x(), a.z()) < std::make_tuple(b.squaredNorm(), b.y(), b.x(), b.z());
-}
-
-Eigen::Quaterniond turned_by(const Vec3& rotation_vector)
-{
-    const double angle = rotation_vector.norm();
-    if (angle == 0)
-        return Eigen::Quaterniond::Identity();
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
-}
-
 }  // namespace
-
-std::vector<Vec3> directions_about(const Vec3& axis, double extent, double spacing)
-{
-    const Eigen::Quaterniond from_z = shortest_arc(Vec3::UnitZ(), axis);
-    std::vector<Vec3> directions { axis };
-    for (double phi = spacing; phi <= std::min(extent, std::numbers::pi) + 1e-9; phi += spacing) {
-        const int count = std::max(1, int(std::ceil(2 * std::numbers::pi * std::sin(phi) / spacing)));
-        for (int i = 0; i < count; ++i) {
-            const double theta = 2 * std::numbers::pi * i / count;
-            directions.push_back(from_z * Vec3(std::sin(phi) * std::cos(theta), std::sin(phi) * std::sin(theta), std::cos(phi)));
-        }
-    }
-    return directions;
-}
-
-std::vector<Vec3> grid_offsets(double extent, double spacing)
-{
-    const int n = int(std::floor(extent / spacing + 1e-9));
-    std::vector<Vec3> offsets;
-    for (int x = -n; x <= n; ++x)
-        for (int y = -n; y <= n; ++y)
-            for (int z = -n; z <= n; ++z)
-                offsets.push_back(spacing * Vec3(x, y, z));
-    std::sort(offsets.begin(), offsets.end(), by_norm);
-    return offsets;
-}
 
 /// The bones of a limb so far.
 struct SkeletonSearch::Chain {
@@ -111,14 +73,12 @@ struct SkeletonSearch::Chain {
     CoverDistances distances;
 };
 
-SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues)
-    : rig_(rig)
-    , limits_(limits)
-    , metric_(metric)
-    , cover_(spread_points(metric.cloth(), k_cover_cells))
-    , coarse_cover_(spread_points(metric.cloth(), k_coarse_cover_cells))
-    , cues_(cues)
-    , hangs_from_shoulders_(metric.figure().covered[lclavicle])
+SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric,
+                               const GarmentCues& cues) :
+    rig_(rig),
+    limits_(limits), metric_(metric), cover_(spread_points(metric.cloth(), k_cover_cells)),
+    coarse_cover_(spread_points(metric.cloth(), k_coarse_cover_cells)), cues_(cues),
+    hangs_from_shoulders_(metric.figure().covered[lclavicle])
 {
 }
 
@@ -127,7 +87,8 @@ double SkeletonSearch::posture_cost(int bone, const Vec3& direction, const Eigen
 {
     const bool in_trunk = is_trunk(bone);
     const bool worn = metric_.figure().covered[bone];
-    const Vec3 wish = worn || in_trunk ? limits_.at_ease(bone, parent_turn) : parent_turn * rig_.skeleton.direction(bone);
+    const Vec3 wish
+        = worn || in_trunk ? limits_.at_ease(bone, parent_turn) : parent_turn * rig_.skeleton.direction(bone);
     const double ease = in_trunk ? (worn ? k_trunk_ease : k_bare_trunk) : worn ? k_ease : k_own_pose;
     const double angle = angle_between(direction, wish);
     return ease * angle * angle + k_limit * limits_.excess(bone, parent_turn, direction);
@@ -183,11 +144,13 @@ void SkeletonSearch::lower_distances(CoverDistances& distances, int bone, const 
     const Eigen::ArrayXf x = points.col(0) - a.x(), y = points.col(1) - a.y(), z = points.col(2) - a.z();
     const Eigen::ArrayXf t = ((x * ab.x() + y * ab.y() + z * ab.z()) * inverse).max(0.f).min(1.f);
     const float radius = float(metric_.figure().radii[bone]);
-    distances = distances.min(((x - t * ab.x()).square() + (y - t * ab.y()).square() + (z - t * ab.z()).square()).sqrt() - radius);
+    distances = distances.min(((x - t * ab.x()).square() + (y - t * ab.y()).square() + (z - t * ab.z()).square()).sqrt()
+                              - radius);
     distances = distances.max(0.f);
 }
 
-SkeletonSearch::CoverDistances SkeletonSearch::cover_distances(const PlacedBones& bones, const Limb* without, bool coarse) const
+SkeletonSearch::CoverDistances SkeletonSearch::cover_distances(const PlacedBones& bones, const Limb* without,
+                                                               bool coarse) const
 {
     CoverDistances distances = CoverDistances::Constant((coarse ? coarse_cover_ : cover_).rows(), k_far_cloth);
     for (int b = 0; b < bone_count; ++b)
@@ -211,7 +174,8 @@ double SkeletonSearch::energy(const Posture& posture) const
 
 double SkeletonSearch::crossing_cost(const PlacedBones& bones, Extremity extremity) const
 {
-    const bool crosses = metric_.cloth().crosses(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
+    const bool crosses
+        = metric_.cloth().crosses(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
     return crosses ? (may_stick(extremity) ? k_stuck : k_crossing) : 0;
 }
 
@@ -267,7 +231,8 @@ double SkeletonSearch::largest_limb_energy() const
 }
 
 template <class Moved>
-Posture SkeletonSearch::best_of(const Posture& present, const Reach& reach, const std::vector<Vec3>& offsets, Moved moved) const
+Posture SkeletonSearch::best_of(const Posture& present, const Reach& reach, const std::vector<Vec3>& offsets,
+                                Moved moved) const
 {
     const auto penalty = [&](const Posture& p) { return reach.exact ? crossing_cost(p) : 0.0; };
     Posture best = present;
@@ -315,11 +280,12 @@ Posture SkeletonSearch::trunk_bent(const Posture& present, const Reach& reach) c
 {
     Posture best = present;
     for (const int b : { lowerback, upperback, thorax, lclavicle, rclavicle })
-        best = best_of(best, reach, directions_about(best.directions[b], reach.extent, reach.spacing), [&](const Vec3& direction) {
-            Posture moved = best;
-            moved.directions[b] = direction;
-            return moved;
-        });
+        best = best_of(best, reach, directions_about(best.directions[b], reach.extent, reach.spacing),
+                       [&](const Vec3& direction) {
+                           Posture moved = best;
+                           moved.directions[b] = direction;
+                           return moved;
+                       });
     return best;
 }
 
@@ -329,8 +295,9 @@ bool SkeletonSearch::fills_tube(const Limb& limb) const
     return metric_.figure().covered[limb.bones[is_foot(limb.end) ? 1 : 0]];
 }
 
-std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, const Limb& limb, int link, const Vec3& start,
-                                                            const Skeleton& joints, const Reach& reach) const
+std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, const Limb& limb, int link,
+                                                            const Vec3& start, const Skeleton& joints,
+                                                            const Reach& reach) const
 {
     const Vec3 clavicle = joints.direction(parent_of(limb.bones[0]));
     const int bone = limb.bones[link];
@@ -339,7 +306,8 @@ std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, 
     const bool forearm = bone == lradius || bone == rradius;
     std::vector<Chain> result;
     for (const Vec3& direction : directions_about(start, reach.extent, reach.spacing)) {
-        if (worn && (limits_.excess(bone, chain.turn, direction) > 0 || (forearm && folds_into_chest(clavicle, direction))))
+        if (worn
+            && (limits_.excess(bone, chain.turn, direction) > 0 || (forearm && folds_into_chest(clavicle, direction))))
             continue;
         Chain next = chain;
         next.directions[link] = direction;
@@ -380,7 +348,8 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
     const PlacedBones bones = placed(rig_.skeleton, present);
     const auto [upper, lower] = limb.bones;
     const auto better = [](const Chain& a, const Chain& b) { return a.score > b.score; };
-    const auto crosses = [&](const Vec3& from, const Vec3& to) { return reach.exact && metric_.cloth().crosses(from, to); };
+    const auto crosses
+        = [&](const Vec3& from, const Vec3& to) { return reach.exact && metric_.cloth().crosses(from, to); };
 
     Chain root { bones.joints.head(upper), bones.parent_turn(upper), { Vec3::Zero(), Vec3::Zero() }, 0, {} };
     if (fills_tube(limb))
@@ -393,7 +362,8 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
     std::vector<Vec3> kept;
     for (const Chain& first : uppers) {
         const Vec3& direction = first.directions[0];
-        const bool alike = std::any_of(kept.begin(), kept.end(), [&](const Vec3& k) { return angle_between(k, direction) < 1.5 * reach.spacing; });
+        const bool alike = std::any_of(
+            kept.begin(), kept.end(), [&](const Vec3& k) { return angle_between(k, direction) < 1.5 * reach.spacing; });
         if (alike || crosses(root.tail, first.tail))
             continue;
         if (int(kept.size()) == reach.beam)

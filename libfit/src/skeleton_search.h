@@ -18,21 +18,24 @@ struct Limb {
     Extremity end;
 };
 inline constexpr std::array<Limb, 5> k_limbs { {
-    { { lfemur, ltibia }, lfoot_tip }, { { rfemur, rtibia }, rfoot_tip }, { { lhumerus, lradius }, lhand_tip },
-    { { rhumerus, rradius }, rhand_tip }, { { lowerneck, upperneck }, head_top },
+    { { lfemur, ltibia }, lfoot_tip },
+    { { rfemur, rtibia }, rfoot_tip },
+    { { lhumerus, lradius }, lhand_tip },
+    { { rhumerus, rradius }, rhand_tip },
+    { { lowerneck, upperneck }, head_top },
 } };
 
 /// What a garment's openings say about how it is worn.
 struct GarmentCues {
     Vec3 front = Vec3::Zero();  // horizontal; where openings face, longer the more of them agree
-    std::vector<Vec3> cuffs;    // two, or none: where hands come out
+    std::vector<Vec3> cuffs;  // two, or none: where hands come out
 };
 
 /// How far and how finely a move looks. Grids are sorted by distance from the present: of equals, the nearest wins.
 struct Reach {
     double extent, spacing;  // metres or radians
-    int beam = 6;            // chains of bones that are kept after their first bone
-    bool exact = true;       // no bone may pass through cloth (slower)
+    int beam = 6;  // chains of bones that are kept after their first bone
+    bool exact = true;  // no bone may pass through cloth (slower)
 };
 
 class SkeletonSearch {
@@ -83,8 +86,8 @@ private:
     double emptiness(const CoverDistances& distances) const;
     void lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const;
     bool fills_tube(const Limb& limb) const;
-    std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start, const Skeleton& joints,
-                                const Reach& reach) const;
+    std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start,
+                                const Skeleton& joints, const Reach& reach) const;
     double tip_energy(const Limb& limb, const Chain& chain) const;
     Vec3 tip_of(const Limb& limb, const Chain& chain) const;
     template <class Moved>
@@ -97,11 +100,5 @@ private:
     GarmentCues cues_;
     bool hangs_from_shoulders_;
 };
-
-/// Directions within `extent` of `axis`, about `spacing` apart, nearest first. Radians.
-std::vector<Vec3> directions_about(const Vec3& axis, double extent, double spacing);
-
-/// Offsets of a cubic grid within `extent` along each axis, nearest first.
-std::vector<Vec3> grid_offsets(double extent, double spacing);
 
 }  // namespace fit

@@ -3,10 +3,12 @@
 
 // Poses a skeleton so that its bones run through the middle of the garment's parts.
 //
-// Method   skeleton-based error metric [wu_2018_garment_fitting], equations (1)-(4): translation, rotation and bones in
-//          turn, coarse to fine; nearest garment vertex by a KD-tree.
+// Methods  fast: room in a distance field, limbs as chains (docs/fit.md); the one to use.
+//          paper: skeleton-based error metric [wu_2018_garment_fitting], equations (1)-(4), to the letter.
+//          tisserand: surface metric [tisserand_2017_garment_positioning], searched in the same way.
 // Units    metres, radians. The garment stays where it is; the body comes to it.
-// Cost     O(e log n): e evaluations of five samples a bone, n garment vertices.
+// Cost     of n garment and m body vertices: fast O(n log n), paper O(e log n), tisserand O(e (n + m) log m) for e
+//          evaluations, some hundred thousand.
 
 #include <array>
 #include <string_view>
@@ -53,9 +55,20 @@ FIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
 /// The bones that a type covers.
 FIT_API std::vector<Bone> bones_covered_by(GarmentType type);
 
+enum class FitMethod { fast, paper, tisserand };
+/// "fast", ... in the order of FitMethod.
+FIT_API const std::vector<std::string_view>& fit_method_names();
+
+/// How paper and tisserand look for the nearest vertex; the answers are the same.
+enum class NearestSearch { kd_tree, scan };
+/// "kd_tree", "scan".
+FIT_API const std::vector<std::string_view>& nearest_search_names();
+
 struct FitOptions {
     GarmentType type = GarmentType::automatic;
+    FitMethod method = FitMethod::fast;
     int iterations = 6;  ///< rounds of translation, rotation and bones; each halves spacing and extent
+    NearestSearch nearest = NearestSearch::kd_tree;
 };
 
 struct FitResult {
@@ -63,20 +76,30 @@ struct FitResult {
     GarmentType type = GarmentType::automatic;  ///< as given, or as found
     double type_margin = 1;  ///< 1 when the type was given
     std::vector<Bone> covered;
-    std::array<double, bone_count> scores {};  ///< E_B of equation (1), metres; 0 for bones that take no part
+    std::array<double, bone_count> scores_before {}, scores {};  ///< E_B of equation (1) by the method's own metric,
+        ///< metres, at the start and at the end; 0 for bones that take no part
     double score_before = 0, score_after = 0;  ///< E of equation (4)
+    long long evaluations = 0;  ///< of the error metric; paper and tisserand only
 };
 
 /// The joints with their tips drawn back to where the extremities no longer pass through the garment. O(log n).
 FIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment);
 
+/// E_B of the paper's equation (1), by which poses of all methods compare; metres, 0 for bones that are not covered.
+FIT_API std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, const GarmentMesh& garment,
+                                                    const std::vector<Bone>& covered);
+
 /// @pre    The garment hangs upright (+y up), somewhere; the body may be anywhere.
-/// @post   No bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
+/// @post   By the fast method: no bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
 ///         ankles and wrists do not bend, and a trouser leg longer than the leg has no room for a foot across it; there,
 ///         with_clear_tips says how far they reach.
 /// @throws InvalidInput when no body fits into the garment; SolverFailure when no such pose was found, naming bone and place;
 ///         Cancelled.
 FIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
                                const Progress& progress = {});
+
+/// The same for any method: tisserand reads the body's surface, whose vertices are those of the rig's weights.
+FIT_API FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment,
+                               const FitOptions& options = {}, const Progress& progress = {});
 
 }  // namespace fit

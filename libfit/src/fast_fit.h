@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fit/fit_skeleton.h"
+
+namespace fit {
+
+/// The fast method, told in docs/fit.md.
+FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType type, int iterations,
+                   const Progress& progress);
+
+}  // namespace fit

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The two published methods, and the metrics they are made of.
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../libfit/src/nearest.h"
+#include "../libfit/src/paper_metric.h"
+#include "../libfit/src/relaxation.h"
+#include "../libfit/src/surface_metric.h"
+#include "fit/error.h"
+#include "fit/rig_body.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+Positions random_points(int count, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    return Positions::NullaryExpr(count, 3, [&] { return coordinate(random); });
+}
+
+// A tube along y with outward normals, as coarse as it can be: three rings of eight.
+GarmentMesh tube(double radius)
+{
+    Positions positions(24, 3);
+    for (int i = 0; i < 24; ++i) {
+        const double angle = 2 * 3.14159265358979323846 * (i % 8) / 8;
+        positions.row(i) << radius * std::cos(angle), 0.2 * (i / 8), radius * std::sin(angle);
+    }
+    std::vector<Eigen::Vector3i> faces;
+    for (int i = 0; i < 16; ++i) {
+        const int next = i / 8 * 8 + (i + 1) % 8;
+        faces.push_back({ i, i + 8, next });
+        faces.push_back({ next, i + 8, next + 8 });
+    }
+    Triangles triangles(faces.size(), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        triangles.row(f) = faces[f];
+    return make_garment(positions, triangles);
+}
+
+Skeleton with_lowerback(const Vec3& head, const Vec3& tail)
+{
+    Skeleton joints = person_skeleton({});
+    joints.root = head;
+    joints.tails[lowerback] = tail;
+    return joints;
+}
+
+TEST(NearestVertex, TreeAndScanAgreeAlsoOnPointsEquallyNear)
+{
+    Positions points = random_points(1000, 1);
+    points.bottomRows(500) = points.topRows(500);  // each of them twice
+    const NearestPoint tree(points);
+    const PointScan scan(points);
+    const Positions queries = random_points(300, 2);
+    for (Eigen::Index q = 0; q < queries.rows(); ++q)
+        EXPECT_EQ(tree.index(queries.row(q)), scan.index(queries.row(q)));
+}
+
+TEST(PaperMetric, CountsDistanceInsideAndAHundredTimesDistanceOutside)
+{
+    const GarmentMesh garment = tube(0.1);
+    const PaperMetric metric(garment, { lowerback }, NearestSearch::scan);
+    const Skeleton inside = with_lowerback({ 0, 0.2, 0 }, { 0, 0.2, 1e-9 });
+    EXPECT_NEAR(metric.of_bone(lowerback, inside), 5 * 0.1, 1e-6);
+    const Skeleton outside = with_lowerback({ 0.13, 0.2, 0 }, { 0.13, 0.2, 1e-9 });
+    EXPECT_NEAR(metric.of_bone(lowerback, outside), -100 * 5 * 0.03, 1e-6);
+    EXPECT_EQ(metric.total(inside), metric.of_bone(lowerback, inside));
+}
+
+TEST(PaperMethod, FindsTheSameByScanAndByTree)
+{
+    const PersonOptions made_on { .arm_angle = 35 }, own { .arm_angle = 55 };
+    Rig rig;
+    rig.skeleton = person_skeleton(own);
+    const TriangleMesh cloth = garment_round(
+        person_skeleton(made_on), 0.03,
+        [](const Vec3& p) { return p.y() > 0.85 && p.y() < 1.46 && std::abs(p.x()) < 0.5; }, 0.045);
+    const GarmentMesh garment = make_garment(cloth.positions, cloth.triangles);
+    const std::vector<Bone> covered = bones_covered_by(GarmentType::longsleeve);
+    Relaxation relaxation = relaxation_of(rig, garment, GarmentType::longsleeve, 2);
+    relaxation.translation_spacing *= 2;  // as fine as this coarse cloth needs
+    relaxation.rotation_spacing = 0.1;
+    relaxation.bone_spacing *= 2;
+    const PaperMetric by_tree(garment, covered, NearestSearch::kd_tree), by_scan(garment, covered, NearestSearch::scan);
+    const Relaxed found = relaxed(rig, by_tree, covered, relaxation, {});
+    const Relaxed scanned = relaxed(rig, by_scan, covered, relaxation, {});
+    EXPECT_EQ(found.posture.root, scanned.posture.root);
+    EXPECT_EQ(found.posture.directions, scanned.posture.directions);
+    EXPECT_EQ(found.evaluations, scanned.evaluations);
+    EXPECT_GT(by_tree.total(placed(rig.skeleton, found.posture)),
+              by_tree.total(placed(rig.skeleton, relaxation.start)));
+}
+
+TEST(SurfaceMetric, IsBestWhereTheBodyLiesInItsOwnSkin)
+{
+    const Person person = capsule_person({ .spacing = 0.08 });
+    const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
+    const Rig rig = rig_body(body);
+    const GarmentMesh garment = make_garment(person.mesh.positions, person.mesh.triangles);
+    Posture posture { rig.skeleton.root, Eigen::Quaterniond::Identity(), {} };
+    for (int b = 0; b < bone_count; ++b)
+        posture.directions[b] = rig.skeleton.direction(b);
+    const SurfaceMetric by_tree(rig, body.surface, garment, NearestSearch::kd_tree);
+    const SurfaceMetric by_scan(rig, body.surface, garment, NearestSearch::scan);
+    const double at_home = by_tree.total(placed(rig.skeleton, posture));
+    EXPECT_NEAR(at_home, 0, 1e-6 * double(garment.positions.rows()));
+    posture.root.x() += 0.02;
+    const double moved = by_tree.total(placed(rig.skeleton, posture));
+    EXPECT_LT(moved, at_home - 1);
+    EXPECT_EQ(moved, by_scan.total(placed(rig.skeleton, posture)));
+}
+
+TEST(SurfaceMethod, FindsItsWayBackIntoTheSkin)
+{
+    const Person person = capsule_person({ .spacing = 0.12 });
+    const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
+    const Rig rig = rig_body(body);
+    const GarmentMesh garment = make_garment(person.mesh.positions, person.mesh.triangles);
+    const std::vector<Bone> covered { lhumerus };
+    Relaxation relaxation = relaxation_of(rig, garment, GarmentType::jumpsuit, 2);
+    relaxation.start.root = rig.skeleton.root + Vec3(0.05, 0, 0);
+    relaxation.translation_extent = Vec3::Constant(0.1);
+    relaxation.translation_spacing = 0.05;
+    relaxation.rotation_spacing = relaxation.rotation_extent;
+    relaxation.bone_spacing = 0.2;
+    const SurfaceMetric metric(rig, body.surface, garment, NearestSearch::kd_tree);
+    const Relaxed found = relaxed(rig, metric, covered, relaxation, {});
+    EXPECT_LT((found.posture.root - rig.skeleton.root).norm(), 0.03);
+}
+
+TEST(SurfaceMethod, AsksForTheBody)
+{
+    Rig rig;
+    rig.skeleton = person_skeleton({});
+    EXPECT_THROW(fit_skeleton(rig, tube(0.1), { .type = GarmentType::skirt, .method = FitMethod::tisserand }),
+                 InvalidInput);
+}
+
+}  // namespace
