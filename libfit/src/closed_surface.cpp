@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <CGAL/Polygon_mesh_processing/border.h>
@@ -19,6 +19,7 @@
 
 #include "cgal_mesh.h"
 #include "fit/error.h"
+#include "winding_number.h"
 #include "wrapped_surface.h"
 
 namespace fit {
@@ -26,9 +27,11 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-constexpr double k_weld = 1e-6;            // of the diagonal: on a body, 2 micrometres
-constexpr double k_main_share = 0.5;       // of the area: with less, the body comes in parts
-constexpr int k_most_holes = 200;          // more than this is a surface in tatters
+// Shares of the diagonal within which vertices are one, tried in turn: 2 micrometres of a body to 1 mm for soups that were
+// rounded or shaken.
+constexpr double k_welds[] = { 1e-6, 1e-5, 1e-4, 5e-4 };
+constexpr double k_rival = 0.2;   // a piece of this share of the body's size is no island but a limb, or somebody else
+constexpr int k_samples = 9;      // of a piece's vertices, to tell whether it lies within the body
 
 struct Soup {
     std::vector<CgalKernel::Point_3> points;
@@ -40,25 +43,67 @@ double diagonal(const TriangleMesh& surface)
     return (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
 }
 
-/// Vertices that lie at one place become one; triangles that lose a corner go.
-Soup welded(const TriangleMesh& surface)
-{
-    const double cell = k_weld * diagonal(surface);
-    Soup soup;
-    std::map<std::array<long long, 3>, std::size_t> place;
-    std::vector<std::size_t> row(surface.positions.rows());
-    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
-        const auto p = surface.positions.row(v);
-        const auto [found, is_new] = place.try_emplace({ std::llround(p.x() / cell), std::llround(p.y() / cell),
-                                                         std::llround(p.z() / cell) }, soup.points.size());
-        if (is_new)
-            soup.points.emplace_back(p.x(), p.y(), p.z());
-        row[v] = found->second;
+/// Finds the first of all points given so far that is no more than a distance away.
+class Welder {
+public:
+    explicit Welder(double distance) : distance_(std::max(distance, 1e-300)) { }
+
+    std::size_t row(const Vec3& p, std::vector<CgalKernel::Point_3>& points)
+    {
+        const Cell corner = cell(p - Vec3::Constant(0.5 * cell_size()));
+        for (int k = 0; k < 8; ++k)  // the eight cells nearest to p
+            if (const auto found = rows_.find({ corner[0] + (k & 1), corner[1] + (k >> 1 & 1), corner[2] + (k >> 2) });
+                found != rows_.end())
+                for (const std::size_t row : found->second)
+                    if ((Vec3(points[row].x(), points[row].y(), points[row].z()) - p).squaredNorm() <= distance_ * distance_)
+                        return row;
+        rows_[cell(p)].push_back(points.size());
+        points.emplace_back(p.x(), p.y(), p.z());
+        return points.size() - 1;
     }
+
+private:
+    using Cell = std::array<long long, 3>;
+    struct Hash {
+        std::size_t operator()(const Cell& c) const
+        {
+            return std::size_t(c[0]) * 73856093u ^ std::size_t(c[1]) * 19349663u ^ std::size_t(c[2]) * 83492791u;
+        }
+    };
+
+    double cell_size() const { return 2 * distance_; }
+    Cell cell(const Vec3& p) const
+    {
+        return { std::llround(std::floor(p.x() / cell_size())), std::llround(std::floor(p.y() / cell_size())),
+                 std::llround(std::floor(p.z() / cell_size())) };
+    }
+
+    double distance_;
+    std::unordered_map<Cell, std::vector<std::size_t>, Hash> rows_;
+};
+
+/// Vertices that lie at one place become one; triangles that lose a corner, and all but the first on the same corners, go.
+Soup welded(const TriangleMesh& surface, double distance)
+{
+    Soup soup;
+    Welder welder(distance);
+    std::vector<std::size_t> row;
+    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
+        row.push_back(welder.row(surface.positions.row(v), soup.points));
+    std::vector<std::array<std::size_t, 4>> sorted;  // corners in rising order, then which triangle
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        const std::size_t a = row[surface.triangles(f, 0)], b = row[surface.triangles(f, 1)], c = row[surface.triangles(f, 2)];
-        if (a != b && b != c && c != a)
-            soup.triangles.push_back({ a, b, c });
+        std::array<std::size_t, 4> corners { row[surface.triangles(f, 0)], row[surface.triangles(f, 1)],
+                                             row[surface.triangles(f, 2)], std::size_t(f) };
+        std::sort(corners.begin(), corners.begin() + 3);
+        if (corners[0] != corners[1] && corners[1] != corners[2])
+            sorted.push_back(corners);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    const auto same = [](const auto& a, const auto& b) { return std::equal(a.begin(), a.begin() + 3, b.begin()); };
+    sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+    for (const auto& corners : sorted) {
+        const auto f = Eigen::Index(corners[3]);
+        soup.triangles.push_back({ row[surface.triangles(f, 0)], row[surface.triangles(f, 1)], row[surface.triangles(f, 2)] });
     }
     return soup;
 }
@@ -83,48 +128,119 @@ bool is_one_closed_manifold(const TriangleMesh& surface)
     return CGAL::is_closed(mesh) && pmp::connected_components(mesh, labels) == 1;
 }
 
-/// Keeps the largest component; returns its share of the area.
-double keep_main_part(CgalMesh& mesh)
+/// What hangs together.
+struct Piece {
+    std::size_t label = 0;
+    Eigen::AlignedBox3d box;
+    double volume = 0;  ///< m^3, about the middle of its box: an open sheet has next to none
+
+    double size() const { return box.diagonal().norm() * std::cbrt(std::abs(volume)); }
+};
+
+constexpr const char* k_label = "f:piece";
+
+/// The largest first: long and full, as a body is, and a floor or a block is not.
+std::vector<Piece> labelled_pieces(CgalMesh& mesh)
 {
-    if (mesh.number_of_faces() == 0)
-        return 0;
-    const double whole = pmp::area(mesh);
-    const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:component", 0).first;
-    std::vector<double> areas(pmp::connected_components(mesh, labels), 0.0);
-    for (const auto face : mesh.faces())
-        areas[labels[face]] += pmp::face_area(face, mesh);
-    const std::size_t main = std::max_element(areas.begin(), areas.end()) - areas.begin();
-    pmp::keep_connected_components(mesh, std::vector<std::size_t> { main }, labels);
+    const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>(k_label, 0).first;
+    std::vector<Piece> pieces(pmp::connected_components(mesh, labels));
+    const auto corner = [&](CgalMesh::Halfedge_index h) {
+        const auto& p = mesh.point(mesh.target(h));
+        return Vec3(p.x(), p.y(), p.z());
+    };
+    for (const auto h : mesh.halfedges())
+        if (!mesh.is_border(h))
+            pieces[labels[mesh.face(h)]].box.extend(corner(h));
+    for (const auto face : mesh.faces()) {
+        const auto h = mesh.halfedge(face);
+        Piece& piece = pieces[labels[face]];
+        const Vec3 o = piece.box.center(), a = corner(h) - o, b = corner(mesh.next(h)) - o;
+        piece.volume += a.cross(b).dot(corner(mesh.prev(h)) - o) / 6;
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        pieces[i].label = i;
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.size() > b.size(); });
+    return pieces;
+}
+
+CgalMesh only(CgalMesh mesh, std::size_t label)
+{
+    const auto labels = mesh.property_map<CgalMesh::Face_index, std::size_t>(k_label).first;  // the copy's: CGAL overwrites them
+    pmp::keep_connected_components(mesh, std::vector<std::size_t> { label }, labels);
     mesh.collect_garbage();
-    return areas[main] / whole;
+    return mesh;
+}
+
+/// An inner wall, say, or the lungs.
+bool lies_within(const TriangleMesh& piece, const TriangleMesh& main)
+{
+    const Eigen::Index step = std::max<Eigen::Index>(1, piece.positions.rows() / k_samples);
+    int inside = 0, samples = 0;
+    for (Eigen::Index v = 0; v < piece.positions.rows(); v += step, ++samples)
+        inside += std::abs(winding_number(main, piece.positions.row(v))) > 0.5;
+    return 2 * inside > samples;
+}
+
+/// The largest piece, and how much smaller the next one is that lies beside it; islands are far smaller.
+struct Body {
+    CgalMesh mesh;
+    double rival = 0;  ///< share of size
+};
+
+Body main_body(CgalMesh mesh)
+{
+    const std::vector<Piece> pieces = labelled_pieces(mesh);
+    if (pieces.empty() || pieces[0].size() == 0)
+        return {};
+    Body body { only(mesh, pieces[0].label) };
+    for (std::size_t i = 1; i < pieces.size() && body.rival == 0; ++i) {
+        const double share = pieces[i].size() / pieces[0].size();
+        if (share < k_rival)
+            break;
+        if (!lies_within(from_cgal(only(mesh, pieces[i].label)), from_cgal(body.mesh)))
+            body.rival = share;
+    }
+    return body;
 }
 
 void fill_holes(CgalMesh& mesh)
 {
     std::vector<CgalMesh::Halfedge_index> holes;
     pmp::extract_boundary_cycles(mesh, std::back_inserter(holes));
-    if (holes.size() > k_most_holes)
-        return;
     std::vector<CgalMesh::Face_index> patch;
+    std::vector<CgalMesh::Vertex_index> added;
     for (const auto hole : holes)
-        pmp::triangulate_hole(mesh, hole, std::back_inserter(patch), pmp::parameters::do_not_use_cubic_algorithm(true));
+        pmp::triangulate_refine_and_fair_hole(mesh, hole, std::back_inserter(patch), std::back_inserter(added),
+                                              pmp::parameters::do_not_use_cubic_algorithm(true));
 }
 
+/// Nothing when the body comes in parts.
 CgalMesh closed_soup(Soup soup)
 {
     pmp::orient_polygon_soup(soup.points, soup.triangles);
     CgalMesh mesh;
     pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
     pmp::stitch_borders(mesh);
-    if (keep_main_part(mesh) < k_main_share)
+    Body body = main_body(std::move(mesh));
+    if (body.rival > 0)
         return {};
-    fill_holes(mesh);
-    return mesh;
+    fill_holes(body.mesh);
+    return body.mesh;
 }
 
 bool is_solid(const CgalMesh& mesh)
 {
     return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
+}
+
+CgalMesh wrapped_body(const TriangleMesh& surface)
+{
+    Body body = main_body(to_cgal(wrapped_surface(surface)));
+    if (body.rival > 0)
+        throw InvalidInput("body: it is in pieces that lie apart, the second " + std::to_string(std::lround(100 * body.rival))
+                           + "% the size of the first (an island has at most " + std::to_string(std::lround(100 * k_rival))
+                           + "%); give one human body");
+    return std::move(body.mesh);
 }
 
 TriangleMesh outward(TriangleMesh mesh)
@@ -144,16 +260,15 @@ TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
         return result;
     }
     repaired = true;
-    const Soup soup = welded(surface);
-    if (soup.triangles.empty())
-        throw InvalidInput("body: all " + std::to_string(surface.triangles.rows()) + " faces are degenerate; give a surface with area");
+    const double size = diagonal(surface);
+    if (welded(surface, k_welds[0] * size).triangles.empty())
+        throw InvalidInput("body: all " + std::to_string(surface.triangles.rows())
+                           + " faces are degenerate; give a surface with area");
     try {
-        CgalMesh mesh = closed_soup(soup);
-        if (!is_solid(mesh)) {  // in tatters or in parts
-            mesh = to_cgal(wrapped_surface(surface));
-            keep_main_part(mesh);
-        }
-        if (is_solid(mesh))
+        for (const double weld : k_welds)
+            if (const CgalMesh mesh = closed_soup(welded(surface, weld * size)); is_solid(mesh))
+                return outward(from_cgal(mesh));
+        if (const CgalMesh mesh = wrapped_body(surface); is_solid(mesh))  // in tatters or in parts
             return outward(from_cgal(mesh));
     } catch (const CGAL::Failure_exception&) {
         // told below, in the user's words

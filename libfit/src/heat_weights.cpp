@@ -9,7 +9,7 @@
 #include <flann/flann.hpp>
 
 #include "fit/error.h"
-#include "fit/mesh.h"
+#include "nearest.h"
 
 namespace fit {
 namespace {
@@ -75,18 +75,30 @@ Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd&
 }
 
 /// Rows (position, weighted normal): near in this space means near and facing the same way.
-std::vector<double> oriented_points(const TriangleMesh& mesh, double normal_length)
+std::vector<double> oriented_points(const Positions& positions, const Positions& normals, double normal_length)
 {
-    const Positions normals = vertex_normals(mesh.positions, mesh.triangles);
     std::vector<double> rows;
-    rows.reserve(6 * mesh.positions.rows());
-    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+    rows.reserve(6 * positions.rows());
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
         for (int k = 0; k < 3; ++k)
-            rows.push_back(mesh.positions(v, k));
+            rows.push_back(positions(v, k));
         for (int k = 0; k < 3; ++k)
             rows.push_back(normal_length * normals(v, k));
     }
     return rows;
+}
+
+/// Outwards. What had to be repaired may be turned any way: there the nearest place of the closed surface tells.
+Positions outward_normals(const BodyMesh& body)
+{
+    if (!body.repaired)
+        return vertex_normals(body.surface.positions, body.surface.triangles);
+    const Positions closed = vertex_normals(body.closed.positions, body.closed.triangles);
+    const NearestPoint nearest(body.closed.positions);
+    Positions normals(body.surface.positions.rows(), 3);
+    for (Eigen::Index v = 0; v < normals.rows(); ++v)
+        normals.row(v) = closed.row(nearest.index(body.surface.positions.row(v)));
+    return normals;
 }
 
 void keep_four(const Eigen::RowVectorXd& row, Eigen::Index v, SkinWeights& weights)
@@ -128,12 +140,13 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     return weights;
 }
 
-SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const TriangleMesh& to)
+SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to)
 {
     const double diagonal = (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
-    std::vector<double> points = oriented_points(from, k_normal_weight * diagonal);
-    std::vector<double> queries = oriented_points(to, k_normal_weight * diagonal);
-    const std::size_t n = to.positions.rows();
+    std::vector<double> points
+        = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), k_normal_weight * diagonal);
+    std::vector<double> queries = oriented_points(to.surface.positions, outward_normals(to), k_normal_weight * diagonal);
+    const std::size_t n = to.surface.positions.rows();
     flann::Index<flann::L2<double>> tree(flann::Matrix<double>(points.data(), from.positions.rows(), 6),
                                          flann::KDTreeSingleIndexParams());
     tree.buildIndex();

@@ -76,6 +76,24 @@ VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, 
     return visible;
 }
 
+/// Far from the origin, differences of squares lose their digits.
+BodyMesh centred(BodyMesh body, const Vec3& centre)
+{
+    body.surface.positions.rowwise() -= centre.transpose();
+    body.closed.positions.rowwise() -= centre.transpose();
+    return body;
+}
+
+Skeleton moved(Skeleton skeleton, const Vec3& by)
+{
+    skeleton.root += by;
+    for (Vec3& tail : skeleton.tails)
+        tail += by;
+    for (Vec3& tip : skeleton.tips)
+        tip += by;
+    return skeleton;
+}
+
 Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
 {
     const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
@@ -99,7 +117,7 @@ Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, 
     check_rig(proxy, rig.skeleton);
     const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible_bones(curves, graph, sides));
     progress.at(0.9);
-    rig.weights = transferred(proxy, weights, body.surface);
+    rig.weights = transferred(proxy, weights, body);
     rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
     progress.at(1);
     return rig;
@@ -109,12 +127,17 @@ Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, 
 
 Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
+    const Vec3 centre = 0.5 * (body.closed.positions.colwise().minCoeff() + body.closed.positions.colwise().maxCoeff());
+    const BodyMesh at_origin = centred(body, centre);
+    Rig rig;
     try {
-        return rigged(body, options.proxy_vertices, options, progress.part(0, 1));
+        rig = rigged(at_origin, options.proxy_vertices, options, progress.part(0, 1));
     } catch (const InvalidInput&) {
         // the flow may lose its way at a touching hand or a deep bend: other triangles, another way
-        return rigged(body, options.proxy_vertices * 2 / 3, options, progress.part(0.9, 1));
+        rig = rigged(at_origin, options.proxy_vertices * 2 / 3, options, progress.part(0.9, 1));
     }
+    rig.skeleton = moved(rig.skeleton, centre);
+    return rig;
 }
 
 }  // namespace fit
