@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "../libfit/src/cloth_energy.h"
 #include "../libfit/src/cloth_motion.h"
@@ -127,11 +128,86 @@ TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
     }
 }
 
+TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
+{
+    // two sheets that all but touch, pushed into each other and along +z; a third far off
+    const auto sheet = [](double y) {
+        Positions p(3, 3);
+        p << 0, y, 0, 1, y, 0, 0, y, 1;
+        return p;
+    };
+    Positions x(9, 3), push(9, 3);
+    x << sheet(0), sheet(1e-5), sheet(1);
+    push << Positions::Constant(3, 3, 0.02), Positions::Constant(3, 3, -0.02), Positions::Constant(3, 3, 0.01);
+    push.col(2).array() += 0.1;
+    Triangles triangles(3, 3);
+    triangles << 0, 1, 2, 3, 4, 5, 6, 7, 8;
+    Contact contact(triangles, 9, Triangles(0, 3));
+    contact.detect(x, std::vector<double>(9, 0.2));
+    const Positions together = contact.joined(x, push, 1e-4);
+    for (int v = 0; v < 6; ++v)
+        EXPECT_LT((together.row(v) - Eigen::RowVector3d(0, 0, 0.1)).norm(), 1e-12) << v;
+    EXPECT_EQ(together.bottomRows(3), push.bottomRows(3));
+    EXPECT_EQ(contact.free_shares(x, together, 1e-4), std::vector<double>(9, 1.0));
+}
+
+TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
+{
+    std::srand(5);
+    std::vector<Box> boxes;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 p = Vec3::Random();
+        boxes.emplace_back(p, p + 0.2 * (Vec3::Random() + Vec3::Ones()));
+    }
+    const BoxTree tree(boxes), other(boxes);
+    const auto found = [&](const BoxTree& b) {
+        std::vector<std::vector<std::pair<int, int>>> parts(BoxTree::k_parts);
+        BoxTree::overlaps(tree, b, [&](int part, int i, int j) { parts[part].emplace_back(i, j); });
+        std::multiset<std::pair<int, int>> all;
+        for (const auto& part : parts)
+            all.insert(part.begin(), part.end());
+        return all;
+    };
+    std::multiset<std::pair<int, int>> crosswise, within;
+    for (int i = 0; i < 300; ++i)
+        for (int j = 0; j < 300; ++j)
+            if (boxes[i].intersects(boxes[j]))
+                crosswise.emplace(i, j);
+    for (const auto& [i, j] : found(tree))
+        within.insert(std::minmax(i, j));
+    EXPECT_EQ(found(other), crosswise);
+    for (int i = 0; i < 300; ++i)
+        crosswise.erase({ i, i });
+    for (auto pair = crosswise.begin(); pair != crosswise.end();)
+        pair = pair->first < pair->second ? std::next(pair) : crosswise.erase(pair);
+    EXPECT_EQ(within, crosswise);
+}
+
+TEST(SinglePrecisionFactor, SolvesForThreeRightSidesToSingleDigits)
+{
+    constexpr int k_size = 40;
+    Eigen::SparseMatrix<double> chain(k_size, k_size);  // springs in a row, held a little everywhere
+    for (int i = 0; i < k_size; ++i) {
+        chain.coeffRef(i, i) += 0.1;
+        for (int j : { i - 1, i + 1 })
+            if (j >= 0 && j < k_size) {
+                chain.coeffRef(i, i) += 1;
+                chain.coeffRef(i, j) -= 1;
+            }
+    }
+    std::srand(1);
+    const Positions wanted = Positions::Random(k_size, 3);
+    SinglePrecisionFactor factor;
+    ASSERT_TRUE(factor.compute(chain));
+    EXPECT_LT((factor.solve(chain * wanted) - wanted).cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_FALSE(factor.compute(-chain));
+}
+
 TEST(ClothEnergy, AGarmentAtRestStays)
 {
     const GarmentMesh cloth = tube(0.15);
     ClothEnergy energy(cloth, {}, {});
-    energy.prepare(0.02, std::vector<double>(cloth.positions.rows(), 0.0));
+    energy.set_time_step(0.02);
     const Positions x = energy.minimized(cloth.positions, cloth.positions, {});
     EXPECT_LT((x - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
 }
@@ -161,7 +237,7 @@ TEST(ClothEnergy, AStretchedGarmentGetsBackTowardsItsLengths)
 {
     const GarmentMesh cloth = tube(0.15);
     ClothEnergy energy(cloth, {}, {});
-    energy.prepare(0.02, std::vector<double>(cloth.positions.rows(), 0.0));
+    energy.set_time_step(0.02);
     Positions x = 1.2 * cloth.positions;
     double strain = strain_of(cloth, x).median;
     for (int i = 0; i < 10; ++i) {

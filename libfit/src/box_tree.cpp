@@ -2,6 +2,8 @@
 #include "box_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "parallel.h"
@@ -11,7 +13,40 @@ namespace {
 
 constexpr int k_leaf_size = 4;
 
+// The largest float that is not above x.
+float rounded_down(double x)
+{
+    const float f = float(x);
+    return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+
 }  // namespace
+
+bool BoxTree::Bounds::meets(const Bounds& other) const
+{
+    return bool((low[0] <= other.high[0]) & (other.low[0] <= high[0]) & (low[1] <= other.high[1])
+                & (other.low[1] <= high[1]) & (low[2] <= other.high[2]) & (other.low[2] <= high[2]));
+}
+
+void BoxTree::Bounds::extend(const Bounds& other)
+{
+    for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], other.low[k]);
+        high[k] = std::max(high[k], other.high[k]);
+    }
+}
+
+float BoxTree::Bounds::girth() const { return high[0] - low[0] + high[1] - low[1] + high[2] - low[2]; }
+
+BoxTree::Bounds BoxTree::rounded(const Box& box)
+{
+    Bounds result;
+    for (int k = 0; k < 3; ++k) {
+        result.low[k] = rounded_down(box.min()[k]);
+        result.high[k] = -rounded_down(-box.max()[k]);
+    }
+    return result;
+}
 
 BoxTree::BoxTree(const std::vector<Box>& boxes)
 {
@@ -29,7 +64,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes)
 int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
 {
     if (end - begin <= k_leaf_size) {
-        nodes_[node] = { Box(), begin, end - begin };
+        nodes_[node] = { {}, begin, end - begin };
         return node;
     }
     Box centres;
@@ -43,7 +78,7 @@ int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
         return ci != cj ? ci < cj : i < j;
     });
     const int children = int(nodes_.size());
-    nodes_[node] = { Box(), children, 0 };
+    nodes_[node] = { {}, children, 0 };
     nodes_.resize(nodes_.size() + 2);
     build(children, begin, middle, boxes);
     build(children + 1, middle, end, boxes);
@@ -53,15 +88,16 @@ int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
 void BoxTree::refit(const std::vector<Box>& boxes)
 {
     for (std::size_t i = 0; i < order_.size(); ++i)
-        boxes_[i] = boxes[order_[i]];
+        boxes_[i] = rounded(boxes[order_[i]]);
     for (int n = int(nodes_.size()) - 1; n >= 0; --n) {  // children stand behind their parents
         Node& node = nodes_[n];
-        node.box.setEmpty();
         if (node.count == 0) {
-            node.box = nodes_[node.first].box.merged(nodes_[node.first + 1].box);
+            node.box = nodes_[node.first].box;
+            node.box.extend(nodes_[node.first + 1].box);
             continue;
         }
-        for (int i = node.first; i < node.first + node.count; ++i)
+        node.box = boxes_[node.first];
+        for (int i = node.first + 1; i < node.first + node.count; ++i)
             node.box.extend(boxes_[i]);
     }
 }
@@ -86,14 +122,14 @@ template <class F>
 void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
 {
     const Node &x = a.nodes_[na], &y = b.nodes_[nb];
-    if (!x.box.intersects(y.box))
+    if (!x.box.meets(y.box))
         return;
     if (x.count > 0 && y.count > 0) {
         for (int i = x.first; i < x.first + x.count; ++i)
             for (int j = y.first; j < y.first + y.count; ++j)
-                if (a.boxes_[i].intersects(b.boxes_[j]))
+                if (a.boxes_[i].meets(b.boxes_[j]))
                     f(a.order_[i], b.order_[j]);
-    } else if (y.count > 0 || (x.count == 0 && x.box.sizes().sum() >= y.box.sizes().sum())) {
+    } else if (y.count > 0 || (x.count == 0 && x.box.girth() >= y.box.girth())) {
         descend(a, x.first, b, nb, f);
         descend(a, x.first + 1, b, nb, f);
     } else {
@@ -102,13 +138,36 @@ void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const 
     }
 }
 
+// Pairs within one subtree, each once.
+template <class F>
+void BoxTree::descend(int node, const F& f) const
+{
+    const Node& x = nodes_[node];
+    if (x.count == 0) {
+        descend(x.first, f);
+        descend(x.first + 1, f);
+        descend(*this, x.first, *this, x.first + 1, f);
+        return;
+    }
+    for (int i = x.first; i < x.first + x.count; ++i)
+        for (int j = i + 1; j < x.first + x.count; ++j)
+            if (boxes_[i].meets(boxes_[j]))
+                f(order_[i], order_[j]);
+}
+
 void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
 {
     if (a.empty() || b.empty())
         return;
     const std::vector<int> roots = a.front(k_parts);
-    parallel_for(int(roots.size()),
-                 [&](int part) { descend(a, roots[part], b, 0, [&](int i, int j) { visit(part, i, j); }); });
+    parallel_for(int(roots.size()), [&](int part) {
+        const auto f = [&](int i, int j) { visit(part, i, j); };
+        if (&a != &b)
+            return descend(a, roots[part], b, 0, f);
+        a.descend(roots[part], f);
+        for (std::size_t other = part + 1; other < roots.size(); ++other)
+            descend(a, roots[part], a, roots[other], f);
+    });
 }
 
 }  // namespace fit

@@ -4,6 +4,7 @@
 // A hierarchy of boxes over the primitives of a moving mesh: built once, its boxes renewed at every step.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -24,26 +25,36 @@ public:
 
     bool empty() const { return order_.empty(); }
 
-    /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`. The search is cut into
-    /// k_parts parts, run on all threads; visits of one part are in a fixed order, so results gathered by part
-    /// are the same for any number of threads.
+    /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`; of a tree and itself, once for
+    /// each pair of two primitives. The search is cut into k_parts parts, run on all threads; visits of one part are in a fixed
+    /// order, so results gathered by part are the same for any number of threads.
     using Visit = std::function<void(int part, int i, int j)>;
     static constexpr int k_parts = 64;
     static void overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit);
 
 private:
+    /// A box in single precision, rounded outwards: half the memory, and it misses nothing.
+    struct Bounds {
+        std::array<float, 3> low, high;
+        bool meets(const Bounds& other) const;
+        float girth() const;
+        void extend(const Bounds& other);
+    };
     struct Node {
-        Box box;
+        Bounds box;
         int first, count;  // leaves: range of order_; inner nodes: count = 0 and children at first, first + 1
     };
+    static Bounds rounded(const Box& box);
     int build(int node, int begin, int end, const std::vector<Box>& boxes);
     std::vector<int> front(int size) const;
     template <class F>
     static void descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f);
+    template <class F>
+    void descend(int node, const F& f) const;
 
     std::vector<Node> nodes_;
     std::vector<int> order_;
-    std::vector<Box> boxes_;  // in the order of order_
+    std::vector<Bounds> boxes_;  // in the order of order_
 };
 
 }  // namespace fit

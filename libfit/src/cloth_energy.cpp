@@ -84,7 +84,7 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
             for (int c = 0; c < 4; ++c)
                 entries.emplace_back(h.v[r], h.v[c], h.stiffness * h.coefficients[r] * h.coefficients[c]);
     for (std::size_t v = 0; v < masses_.size(); ++v)
-        entries.emplace_back(int(v), int(v), 0.0);  // every diagonal entry exists: prepare() writes there
+        entries.emplace_back(int(v), int(v), 0.0);  // every diagonal entry exists: set_time_step() writes there
     elastic_.resize(rest.positions.rows(), rest.positions.rows());
     elastic_.setFromTriplets(entries.begin(), entries.end());
 }
@@ -116,26 +116,23 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
     }
 }
 
-void ClothEnergy::prepare(double time_step, const std::vector<double>& contact_stiffness)
+void ClothEnergy::set_time_step(double time_step)
 {
+    if (inertia_ == 1 / (time_step * time_step))
+        return;
     inertia_ = 1 / (time_step * time_step);
     Eigen::SparseMatrix<double> system = elastic_;
     for (Eigen::Index v = 0; v < system.rows(); ++v)
-        system.coeffRef(v, v) += masses_[v] * inertia_ + contact_stiffness[v];
-    if (!analysed_)
-        solver_.analyzePattern(system);
-    analysed_ = true;
-    solver_.factorize(system);
-    if (solver_.info() != Eigen::Success)
+        system.coeffRef(v, v) += masses_[v] * inertia_;
+    if (!factor_.compute(system))
         throw SolverFailure(
             "cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
 }
 
 // Right side of the global system: where inertia, the projected springs and hinges, and contact pull.
-Eigen::MatrixXd ClothEnergy::loads(const Positions& x, const Positions& inertial,
-                                   const std::vector<Press>& presses) const
+Positions ClothEnergy::loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
 {
-    Eigen::MatrixXd right(x.rows(), 3);
+    Positions right(x.rows(), 3);
     for (Eigen::Index v = 0; v < x.rows(); ++v)
         right.row(v) = masses_[v] * inertia_ * inertial.row(v);
     for (const Spring& s : springs_) {
@@ -162,9 +159,9 @@ Eigen::MatrixXd ClothEnergy::loads(const Positions& x, const Positions& inertial
 }
 
 // Left side of the global system, n x 3.
-Eigen::MatrixXd ClothEnergy::applied(const Eigen::MatrixXd& x, const std::vector<Press>& presses) const
+Positions ClothEnergy::applied(const Positions& x, const std::vector<Press>& presses) const
 {
-    Eigen::MatrixXd result = elastic_ * x;
+    Positions result = elastic_ * x;
     for (Eigen::Index v = 0; v < x.rows(); ++v)
         result.row(v) += masses_[v] * inertia_ * x.row(v);
     for (const Press& press : presses) {
@@ -182,21 +179,21 @@ Eigen::MatrixXd ClothEnergy::applied(const Eigen::MatrixXd& x, const std::vector
 
 Positions ClothEnergy::minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
 {
-    constexpr int k_gradient_steps = 5;  // the next local projection changes the system's right side anyway
+    constexpr int k_gradient_steps = 3;  // the next local projection changes the system's right side anyway
     constexpr double k_good_enough = 1e-4;  // of the first residual
-    Eigen::MatrixXd solution = x;
-    Eigen::MatrixXd residual = loads(x, inertial, presses) - applied(solution, presses);
-    Eigen::MatrixXd preconditioned = solver_.solve(residual), direction = preconditioned;
+    Positions solution = x;
+    Positions residual = loads(x, inertial, presses) - applied(solution, presses);
+    Positions preconditioned = factor_.solve(residual), direction = preconditioned;
     double square = residual.cwiseProduct(preconditioned).sum();
     const double first = square;
     for (int i = 0; i < k_gradient_steps && square > k_good_enough * k_good_enough * first; ++i) {
-        const Eigen::MatrixXd image = applied(direction, presses);
+        const Positions image = applied(direction, presses);
         const double length = square / direction.cwiseProduct(image).sum();
         solution += length * direction;
         if (i + 1 == k_gradient_steps)
             break;
         residual -= length * image;
-        preconditioned = solver_.solve(residual);
+        preconditioned = factor_.solve(residual);
         const double next = residual.cwiseProduct(preconditioned).sum();
         direction = preconditioned + next / square * direction;
         square = next;

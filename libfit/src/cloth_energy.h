@@ -9,11 +9,12 @@
 //          hinge: the garment's own folds stay.
 // Units    metres, kilograms, seconds.
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <array>
 #include <vector>
 
 #include "fit/drape_garment.h"
+#include "single_precision_factor.h"
 
 namespace fit {
 
@@ -36,9 +37,9 @@ public:
     /// @param ties  pairs of vertices held at their rest distance, beside the edges
     ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties, const ClothOptions& options);
 
-    /// Fixes the time step and, vertex by vertex, about how stiff contact will be (N/m): one factorisation. It only steers
-    /// how fast minimize() gets on.
-    void prepare(double time_step, const std::vector<double>& contact_stiffness);
+    /// Seconds. One factorisation for each new one: of all but contact, which is about as stiff as the cloth and so costs the
+    /// conjugate gradients little.
+    void set_time_step(double time_step);
 
     /// One local-global iteration from x towards the minimum of inertia (about `inertial`), stretch, bend and presses: local
     /// projections, then a few steps of conjugate gradients on the global system, preconditioned by that factorisation.
@@ -55,16 +56,15 @@ private:
         Vec3 curvature;  // that vector at rest, in the hinge's own frame
         double stiffness;
     };
-    Eigen::MatrixXd loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
-    Eigen::MatrixXd applied(const Eigen::MatrixXd& x, const std::vector<Press>& presses) const;
+    Positions loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
+    Positions applied(const Positions& x, const std::vector<Press>& presses) const;
     void add_hinges(const GarmentMesh& rest, double bend_stiffness);
 
     std::vector<double> masses_;
     std::vector<Spring> springs_;
     std::vector<Hinge> hinges_;
     Eigen::SparseMatrix<double> elastic_;  // constant part of the system, n x n, both triangles
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver_;
-    bool analysed_ = false;
+    SinglePrecisionFactor factor_;
     double inertia_ = 0;  // 1 / h^2
 };
 

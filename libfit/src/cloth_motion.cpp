@@ -74,6 +74,11 @@ void shorten(Positions& displacements, const std::vector<double>& limits)
             displacements.row(v) *= limits[v] / length;
 }
 
+bool covers(const std::vector<double>& reach, const std::vector<double>& way)
+{
+    return std::equal(reach.begin(), reach.end(), way.begin(), [](double r, double w) { return w <= r; });
+}
+
 }  // namespace
 
 /// A pair near contact, linear in the positions: gap = normal . (sum of weight * position).
@@ -104,8 +109,8 @@ Positions ClothMotion::cloth() const
 
 Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth_vertices_); }
 
-// The one place where positions change. Vertices that are locked between others would stay behind, though all of them want the
-// same way: what is left over of their displacements is evened out among neighbours and tried once more.
+// The one place where positions change. What locks itself (a pinched fold, sheets that cross as given) is held back though all of it
+// wants about the same way: the rest of the way it goes as one, as the rigid impact zones of Provot 1997 do.
 void ClothMotion::move(const Positions& displacements, const std::vector<double>& reach)
 {
     const auto go = [&](const Positions& way) {
@@ -117,44 +122,13 @@ void ClothMotion::move(const Positions& displacements, const std::vector<double>
     x_ += first;
     if (first == displacements)
         return;
-    Positions second = dragged(displacements - first);
+    const Positions second = contact_.joined(x_, displacements - first, options_.smallest_gap);
     std::vector<double> room = lengths(first);
     for (std::size_t v = 0; v < room.size(); ++v)
-        room[v] = std::max(0.0, reach[v] - room[v]);
-    shorten(second, room);
+        room[v] = reach[v] - room[v];
+    if (const std::vector<double> way = lengths(second); !covers(room, way))
+        contact_.detect(x_, way);
     x_ += go(second);
-}
-
-// Cloth follows the mean of its neighbours and of what it touches; the obstacle knows its own way.
-Positions ClothMotion::dragged(const Positions& left_over) const
-{
-    constexpr int k_passes = 12;  // a locked patch is some ten edges wide
-    std::vector<std::pair<int, int>> links;
-    const auto& edges = contact_.cloth_edges();
-    for (Eigen::Index e = 0; e < edges.rows(); ++e)
-        links.emplace_back(edges(e, 0), edges(e, 1));
-    for (const ContactPair& pair : contact_.pairs())
-        if (pair.at.distance < options_.contact_distance) {
-            const auto& v = pair.vertices;
-            const int split = pair.kind == PairKind::vertex_face ? 1 : 2;
-            for (int i = 0; i < split; ++i)
-                for (int j = split; j < 4; ++j)
-                    links.emplace_back(v[i], v[j]);
-        }
-    Positions result = left_over;
-    for (int pass = 0; pass < k_passes; ++pass) {
-        Positions sum = result;
-        Eigen::VectorXd count = Eigen::VectorXd::Ones(result.rows());
-        for (const auto& [i, j] : links) {
-            sum.row(i) += result.row(j);
-            sum.row(j) += result.row(i);
-            ++count[i];
-            ++count[j];
-        }
-        for (int v = 0; v < cloth_vertices_; ++v)
-            result.row(v) = sum.row(v) / count[v];
-    }
-    return result;
 }
 
 void ClothMotion::carry(const Positions& cloth, const Positions& obstacle)
@@ -187,18 +161,6 @@ std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) co
         result.push_back({ &pair, normal, wanted });
     }
     return result;
-}
-
-std::vector<double> ClothMotion::contact_stiffness(const std::vector<Touch>& touches) const
-{
-    std::vector<double> stiffness(cloth_vertices_, 0.0);
-    for (const Touch& touch : touches)
-        for (int k = 0; k < 4; ++k)
-            if (const int v = touch.pair->vertices[k]; v < cloth_vertices_)
-                stiffness[v] += touch.pair->at.weights[k] * touch.pair->at.weights[k];
-    for (double& s : stiffness)
-        s = std::min(1.0, s) * k_contact_stiffness * options_.stretch_stiffness;
-    return stiffness;
 }
 
 // A touch that is too near wants its gap back along the normal, and holds against slipping with Coulomb's force.
@@ -246,22 +208,26 @@ double ClothMotion::advance(const MotionStep& step)
     const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
     Positions displacements = Positions::Zero(x_.rows(), 3);
     displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
+    shorten(displacements, std::vector<double>(x_.rows(), step.largest_obstacle_move));
     std::vector<double> reach = lengths(displacements);
-    for (Eigen::Index v = 0; v < x_.rows(); ++v)
-        reach[v] = v < cloth_vertices_ ? step.largest_move : std::min(reach[v], step.largest_obstacle_move);
+    for (double& r : reach)
+        r = std::max(r, 0.5 * (options_.contact_distance + k_lookout));
     contact_.detect(x_, reach);
-    shorten(displacements, reach);
 
     Positions wished = x_ + displacements;
     const std::vector<Touch> near = touches(wished);
-    energy_.prepare(step.time_step, contact_stiffness(near));
+    energy_.set_time_step(step.time_step);
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
     for (int i = 0; i < step.iterations; ++i)
         wished.topRows(cloth_vertices_)
             = energy_.minimized(wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction));
     displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
-    shorten(displacements, reach);
+    shorten(displacements, std::vector<double>(x_.rows(), step.largest_move));
+    if (const std::vector<double> way = lengths(displacements); !covers(reach, way)) {
+        reach = way;
+        contact_.detect(x_, reach);
+    }
 
     const Positions before = x_.topRows(cloth_vertices_);
     move(displacements, reach);

@@ -23,7 +23,7 @@ struct MotionStep {
     double velocity_kept = 0;  ///< share of the cloth's velocity kept from the step before
     double gravity = 0;  ///< m/s^2, along -y
     double friction = 0;
-    int iterations = 6;  ///< local-global iterations
+    int iterations = 8;  ///< local-global iterations
 };
 
 class ClothMotion {
@@ -50,10 +50,8 @@ public:
 private:
     struct Touch;
     void move(const Positions& displacements, const std::vector<double>& reach);
-    Positions dragged(const Positions& left_over) const;
     double settle_obstacle(const Positions& target);
     std::vector<Touch> touches(const Positions& wished) const;
-    std::vector<double> contact_stiffness(const std::vector<Touch>& touches) const;
     std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const;
 
     ClothOptions options_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include "fit/mesh.h"
 #include "parallel.h"
@@ -51,6 +52,44 @@ void lower(std::atomic<double>& value, double to)
     double now = value.load(std::memory_order_relaxed);
     while (to < now && !value.compare_exchange_weak(now, to, std::memory_order_relaxed)) { }
 }
+
+/// Sets of vertices, joined one by one.
+class Zones {
+public:
+    explicit Zones(int vertices) : parent_(vertices) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    bool join(int a, int b)
+    {
+        a = root(a);
+        b = root(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+        return a != b;
+    }
+
+    Positions means(const Positions& values)
+    {
+        Positions sum = Positions::Zero(values.rows(), 3);
+        std::vector<int> size(values.rows(), 0);
+        for (int v = 0; v < int(values.rows()); ++v) {
+            sum.row(root(v)) += values.row(v);
+            ++size[root(v)];
+        }
+        Positions result(values.rows(), 3);
+        for (int v = 0; v < int(values.rows()); ++v)
+            result.row(v) = sum.row(root(v)) / size[root(v)];
+        return result;
+    }
+
+private:
+    int root(int v)
+    {
+        while (parent_[v] != v)
+            v = parent_[v] = parent_[parent_[v]];
+        return v;
+    }
+
+    std::vector<int> parent_;
+};
 
 }  // namespace
 
@@ -121,9 +160,10 @@ void Contact::detect(const Positions& x, const std::vector<double>& reach)
     };
     const auto edge_edges = [&](const Surface& a, const Surface& b, bool self) {
         BoxTree::overlaps(a.edge_tree, b.edge_tree, [&](int part, int i, int j) {
-            if (!self || i < j)
-                keep(part, PairKind::edge_edge, self, { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) },
-                     key(i, j));
+            if (self && j < i)
+                std::swap(i, j);
+            keep(part, PairKind::edge_edge, self, { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) },
+                 key(i, j));
         });
     };
     vertex_faces(cloth_, obstacle_, false);
@@ -174,6 +214,29 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
         if (!any)
             return shares;
     }
+}
+
+// What moves as one may lock further pairs, so zones grow until none is left that cannot go nearly all of its way.
+Positions Contact::joined(const Positions& x, const Positions& displacements, double gap) const
+{
+    constexpr double k_nearly_all = 0.9;
+    Zones zones(int(x.rows()));
+    Positions common = displacements;
+    std::vector<char> locked(pairs_.size());
+    for (bool grown = true; grown;) {
+        const auto test = [&](std::size_t p) {
+            const auto& v = pairs_[p].vertices;
+            locked[p] = free_share(pairs_[p].kind, corners(x, v), corners(common, v), gap) < k_nearly_all;
+        };
+        parallel_for(pairs_.size(), test, std::size_t(1024));
+        grown = false;
+        for (std::size_t p = 0; p < pairs_.size(); ++p)
+            if (locked[p])
+                for (int k = 1; k < 4; ++k)
+                    grown |= zones.join(pairs_[p].vertices[0], pairs_[p].vertices[k]);
+        common = zones.means(displacements);
+    }
+    return common;
 }
 
 }  // namespace fit

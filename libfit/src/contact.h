@@ -43,7 +43,9 @@ public:
     /// for any number of threads.
     std::vector<double> free_shares(const Positions& x, const Positions& displacements, double gap) const;
 
-    const Edges& cloth_edges() const { return cloth_.edges; }
+    /// Displacements in which vertices of pairs that cannot go their ways apart from each other go together, with their mean.
+    /// Same bits for any number of threads.
+    Positions joined(const Positions& x, const Positions& displacements, double gap) const;
 
 private:
     struct Surface {
