@@ -44,7 +44,7 @@ void describe(Options& o, Visitor&& visit)
             &fit_method_names() });
     visit(o.iterations,
           About { "iterations", "Iterations", "", 1, 20,
-                  "Rounds of translation, rotation and bones; each halves spacing and extent of the search" });
+                  "Rounds of translation, rotation and bones of the methods paper and tisserand" });
     visit(o.nearest,
           About { "nearest", "Nearest vertex", "", 0, 0,
                   "How the methods paper and tisserand look for the nearest vertex; the answers are the same",

@@ -153,8 +153,7 @@ TEST_F(CommandLine, RefusesNumbersThatAreNotFinite)
 
 TEST_F(CommandLine, RefusesAnIndexOutOfRange)
 {
-    expect_refused({ "dress", write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), k_skirt },
-                   { "range.obj" });
+    expect_refused({ "dress", write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), k_skirt }, { "range.obj" });
 }
 
 TEST_F(CommandLine, RefusesACubeAsBody) { expect_refused({ "dress", write("cube.obj", cube_obj()), k_skirt }, {}); }
@@ -214,8 +213,8 @@ TEST_F(CommandLine, KeepsWhatStoodInTheResultFolderWhenItRefuses)
 TEST_F(CommandLine, LeavesNothingBehindWhenStopped)
 {
     for (const int signal : { SIGINT, SIGTERM }) {
-        const pid_t pid = start({ "dress", k_body, k_skirt, "--type", "skirt", "--settling-steps", "10000", "-o",
-                                  folder / "result" });
+        const pid_t pid = start(
+            { "dress", k_body, k_skirt, "--type", "skirt", "--settling-steps", "10000", "-o", folder / "result" });
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
         kill(pid, signal);
         const Ended ended = wait_for(pid);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The two published methods, and the metrics they are made of.
+// The steps of the three methods: metrics, bounds, searches.
 
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include "../libfit/src/cloth_room.h"
 #include "../libfit/src/nearest.h"
 #include "../libfit/src/paper_metric.h"
 #include "../libfit/src/relaxation.h"
+#include "../libfit/src/room_search.h"
 #include "../libfit/src/surface_metric.h"
 #include "fit/error.h"
 #include "fit/rig_body.h"
@@ -65,6 +68,100 @@ TEST(NearestVertex, TreeAndScanAgreeAlsoOnPointsEquallyNear)
     const Positions queries = random_points(300, 2);
     for (Eigen::Index q = 0; q < queries.rows(); ++q)
         EXPECT_EQ(tree.index(queries.row(q)), scan.index(queries.row(q)));
+}
+
+// Cloth at random: some triangles, as large as sleeves are wide, in a box of a metre.
+TriangleMesh random_cloth(unsigned seed)
+{
+    const Positions corners = random_points(90, seed), shape = 0.3 * random_points(90, seed + 1);
+    TriangleMesh cloth { corners, Triangles(30, 3) };
+    for (int f = 0; f < 30; ++f) {
+        cloth.positions.middleRows(3 * f, 3) = 0.5 * corners.row(f).replicate(3, 1) + shape.middleRows(3 * f, 3);
+        cloth.triangles.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+    }
+    return cloth;
+}
+
+class RandomCloth : public testing::TestWithParam<unsigned> {
+protected:
+    const TriangleMesh cloth
+        = GetParam() == 0 ? TriangleMesh { tube(0.3).positions, tube(0.3).triangles } : random_cloth(GetParam());
+    const Vec3 low = cloth.positions.colwise().minCoeff(), high = cloth.positions.colwise().maxCoeff();
+    const ClothTree tree { cloth_patches(cloth, 0.015) };
+    const RoomPyramid room { tree, low, high };
+    const std::vector<RoomSample> samples { { Vec3(0, 0, 0), 0.1 },
+                                            { Vec3(0, 0.2, 0), 0.12 },
+                                            { Vec3(0.15, 0.2, 0), 0.05 } };
+    const RoomSearch search { room, samples, Vec3(0, 1.5, 0) };
+};
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCloth, testing::Range(0u, 12u));
+
+TEST_P(RandomCloth, ABoundIsNeverBelowAnythingInItsBox)
+{
+    const Positions numbers = random_points(4000, 100 + GetParam());
+    for (int box = 0; box < 100; ++box) {
+        const Vec3 centre = numbers.row(40 * box), half_size = 0.3 * Vec3(numbers.row(40 * box + 1)).cwiseAbs();
+        const double bound = search.bound(centre, half_size);
+        for (int i = 2; i < 40; ++i) {
+            const Vec3 inside = centre + half_size.cwiseProduct(Vec3(numbers.row(40 * box + i)));
+            EXPECT_LE(search.value(inside), bound + 1e-9);
+        }
+        EXPECT_NEAR(search.bound(centre, Vec3::Zero()), search.bound(centre, Vec3::Constant(1e-12)), 1e-6);
+    }
+}
+
+TEST_P(RandomCloth, BranchAndBoundFindsWhatTryingAllFinds)
+{
+    const double spacing = 0.1;
+    const std::vector<Place> found = search.best(low, high, spacing, 0.2, 3);
+    ASSERT_FALSE(found.empty());
+    Eigen::Array3i parts = Eigen::Array3i::Ones();  // the grid of boxes halved until none is longer than `spacing`
+    for (int axis = 0; axis < 3; ++axis)
+        while ((high - low)[axis] / parts[axis] > spacing)
+            parts[axis] *= 2;
+    double best = -1e300;
+    for (int x = 0; x < parts.x(); ++x)
+        for (int y = 0; y < parts.y(); ++y)
+            for (int z = 0; z < parts.z(); ++z)
+                best = std::max(best,
+                                search.value(low
+                                             + (high - low)
+                                                   .cwiseProduct(Vec3(x + 0.5, y + 0.5, z + 0.5))
+                                                   .cwiseQuotient(parts.cast<double>().matrix())));
+    EXPECT_GE(found[0].value, best - 1e-9);
+    for (std::size_t i = 1; i < found.size(); ++i)
+        EXPECT_LE(found[i].value, found[i - 1].value);
+}
+
+TEST_P(RandomCloth, DistanceIsGoodToTheSizeOfAPatch)
+{
+    const TriangleTree exact(cloth);
+    const ClothRoom grid(cloth);
+    const Positions numbers = random_points(200, 200 + GetParam());
+    for (Eigen::Index q = 0; q < numbers.rows(); ++q) {
+        const Vec3 place = 0.5 * (low + high) + 0.5 * (high - low).cwiseProduct(Vec3(numbers.row(q)));
+        const double distance = exact.distance(place), patch = 0.015 * std::sqrt(3.0);
+        EXPECT_LE(std::abs(tree.distance(place) - distance), patch + 0.1 * distance);
+        EXPECT_LE(std::abs(grid.at(place).distance - distance), patch + 0.02 * std::sqrt(3.0));
+    }
+}
+
+TEST(FastMethod, GivesTheSameBitsWithOneThreadAndWithEight)
+{
+    Rig rig;
+    rig.skeleton = person_skeleton({ .arm_angle = 55 });
+    const TriangleMesh cloth = garment_round(person_skeleton({ .arm_angle = 35 }), 0.03, [](const Vec3& p) {
+        return p.y() > 0.85 && p.y() < 1.46 && std::abs(p.x()) < 0.5;
+    });
+    const GarmentMesh garment = make_garment(cloth.positions, cloth.triangles);
+    const auto pose_by = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return fit_skeleton(rig, garment).pose;
+    };
+    const Pose one = pose_by(1), eight = pose_by(8);
+    EXPECT_EQ(one.root_translation, eight.root_translation);
+    for (int b = 0; b < bone_count; ++b)
+        EXPECT_EQ(one.rotations[b].coeffs(), eight.rotations[b].coeffs()) << bone_name(b);
 }
 
 TEST(PaperMetric, CountsDistanceInsideAndAHundredTimesDistanceOutside)

@@ -14,7 +14,7 @@ namespace {
 
 using namespace fit;
 
-constexpr int k_variants = 1000;   // of each file; all of them take some seconds
+constexpr int k_variants = 1000;  // of each file; all of them take some seconds
 
 class IoFuzz : public fixtures::TemporaryFolder {
 protected:
@@ -60,7 +60,8 @@ protected:
 
     void replace_number(std::string& bytes, std::size_t from)
     {
-        static const std::vector<std::string> numbers { "-1", "0", "1e999", "4294967295", "18446744073709551615", "nan", "-0.5", "\"\"", "[]", "2147483647" };
+        static const std::vector<std::string> numbers { "-1",  "0",    "1e999", "4294967295", "18446744073709551615",
+                                                        "nan", "-0.5", "\"\"",  "[]",         "2147483647" };
         const std::size_t at = bytes.find_first_of("0123456789", from);
         if (at != std::string::npos)
             bytes.replace(at, bytes.find_first_not_of("0123456789.", at) - at, numbers[below(numbers.size())]);
@@ -70,7 +71,7 @@ protected:
 TEST_F(IoFuzz, TruncatedFilesAreReadOrRefused)
 {
     for (const samples::File& file : samples::all())
-        for (std::size_t length = 0; length < file.bytes.size(); length += file.bytes.size() > 1000 ? 5 : 1)
+        for (std::size_t length = 0; length<file.bytes.size(); length += file.bytes.size()> 1000 ? 5 : 1)
             survive(file.name, file.bytes.substr(0, length));
     EXPECT_GT(refused_, 1000);
 }

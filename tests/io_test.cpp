@@ -101,8 +101,9 @@ TEST_F(Io, ObjKeepsColoursAndAllOtherLinesAndTurnsItsNormals)
 {
     const MeshFile mesh = read("a.obj", samples::obj());
     const std::string text = written(mesh, turned(mesh.positions()));
-    for (const char* kept : { "# roof, by hand\r\nmtllib roof.mtl\no Roof\n", " 1.0 0.5 0.25\n", "vt 1 1\n", "usemtl slate\ns 1\n",
-                              "f 1/1/1 2/2/1 3/3/1 \\\n  4/4/1\n", "f -3//2 -1//2 -2//2 # gable\nl 1 2\n# end" })
+    for (const char* kept :
+         { "# roof, by hand\r\nmtllib roof.mtl\no Roof\n", " 1.0 0.5 0.25\n", "vt 1 1\n", "usemtl slate\ns 1\n",
+           "f 1/1/1 2/2/1 3/3/1 \\\n  4/4/1\n", "f -3//2 -1//2 -2//2 # gable\nl 1 2\n# end" })
         EXPECT_NE(text.find(kept), std::string::npos) << text;
     // (0, -0.1, 1) and (0, 0, 1) turned by 90 degrees about x
     const auto after = text.find("vn ");
@@ -123,7 +124,9 @@ TEST_F(Io, AMovedVertexChangesOnlyItsOwnNumbers)
 
 TEST_F(Io, TextKeepsAllDigitsOfAPosition)
 {
-    for (const auto& [name, bytes] : { samples::File { "a.obj", samples::obj() }, { "a.off", samples::off() }, { "a.stl", samples::ascii_stl() } }) {
+    for (const auto& [name, bytes] : { samples::File { "a.obj", samples::obj() },
+                                       { "a.off", samples::off() },
+                                       { "a.stl", samples::ascii_stl() } }) {
         const MeshFile mesh = read(name, bytes);
         Positions moved = mesh.positions();
         moved.row(1) << M_PI, -1.0 / 3, 1e-17;
@@ -147,7 +150,7 @@ TEST_F(Io, PlyTurnsNormalsAndKeepsOtherProperties)
     mesh.write(folder / "moved.ply", turned(mesh.positions()));
     for (const VertexProperty& property : read_ply_properties(folder / "moved.ply"))
         if (property.name == "ny") {
-            for (const double ny : property.values)   // the file's normals are not quite those of its faces
+            for (const double ny : property.values)  // the file's normals are not quite those of its faces
                 EXPECT_NEAR(ny, -1, 1e-3);
         }
     EXPECT_EQ(load(folder / "moved.ply").size(), samples::binary_ply(true).size());
@@ -209,13 +212,16 @@ TEST_F(Io, SaysWhatCannotBeDoneWithAGltf)
     const auto expect = [&](const std::string& from, const std::string& to, const std::string& words) {
         expect_complaint("a.glb", samples::glb(with(json, from, to)), words);
     };
-    expect("{\"asset\"", "{\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\"", "KHR_draco_mesh_compression");
+    expect("{\"asset\"", "{\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\"",
+           "KHR_draco_mesh_compression");
     expect("5126", "5123", "without quantization");
     expect("\"count\":4", "\"count\":4000000000", "beyond its buffer");
     expect("\"children\":[1]", "\"children\":[0]", "two parents");
     expect("\"children\":[1]", "\"children\":[1,2]},{\"mesh\":0", "node");
-    expect("\"count\":4,\"type\":\"VEC3\",\"min\"", "\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,\"componentType\":5123},"
-           "\"values\":{\"bufferView\":0}},\"count\":4,\"type\":\"VEC3\",\"min\"", "sparse");
+    expect("\"count\":4,\"type\":\"VEC3\",\"min\"",
+           "\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,\"componentType\":5123},"
+           "\"values\":{\"bufferView\":0}},\"count\":4,\"type\":\"VEC3\",\"min\"",
+           "sparse");
     expect("[2,2,2]", "[2,0,2]", "flattens");
     expect("\"mesh\":0", "\"mesh\":7", "mesh 7 of 1");
     expect("\"byteOffset\":12,", "\"byteOffset\":4,", "overlap");
@@ -245,8 +251,10 @@ TEST_F(Io, SaysWhatIsWrongAndWhere)
     expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: the face has 2 corners");
     expect_complaint("a.obj", "v 0 0\nv 1 0 0\n", "line 1: ends too soon");
     expect_complaint("a.obj", "v 0 0 zero\n", "line 1: 'zero' is not a number");
-    expect_complaint("a.ply", with(samples::ascii_ply(), "vertex 4", "vertex 2000000000"), "more than the file can hold");
-    expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "4 0 1 2 4 42"), "line 23: face 0 names vertex 4 of 4");
+    expect_complaint("a.ply", with(samples::ascii_ply(), "vertex 4", "vertex 2000000000"),
+                     "more than the file can hold");
+    expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "4 0 1 2 4 42"),
+                     "line 23: face 0 names vertex 4 of 4");
     expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "2 0 1 42"), "face 0 has 2 corners");
     expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "200 0 1"), "a count of 200");
     expect_complaint("a.ply", with(samples::ascii_ply(), "ascii", "morse"), "line 2: unknown PLY encoding");
@@ -254,7 +262,8 @@ TEST_F(Io, SaysWhatIsWrongAndWhere)
     expect_complaint("a.off", with(samples::off(), "4 2 0", "4 9 0"), "line 11: the file ends too soon");
     expect_complaint("a.off", "4OFF\n", "header is mangled");
     expect_complaint("a.off", "OFF BINARY\n", "save it as text");
-    expect_complaint("a.stl", samples::binary_stl().substr(0, 150).replace(0, 5, "SCANS"), "byte 150: the file ends too soon");
+    expect_complaint("a.stl", samples::binary_stl().substr(0, 150).replace(0, 5, "SCANS"),
+                     "byte 150: the file ends too soon");
     expect_complaint("a.stl", with(samples::ascii_stl(), "endsolid square of two", ""), "without endsolid");
     std::string infinite = samples::binary_stl();
     infinite.replace(84 + 50 + 24, 4, samples::raw(std::numeric_limits<float>::infinity()));
@@ -277,7 +286,8 @@ TEST_F(Io, WritePlyKeepsDoublesAndProperties)
     Positions positions(3, 3);
     positions << 0, 0, 0, 1.0 / 3, 0, 0, 0, 1e-9, 7;
     const Triangles triangles = rows({ { 0, 1, 2 } });
-    write_ply(folder / "w.ply", positions, triangles, { { "joint0", { 3, 4, 5 }, true }, { "weight0", { 0.1, 0.2, 0.3 } } }, { "hello" });
+    write_ply(folder / "w.ply", positions, triangles,
+              { { "joint0", { 3, 4, 5 }, true }, { "weight0", { 0.1, 0.2, 0.3 } } }, { "hello" });
     const MeshFile mesh = MeshFile::read(folder / "w.ply");
     EXPECT_EQ(mesh.positions(), positions);
     EXPECT_EQ(mesh.triangles(), triangles);

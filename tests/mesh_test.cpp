@@ -18,7 +18,8 @@ using namespace fit;
 TriangleMesh ball(const Vec3& centre, double radius, double spacing)
 {
     const Vec3 corner = Vec3::Constant(radius + 2 * spacing);
-    return fixtures::polygonise([&](const Vec3& p) { return (p - centre).norm() - radius; }, centre - corner, centre + corner, spacing);
+    return fixtures::polygonise([&](const Vec3& p) { return (p - centre).norm() - radius; }, centre - corner,
+                                centre + corner, spacing);
 }
 
 /// Every directed edge once, and its opposite too.

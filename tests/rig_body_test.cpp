@@ -20,10 +20,7 @@ using fixtures::PersonOptions;
 
 constexpr double k_stature = 1.75;  // m, of the person at scale 1
 
-BodyMesh body_of(const TriangleMesh& mesh)
-{
-    return make_body(mesh.positions, mesh.triangles);
-}
+BodyMesh body_of(const TriangleMesh& mesh) { return make_body(mesh.positions, mesh.triangles); }
 
 TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Isometry3d& motion)
 {
@@ -49,8 +46,9 @@ double winding_number(const TriangleMesh& mesh, const Vec3& p)
         for (int k = 0; k < 3; ++k)
             d[k] = mesh.positions.row(mesh.triangles(f, k)).transpose() - p;
         const double l0 = d[0].norm(), l1 = d[1].norm(), l2 = d[2].norm();
-        angle += 2 * std::atan2(d[0].dot(d[1].cross(d[2])),
-                                l0 * l1 * l2 + d[0].dot(d[1]) * l2 + d[1].dot(d[2]) * l0 + d[2].dot(d[0]) * l1);
+        angle += 2
+            * std::atan2(d[0].dot(d[1].cross(d[2])),
+                         l0 * l1 * l2 + d[0].dot(d[1]) * l2 + d[1].dot(d[2]) * l0 + d[2].dot(d[0]) * l1);
     }
     return angle / (4 * std::acos(-1));
 }
@@ -110,9 +108,11 @@ TEST_P(RigBodyInPose, PutsEveryJointInside)
 }
 
 INSTANTIATE_TEST_SUITE_P(Poses, RigBodyInPose,
-                         testing::Values(PersonOptions {}, PersonOptions { .arm_angle = 0 }, PersonOptions { .arm_angle = -60 },
+                         testing::Values(PersonOptions {}, PersonOptions { .arm_angle = 0 },
+                                         PersonOptions { .arm_angle = -60 },
                                          PersonOptions { .arm_angle = 30, .elbow_angle = 80 },
-                                         PersonOptions { .knee_angle = 85, .hip_angle = 85 }, PersonOptions { .scale = 0.6 }),
+                                         PersonOptions { .knee_angle = 85, .hip_angle = 85 },
+                                         PersonOptions { .scale = 0.6 }),
                          [](const auto& pose) { return "pose" + std::to_string(pose.index); });
 
 TEST(RigBody, GivesEveryVertexPositiveWeightsThatSumToOne)
@@ -162,7 +162,8 @@ TEST(RigBody, OfATurnedBodyIsTheTurnedRig)
     motion.translation() = Vec3(3, -1, 2);
     const Rig rig = rig_body(body_of(person.mesh)), turned = rig_body(body_of(moved(person.mesh, motion)));
     for (int bone = 0; bone < bone_count; ++bone)
-        EXPECT_LT((motion * rig.skeleton.tail(bone) - turned.skeleton.tail(bone)).norm(), 0.03 * k_stature) << bone_name(bone);
+        EXPECT_LT((motion * rig.skeleton.tail(bone) - turned.skeleton.tail(bone)).norm(), 0.03 * k_stature)
+            << bone_name(bone);
     EXPECT_GT((motion.linear() * rig.front).dot(turned.front), 0.98);
     EXPECT_GT((motion.linear() * rig.up).dot(turned.up), 0.98);
 }
@@ -202,7 +203,8 @@ TEST(RigBody, CanBeStoppedAndRunAgain)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
     for (const double when : { 0.1, 0.3, 0.75 })
-        EXPECT_THROW(rig_body(body, {}, Progress([&](double fraction, std::string_view) { return fraction < when; })), Cancelled);
+        EXPECT_THROW(rig_body(body, {}, Progress([&](double fraction, std::string_view) { return fraction < when; })),
+                     Cancelled);
     EXPECT_NO_THROW(rig_body(body));
 }
 
@@ -210,10 +212,10 @@ TEST(RigBody, ReportsGrowingProgressUpToOne)
 {
     double last = 0;
     rig_body(body_of(capsule_person().mesh), {}, Progress([&](double fraction, std::string_view) {
-        EXPECT_GE(fraction, last);
-        last = fraction;
-        return true;
-    }));
+                 EXPECT_GE(fraction, last);
+                 last = fraction;
+                 return true;
+             }));
     EXPECT_EQ(last, 1);
 }
 
@@ -223,10 +225,10 @@ TEST(RigBody, RefusesABallATorusARodAndACube)
         return fixtures::polygonise(distance, Vec3::Constant(-1.1), Vec3::Constant(1.1), 0.08);
     };
     EXPECT_NE(refusal(shape([](const Vec3& p) { return p.norm() - 0.5; })), "");
-    EXPECT_NE(refusal(shape([](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.7, p.z()) - 0.2; })), "");
-    EXPECT_NE(refusal(shape([](const Vec3& p) {
-        return (p - Vec3(0, std::clamp(p.y(), -0.8, 0.8), 0)).norm() - 0.15;
-    })), "");
+    EXPECT_NE(refusal(shape([](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.7, p.z()) - 0.2; })),
+              "");
+    EXPECT_NE(
+        refusal(shape([](const Vec3& p) { return (p - Vec3(0, std::clamp(p.y(), -0.8, 0.8), 0)).norm() - 0.15; })), "");
     EXPECT_NE(refusal(shape([](const Vec3& p) { return p.cwiseAbs().maxCoeff() - 0.5; })), "");
 }
 

@@ -81,7 +81,8 @@ TEST(Units, FindsUnitAndUpAxisOfABodyInAnyPose)
                 const Frame frame = frame_of(unit, up);
                 const FrameGuess guess = guess_body_frame(frame.to_file(mesh.positions), mesh.triangles);
                 EXPECT_EQ(guess.frame.up, frame.up) << person.name << up << unit << ": " << guess.why;
-                EXPECT_EQ(guess.frame.metres_per_unit, frame.metres_per_unit) << person.name << up << unit << ": " << guess.why;
+                EXPECT_EQ(guess.frame.metres_per_unit, frame.metres_per_unit)
+                    << person.name << up << unit << ": " << guess.why;
                 EXPECT_GT(guess.unit_margin, 0);
                 EXPECT_GT(guess.up_margin, 0);
                 EXPECT_LE(guess.up_margin, 1);
@@ -102,7 +103,8 @@ TEST(Units, ThePlaceOfABodyDoesNotMatter)
 {
     const TriangleMesh& mesh = standing_person();
     const Positions away = mesh.positions.rowwise() + Eigen::RowVector3d(30, -200, 7);
-    const FrameGuess here = guess_body_frame(mesh.positions, mesh.triangles), there = guess_body_frame(away, mesh.triangles);
+    const FrameGuess here = guess_body_frame(mesh.positions, mesh.triangles),
+                     there = guess_body_frame(away, mesh.triangles);
     EXPECT_EQ(here.frame.up, there.frame.up);
     EXPECT_EQ(here.why, there.why);
 }
@@ -122,7 +124,8 @@ TriangleMesh shirt()
     const auto distance = [](const Vec3& p) {
         const double trunk = std::hypot(p.x() / 0.22, p.z() / 0.14) - 1;
         const double sleeve = std::hypot((p.y() - 1.25) / 0.09, p.z() / 0.09) - 1;
-        return std::min(std::max(trunk, std::abs(p.y() - 1.05) / 0.35 - 1), std::max(sleeve, std::abs(p.x()) / 0.6 - 1));
+        return std::min(std::max(trunk, std::abs(p.y() - 1.05) / 0.35 - 1),
+                        std::max(sleeve, std::abs(p.x()) / 0.6 - 1));
     };
     TriangleMesh mesh = fixtures::polygonise(distance, Vec3(-0.7, 0.6, -0.25), Vec3(0.7, 1.5, 0.25), 0.04);
     Eigen::Index kept = 0;
@@ -130,7 +133,7 @@ TriangleMesh shirt()
         const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
                    c = mesh.positions.row(mesh.triangles(f, 2));
         const Vec3 centre = (a + b + c) / 3;
-        if (centre.y() > 0.73 && std::abs(centre.x()) < 0.57)   // without its lids at hem and cuffs
+        if (centre.y() > 0.73 && std::abs(centre.x()) < 0.57)  // without its lids at hem and cuffs
             mesh.triangles.row(kept++) = mesh.triangles.row(f);
     }
     mesh.triangles.conservativeResize(kept, 3);

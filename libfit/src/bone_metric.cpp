@@ -4,16 +4,12 @@
 #include <algorithm>
 
 #include "error_metric.h"
+#include "room_search.h"
 
 namespace fit {
 namespace {
 
-constexpr double k_outside = 1;  // weight of a sample outside of the garment; crossings are tested apart
-constexpr double k_largest_outside = 0.1;  // m; further out is not worse: long arms reach beyond their cuffs
 constexpr double k_bare = 2;  // weight of the room that a bare limb lacks
-constexpr double k_surplus = 0.15;  // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
-    // does not draw an arm out of its sleeve
-
 // m per metre of the leg (hip to ankle); an adult's leg has 0.8 m. In the order of Bone.
 constexpr std::array<double, bone_count> k_radii { 0.10,  0.085, 0.06, 0.10,  0.085, 0.06, 0.12,  0.12, 0.11,
                                                    0.065, 0.065, 0.06, 0.055, 0.042, 0.06, 0.055, 0.042 };
@@ -22,15 +18,6 @@ constexpr std::array<double, extremity_count> k_tip_radii { 0.4, 0.2, 0.2, 0.2, 
 
 bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
 bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bone == rfemur || bone == rtibia; }
-
-// Equation (3), with the room counted up to what the limb needs.
-double delta(const Room& room, double radius)
-{
-    const double needed = std::min(room.distance, radius);
-    const double surplus = std::clamp(room.distance - radius, 0.0, radius);
-    const double outside = std::min(room.distance, k_largest_outside);
-    return room.inside * (needed + k_surplus * surplus) - (1 - room.inside) * k_outside * outside;
-}
 
 }  // namespace
 
@@ -52,7 +39,7 @@ double BoneMetric::worn(int bone, const Vec3& head, const Vec3& tail) const
 {
     double sum = 0;
     for (int i = 0; i < k_samples; ++i)
-        sum += delta(cloth_.at(bone_sample(head, tail, i)), figure_.radii[bone]);
+        sum += room_value(cloth_.at(bone_sample(head, tail, i)), figure_.radii[bone]);
     return sum;
 }
 
@@ -96,7 +83,7 @@ int BoneMetric::samples_inside(const Vec3& head, const Vec3& tail) const
 {
     int count = 0;
     for (int i = 0; i < k_samples; ++i)
-        count += cloth_.exact(bone_sample(head, tail, i)).inside > 0.5;
+        count += cloth_.at(bone_sample(head, tail, i)).inside > 0.5;
     return count;
 }
 

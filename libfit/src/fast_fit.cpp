@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include "fit/error.h"
 #include "garment_type.h"
@@ -19,15 +22,18 @@
 namespace fit {
 namespace {
 
-constexpr int k_headings = 12;  // coarse turns about the vertical, 30 degrees apart
-constexpr double k_coarse_step = 0.08;  // m; the thickness of an upper arm
-constexpr int k_kept_places = 2;  // a heading
-constexpr int k_kept_starts = 3;  // of all of them, for the fine search
+constexpr double k_place_spacing = 0.05;  // m
+constexpr double k_places_apart = 0.08;  // m; the thickness of an upper arm
+constexpr std::size_t k_places_a_heading = 4, k_wide_starts = 6, k_polished_starts = 2;
+constexpr double k_clear_front = 0.5;  // m; a garment that much better one way round leaves no doubt
+constexpr double k_same_heading = 0.25;  // rad
 constexpr double k_shortest_tip = 0.02;  // of an extremity; below, it ends at its joint
 constexpr int k_partly_inside = 2, k_mostly_inside = 3;  // of a bone's five samples
 constexpr double k_least_room = 0.2;  // of the room that covered bones need; tight clothes have 0.6 and more
 constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
 constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
+constexpr Reach k_near_limbs { 0.6, 0.15, 8, true };
+constexpr double k_first_step = 0.16, k_last_step = 0.01;  // rad
 
 struct Scored {
     Posture posture;
@@ -58,26 +64,6 @@ Vec3 front_of(const std::vector<Opening>& openings)
     return sum;
 }
 
-// Roots from below a short shirt's hem up to its top.
-std::vector<Vec3> coarse_roots(const ClothRoom& cloth, double trunk_length)
-{
-    const Vec3 low = cloth.low() - Vec3(0, 1.2 * trunk_length, 0), size = cloth.high() - low;
-    const double step = std::max(k_coarse_step, std::cbrt(size.prod() / 4e3));
-    const Eigen::Array3i steps = (size / step).array().floor().cast<int>();
-    const Vec3 first = low + 0.5 * (size - step * steps.cast<double>().matrix());
-    std::vector<Vec3> roots;
-    for (int x = 0; x <= steps.x(); ++x)
-        for (int y = 0; y <= steps.y(); ++y)
-            for (int z = 0; z <= steps.z(); ++z)
-                roots.push_back(first + step * Vec3(x, y, z));
-    return roots;
-}
-
-double total(const SkeletonSearch& search, const Posture& posture)
-{
-    return search.energy(posture) - search.crossing_cost(posture);
-}
-
 bool is_worn(const SkeletonSearch& search, const Limb& limb) { return search.metric().figure().covered[limb.bones[0]]; }
 
 Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Reach& reach)
@@ -88,37 +74,42 @@ Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Rea
     return posture;
 }
 
-// The best places for one heading: the trunk alone bounds what limbs can add, so most places need no limbs.
-std::vector<Scored> coarse_places(const SkeletonSearch& search, const Eigen::Quaterniond& turn,
-                                  const std::vector<Vec3>& roots)
+// The horizontal direction in which the cloth is spread most: from sleeve to sleeve, from leg to leg.
+double widest_heading(const ClothRoom& cloth)
 {
-    Posture posture = search.at_ease(Vec3::Zero(), turn);
-    std::vector<Scored> trunks;
-    for (const Vec3& root : roots) {
-        posture.root = root;
-        trunks.push_back({ posture, search.trunk_energy(posture) });
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (const ClothPatch& patch : cloth.patches()) {
+        const Vec3 from_middle = patch.centre.cast<double>() - cloth.barycentre();
+        const Eigen::Vector2d level(from_middle.x(), from_middle.z());
+        spread += level * level.transpose();
     }
-    std::stable_sort(trunks.begin(), trunks.end(), better);
-    std::vector<Scored> places;
-    for (const Scored& trunk : trunks) {
-        if (places.size() == k_kept_places && trunk.score + search.largest_limb_energy() < places.back().score)
-            break;
-        const Posture with_limbs = with_worn_limbs(search, trunk.posture, k_coarse_limbs);
-        places.push_back({ with_limbs, search.energy(with_limbs) });
-        keep_best(places, k_kept_places);
-    }
-    return places;
+    const Eigen::Vector2d widest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+    return std::atan2(-widest.y(), widest.x());
 }
 
-// The best, no two of them alike: within a coarse step the fine search finds the same.
+double turned_apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+
+// Left to right along the cloth's widest direction or across it, either way round; and as the body stands.
+std::vector<double> headings(const Rig& rig, const ClothRoom& cloth)
+{
+    const Vec3 left = rig.up.cross(rig.front);
+    const double own = std::atan2(-left.z(), left.x()), widest = widest_heading(cloth) - own;
+    std::vector<double> result { 0 };
+    for (int quarter = 0; quarter < 4; ++quarter)
+        if (turned_apart(widest + quarter * std::numbers::pi / 2, 0) > k_same_heading)
+            result.push_back(widest + quarter * std::numbers::pi / 2);
+    return result;
+}
+
+// The best, no two of them alike: what is as near as that, the polish makes one.
 std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
 {
     std::stable_sort(all.begin(), all.end(), better);
     std::vector<Scored> kept;
     for (const Scored& one : all) {
         const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Scored& other) {
-            return (one.posture.root - other.posture.root).norm() < k_coarse_step
-                && one.posture.turn.angularDistance(other.posture.turn) < 0.1;
+            return (one.posture.root - other.posture.root).norm() < k_places_apart
+                && one.posture.turn.angularDistance(other.posture.turn) < k_same_heading;
         });
         if (is_new && kept.size() < count)
             kept.push_back(one);
@@ -126,44 +117,27 @@ std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
     return kept;
 }
 
-// Half a coarse step to each side, limbs searched anew at each place, now without passing through cloth.
-Scored settled(const SkeletonSearch& search, const Scored& start)
+// Where the trunk has room, for each heading, with limbs as far as a coarse look finds them.
+std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
 {
-    std::vector<Scored> places;
-    for (const Vec3& offset : grid_offsets(0.5 * k_coarse_step, 0.5 * k_coarse_step)) {
-        Posture posture = start.posture;
-        posture.root += offset;
-        posture = with_worn_limbs(search, posture, k_coarse_limbs);
-        places.push_back({ posture, search.energy(posture) });
-    }
-    keep_best(places, k_kept_places);
-    for (Scored& place : places) {
-        place.posture = with_worn_limbs(search, place.posture, k_wide_limbs);
-        place.score = total(search, place.posture);
-    }
-    keep_best(places, 1);
-    return places[0];
-}
-
-std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
-{
-    const Skeleton& own = rig.skeleton;
-    const auto roots = coarse_roots(search.metric().cloth(), (own.tail(thorax) - own.root).norm());
-    std::vector<std::vector<Scored>> places(k_headings);
-    for (int begin = 0; begin < k_headings; begin += 4) {
-        progress.at(double(begin) / k_headings);
-        parallel_for(4, [&](int i) {
-            const int h = begin + i;
-            places[h] = coarse_places(search, heading(rig, 2 * std::numbers::pi * h / k_headings), roots);
-        });
-    }
+    const ClothRoom& cloth = search.metric().cloth();
+    const RoomPyramid room(cloth.tree(), cloth.low(), cloth.high());
+    std::vector<Posture> postures;
+    for (const double angle : headings(rig, cloth))
+        postures.push_back(search.at_ease(Vec3::Zero(), heading(rig, angle)));
+    std::vector<std::vector<Scored>> by_heading(postures.size());
+    parallel_for<std::size_t>(postures.size(), [&](std::size_t h) {
+        for (const Place& place :
+             search.trunk_places(room, postures[h], k_place_spacing, k_places_apart, k_places_a_heading)) {
+            postures[h].root = place.at;
+            const Posture with_limbs = with_worn_limbs(search, postures[h], k_coarse_limbs);
+            by_heading[h].push_back({ with_limbs, search.energy(with_limbs) });
+        }
+    });
     std::vector<Scored> all;
-    for (auto& some : places)
+    for (auto& some : by_heading)
         all.insert(all.end(), some.begin(), some.end());
-    keep_best(all, 3 * k_kept_starts);
-    for (Scored& place : all)
-        place = settled(search, place);
-    return distinct(all, k_kept_starts);
+    return all;
 }
 
 bool is_all_worn(const SkeletonSearch& search, const Limb& limb)
@@ -172,19 +146,19 @@ bool is_all_worn(const SkeletonSearch& search, const Limb& limb)
     return covered[limb.bones[0]] && covered[limb.bones[1]];
 }
 
-// Looks about each limb's present directions; in the first round also where its twin is, and anywhere for a bare one.
-Posture limbs_moved(const SkeletonSearch& search, Posture present, int round)
+Posture better_of(const SkeletonSearch& search, const Posture& present, const Posture& next)
 {
-    const double near = 0.6 * std::pow(0.5, round);
+    return search.total(next) > search.total(present) ? next : present;
+}
+
+// Looks anywhere for a bare limb, and for a worn one where its twin is.
+Posture limbs_reconsidered(const SkeletonSearch& search, Posture present)
+{
     for (const Limb& limb : k_limbs) {
-        const double extent = round == 0 && !is_all_worn(search, limb) ? k_wide_limbs.extent : near;
-        std::vector<Posture> tries { search.limb_moved(present, limb,
-                                                       { extent, std::min(k_wide_limbs.spacing, extent / 4), 8 }) };
-        if (round == 0 && is_worn(search, limb))
-            tries.push_back(search.limb_moved(search.mirrored(present, limb), limb, { near, near / 4, 8 }));
-        for (const Posture& moved : tries)
-            if (total(search, moved) > total(search, present))
-                present = moved;
+        if (!is_all_worn(search, limb))
+            present = better_of(search, present, search.limb_moved(present, limb, k_wide_limbs));
+        if (is_worn(search, limb))
+            present = better_of(search, present, search.limb_moved(search.mirrored(present, limb), limb, k_near_limbs));
     }
     return present;
 }
@@ -194,27 +168,28 @@ Posture freed(const SkeletonSearch& search, Posture present)
 {
     for (const Limb& limb : k_limbs)
         for (double spacing = 0.2; spacing > 0.06 && search.crossing_cost(present, limb) > 0; spacing *= 0.6)
-            if (const Posture moved = search.limb_moved(present, limb, { 1.5, spacing, 40 });
-                total(search, moved) > total(search, present))
-                present = moved;
+            present = better_of(search, present, search.limb_moved(present, limb, { 1.5, spacing, 40 }));
     return present;
 }
 
-// The paper's rounds: translation, rotation, bones; each halves extents and spacings.
-Scored refined(const SkeletonSearch& search, Scored present, int iterations)
+Scored with_limbs_found(const SkeletonSearch& search, const Posture& start)
 {
-    for (int i = 0; i < iterations; ++i) {
-        const double scale = std::pow(0.5, i);
-        present.posture = search.translated(present.posture, { 0.06 * scale, 0.02 * scale });
-        present.posture = search.rotated(present.posture, { 0.2 * scale, 0.1 * scale });
-        present.posture = search.trunk_bent(present.posture, { 0.2 * scale, 0.1 * scale });
-        present.posture = limbs_moved(search, present.posture, i);
-        if (i == 0)
-            present.posture = freed(search, present.posture);
-    }
-    present.score = total(search, present.posture);
-    return present;
+    const Posture posture = with_worn_limbs(search, start, k_wide_limbs);
+    return { posture, search.total(posture) };
 }
+
+Scored roughly_polished(const SkeletonSearch& search, const Scored& start)
+{
+    const Posture posture = search.polished(start.posture, k_first_step, k_first_step / 4);
+    return { posture, search.total(posture) };
+}
+
+Posture refined(const SkeletonSearch& search, const Posture& start)
+{
+    return search.polished(freed(search, limbs_reconsidered(search, start)), k_first_step / 2, k_last_step);
+}
+
+Vec3 front_in(const Rig& rig, const Scored& scored) { return scored.posture.turn * rig.front; }
 
 // Equation (4): the bones that the garment covers, each by equation (1).
 std::array<double, bone_count> scores(const SkeletonSearch& search, const Posture& posture)
@@ -285,21 +260,37 @@ void require_clear(const SkeletonSearch& search, const Posture& posture)
     require("the head", joints.tail(upperneck), joints.tips[head_top]);
 }
 
-Posture best_posture(const Rig& rig, const SkeletonSearch& search, int iterations, const Progress& progress)
+struct Found {
+    Posture posture;
+    double front_margin;  // 0 (as good facing the other way) to 1
+};
+
+// The best start is also tried facing the other way round: most garments have as much room for that.
+Found best_posture(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
 {
-    std::vector<Scored> candidates = starts(rig, search, progress.part(0, 0.5));
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        progress.at(0.5 + 0.5 * double(i) / double(candidates.size()));
-        candidates[i] = refined(search, candidates[i], iterations);
-    }
-    keep_best(candidates, 1);
-    return candidates[0].posture;
+    std::vector<Scored> candidates = distinct(starts(rig, search), k_wide_starts);
+    progress.at(0.4);
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
+    progress.at(0.6);
+    keep_best(candidates, k_polished_starts);
+    candidates.push_back(
+        with_limbs_found(search, search.turned(candidates[0].posture, std::numbers::pi * Vec3::UnitY())));
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
+    progress.at(0.8);
+    keep_best(candidates, candidates.size());
+    double margin = std::numeric_limits<double>::infinity();
+    for (const Scored& other : candidates)
+        if (front_in(rig, other).dot(front_in(rig, candidates[0])) < 0)
+            margin = std::min(margin, candidates[0].score - other.score);
+    return { candidates[0].posture, std::clamp(margin / k_clear_front, 0.0, 1.0) };
 }
 
 // The paper's start: the root in the middle of the cloth.
 Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
 {
-    const Vec3 middle = search.metric().cloth().points().colwise().mean();
+    const Vec3 middle = search.metric().cloth().barycentre();
     return search.at_ease(middle, heading(rig, 0));
 }
 
@@ -320,36 +311,38 @@ Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment)
     return result;
 }
 
-FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType type, int iterations,
-                   const Progress& progress)
+FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress)
 {
     const TriangleMesh outward = outward_cloth(garment);
+    const std::vector<Opening> openings = openings_of(outward);
+    const TypeGuess guess = resolved_type(given, openings);
     if (is_sealed(outward))
         throw InvalidInput("garment is closed all round: nobody can get in; give a garment with openings");
-    const ClothRoom cloth(outward, progress.part(0, 0.3, "look at the garment"));
-    const std::vector<Opening> openings = openings_of(outward);
+    const ClothRoom cloth(outward);
     const GarmentCues cues { front_of(openings), cuffs_of(openings) };
     const JointLimits limits(rig);
 
-    const Figure nominal = figure_of(rig, bones_covered_by(type, openings));
+    const Figure nominal = figure_of(rig, bones_covered_by(guess.type, openings));
     const BoneMetric nominal_metric(cloth, nominal);
     const SkeletonSearch first(rig, limits, nominal_metric, cues);
-    Scored fitted { best_posture(rig, first, iterations, progress.part(0.3, 0.8, "fit the skeleton")) };
-    require_fit(first, fitted.posture, sizes(rig, cloth));
+    const Found found = best_posture(rig, first, progress.part(0.3, 0.8, "fit the skeleton"));
+    require_fit(first, found.posture, sizes(rig, cloth));
 
     // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
-    const Figure figure = figure_of(rig, bones_inside(first, fitted.posture, k_partly_inside));
+    const Figure figure = figure_of(rig, bones_inside(first, found.posture, k_partly_inside));
     const BoneMetric metric(cloth, figure);
     const SkeletonSearch search(rig, limits, metric, cues);
     progress.part(0.8, 1, "fit the skeleton").at(0);
-    fitted = refined(search, fitted, iterations);
-    require_clear(search, fitted.posture);
+    const Posture fitted = refined(search, found.posture);
+    require_clear(search, fitted);
 
     FitResult result;
-    result.type = type;
-    result.covered = bones_inside(search, fitted.posture, k_mostly_inside);
-    result.pose = pose_of(rig.skeleton, fitted.posture);
-    result.scores = scores(search, fitted.posture);
+    result.type = guess.type;
+    result.type_margin = guess.margin;
+    result.front_margin = found.front_margin;
+    result.covered = bones_inside(search, fitted, k_mostly_inside);
+    result.pose = pose_of(rig.skeleton, fitted);
+    result.scores = scores(search, fitted);
     result.scores_before = scores(search, at_barycentre(rig, search));
     return result;
 }

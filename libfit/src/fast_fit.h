@@ -6,7 +6,6 @@
 namespace fit {
 
 /// The fast method, told in docs/fit.md.
-FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType type, int iterations,
-                   const Progress& progress);
+FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress);
 
 }  // namespace fit

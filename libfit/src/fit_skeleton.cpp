@@ -7,24 +7,14 @@
 
 #include "fast_fit.h"
 #include "fit/error.h"
+#include "garment_type.h"
+#include "outward_cloth.h"
 #include "paper_metric.h"
 #include "relaxation.h"
 #include "surface_metric.h"
 
 namespace fit {
 namespace {
-
-TypeGuess resolved_type(GarmentType given, const GarmentMesh& garment)
-{
-    if (given != GarmentType::automatic)
-        return { given, 1 };
-    const TypeGuess guess = guess_garment_type(garment);
-    if (guess.type == GarmentType::automatic)
-        throw InvalidInput(
-            "garment has no openings that a body could be put through, so its type cannot be told; give a garment "
-            "with open edges, or its type");
-    return guess;
-}
 
 std::array<double, bone_count> scores(const ErrorMetric& metric, const PlacedBones& bones,
                                       const std::vector<Bone>& covered)
@@ -47,14 +37,16 @@ std::unique_ptr<ErrorMetric> metric_of(const Rig& rig, const TriangleMesh& body,
     return std::make_unique<SurfaceMetric>(rig, body, garment, options.nearest);
 }
 
-FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, GarmentType type,
-                      const FitOptions& options, const Progress& progress)
+FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
+                      const Progress& progress)
 {
+    const TypeGuess guess = resolved_type(options.type, openings_of(outward_cloth(garment)));
     FitResult result;
-    result.type = type;
-    result.covered = bones_covered_by(type);
+    result.type = guess.type;
+    result.type_margin = guess.margin;
+    result.covered = bones_covered_by(guess.type);
     const auto metric = metric_of(rig, body, garment, result.covered, options);
-    const Relaxation relaxation = relaxation_of(rig, garment, type, options.iterations);
+    const Relaxation relaxation = relaxation_of(rig, garment, guess.type, options.iterations);
     const Relaxed found = relaxed(rig, *metric, result.covered, relaxation, progress.part(0, 1, "fit the skeleton"));
     result.pose = pose_of(rig.skeleton, found.posture);
     result.evaluations = found.evaluations;
@@ -93,11 +85,8 @@ FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMe
 {
     if (options.iterations < 1)
         throw InvalidInput("iterations is " + std::to_string(options.iterations) + "; give at least 1");
-    const TypeGuess guess = resolved_type(options.type, garment);
-    FitResult result = options.method == FitMethod::fast
-        ? fast_fit(rig, garment, guess.type, options.iterations, progress)
-        : relaxed_fit(rig, body, garment, guess.type, options, progress);
-    result.type_margin = guess.margin;
+    FitResult result = options.method == FitMethod::fast ? fast_fit(rig, garment, options.type, progress)
+                                                         : relaxed_fit(rig, body, garment, options, progress);
     result.score_before = std::accumulate(result.scores_before.begin(), result.scores_before.end(), 0.0);
     result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);
     return result;

@@ -5,77 +5,61 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <queue>
 #include <set>
 #include <utility>
+
+#include "buckets.h"
+#include "joined_vertices.h"
+#include "parallel.h"
 
 namespace fit {
 namespace {
 
 constexpr double k_smallest_girth = 0.07;  // of the garment's diagonal: a cuff has 0.12, a buttonhole 0.03
-constexpr double k_slice = 0.02;           // of the diagonal: slices of a tube, two or three edges wide
-constexpr double k_widening = 1.5;         // a tube ends where its girth exceeds its own median by this factor
+constexpr double k_slice = 0.02;  // of the diagonal: slices of a tube, two or three edges wide
+constexpr double k_widening = 1.5;  // a tube ends where its girth exceeds its own median by this factor
 
 using Ring = std::vector<std::pair<int, int>>;  // the edges of an opening
-using Neighbours = std::vector<std::vector<std::pair<int, double>>>;
 
 double diagonal_of(const TriangleMesh& mesh)
 {
     return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
 }
 
-Neighbours neighbours_of(const TriangleMesh& mesh)
-{
-    Neighbours result(mesh.positions.rows());
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
-            const double length = (mesh.positions.row(a) - mesh.positions.row(b)).norm();
-            result[a].emplace_back(b, length);
-            result[b].emplace_back(a, length);
-        }
-    return result;
-}
-
 // Directed as in their triangles, so that the cloth lies to the left seen from outside.
-Ring border_edges(const Triangles& triangles)
+Ring border_edges(const TriangleMesh& mesh)
 {
-    std::set<std::pair<int, int>> edges;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            edges.emplace(triangles(f, k), triangles(f, (k + 1) % 3));
+    const auto from = [&](int e) { return mesh.triangles(e / 3, e % 3); };
+    const auto to = [&](int e) { return mesh.triangles(e / 3, (e % 3 + 1) % 3); };
+    std::vector<int> first(3 * mesh.triangles.rows());
+    for (int e = 0; e < int(first.size()); ++e)
+        first[e] = from(e);
+    const Buckets edges_from(int(mesh.positions.rows()), first);
     Ring border;
-    for (const auto& [a, b] : edges)
-        if (!edges.count({ b, a }))
-            border.emplace_back(a, b);
+    for (int e = 0; e < int(first.size()); ++e) {
+        const auto back = edges_from[to(e)];
+        if (std::none_of(back.begin(), back.end(), [&](int other) { return to(other) == from(e); }))
+            border.emplace_back(from(e), to(e));
+    }
     return border;
 }
 
-std::vector<Ring> rings_of(const Ring& border)
+// Edges that hang together, in the order of their first one.
+std::vector<Ring> rings_of(const Ring& border, int vertices)
 {
-    std::map<int, std::vector<int>> edges_at;
-    for (int e = 0; e < int(border.size()); ++e) {
-        edges_at[border[e].first].push_back(e);
-        edges_at[border[e].second].push_back(e);
-    }
-    std::vector<bool> seen(border.size(), false);
+    JoinedVertices joined(vertices);
+    for (const auto& [a, b] : border)
+        joined.join(a, b);
+    std::vector<int> ring_at(vertices, -1);
     std::vector<Ring> rings;
-    for (int seed = 0; seed < int(border.size()); ++seed) {
-        if (seen[seed])
-            continue;
-        std::vector<int> queue { seed };
-        seen[seed] = true;
-        for (std::size_t next = 0; next < queue.size(); ++next)
-            for (const int v : { border[queue[next]].first, border[queue[next]].second })
-                for (const int e : edges_at[v])
-                    if (!seen[e]) {
-                        seen[e] = true;
-                        queue.push_back(e);
-                    }
-        auto& ring = rings.emplace_back();
-        for (const int e : queue)
-            ring.push_back(border[e]);
+    for (const auto& edge : border) {
+        int& ring = ring_at[joined.root(edge.first)];
+        if (ring < 0) {
+            ring = int(rings.size());
+            rings.emplace_back();
+        }
+        rings[ring].push_back(edge);
     }
     return rings;
 }
@@ -113,27 +97,59 @@ std::vector<Ring> large_rings(const Positions& positions, std::vector<Ring> ring
     return rings;
 }
 
-std::vector<double> distances_from(const Neighbours& neighbours, const Ring& ring)
-{
-    std::vector<double> distance(neighbours.size(), std::numeric_limits<double>::infinity());
-    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
-    for (const auto& [a, b] : ring) {
-        distance[a] = 0;
-        queue.emplace(0, a);
+// The cloth as a graph: for each vertex its edges and their lengths.
+class Paths {
+public:
+    explicit Paths(const TriangleMesh& mesh) :
+        mesh_(mesh), edges_at_(int(mesh.positions.rows()), corners(mesh.triangles))
+    {
+        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                lengths_.push_back(
+                    (mesh.positions.row(mesh.triangles(f, k)) - mesh.positions.row(mesh.triangles(f, (k + 1) % 3)))
+                        .norm());
     }
-    while (!queue.empty()) {
-        const auto [d, v] = queue.top();
-        queue.pop();
-        if (d > distance[v])
-            continue;
-        for (const auto& [w, length] : neighbours[v])
-            if (d + length < distance[w]) {
-                distance[w] = d + length;
-                queue.emplace(distance[w], w);
+
+    // m along edges
+    std::vector<double> distances_from(const Ring& ring) const
+    {
+        std::vector<double> distance(mesh_.positions.rows(), std::numeric_limits<double>::infinity());
+        std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
+        const auto reach = [&](int v, double d) {
+            if (d < distance[v]) {
+                distance[v] = d;
+                queue.emplace(d, v);
             }
+        };
+        for (const auto& [a, b] : ring)
+            reach(a, 0);
+        while (!queue.empty()) {
+            const auto [d, v] = queue.top();
+            queue.pop();
+            if (d > distance[v])
+                continue;
+            for (const int corner : edges_at_[v]) {
+                const int f = corner / 3, k = corner % 3;
+                reach(mesh_.triangles(f, (k + 1) % 3), d + lengths_[corner]);
+                reach(mesh_.triangles(f, (k + 2) % 3), d + lengths_[3 * f + (k + 2) % 3]);
+            }
+        }
+        return distance;
     }
-    return distance;
-}
+
+private:
+    static std::vector<int> corners(const Triangles& triangles)
+    {
+        std::vector<int> result;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            result.insert(result.end(), { triangles(f, 0), triangles(f, 1), triangles(f, 2) });
+        return result;
+    }
+
+    const TriangleMesh& mesh_;
+    Buckets edges_at_;  // corners, 3 f + k, of each vertex
+    std::vector<double> lengths_;  // of edge k of face f
+};
 
 // The area between two distances from the opening is the girth there times their difference.
 std::vector<double> girths_along(const TriangleMesh& mesh, const std::vector<double>& distance, double slice)
@@ -184,34 +200,24 @@ void measure_tube(Opening& opening, const std::vector<double>& girths, double sl
 
 std::vector<int> pieces_of(const TriangleMesh& mesh)
 {
-    std::vector<int> parent(mesh.positions.rows());
-    for (int v = 0; v < int(parent.size()); ++v)
-        parent[v] = v;
-    const auto root = [&](int v) {
-        while (parent[v] != v)
-            v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    JoinedVertices joined(int(mesh.positions.rows()));
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         for (int k = 1; k < 3; ++k)
-            parent[root(mesh.triangles(f, k))] = root(mesh.triangles(f, 0));
-    for (int v = 0; v < int(parent.size()); ++v)
-        parent[v] = root(v);
-    return parent;
+            joined.join(mesh.triangles(f, k), mesh.triangles(f, 0));
+    std::vector<int> pieces(mesh.positions.rows());
+    for (int v = 0; v < int(pieces.size()); ++v)
+        pieces[v] = joined.root(v);
+    return pieces;
 }
 
-std::map<int, double> heights_of(const Positions& positions, const std::vector<int>& pieces)
+// Of the piece that each vertex belongs to, by the piece's name.
+std::vector<double> heights_of(const Positions& positions, const std::vector<int>& pieces)
 {
-    std::map<int, std::pair<double, double>> ranges;
-    for (int v = 0; v < int(pieces.size()); ++v) {
-        const double y = positions(v, 1);
-        auto& [low, high] = ranges.try_emplace(pieces[v], y, y).first->second;
-        low = std::min(low, y);
-        high = std::max(high, y);
-    }
-    std::map<int, double> heights;
-    for (const auto& [piece, range] : ranges)
-        heights[piece] = range.second - range.first;
+    std::vector<double> low(pieces.size(), std::numeric_limits<double>::infinity()), heights(pieces.size());
+    for (std::size_t v = 0; v < pieces.size(); ++v)
+        low[pieces[v]] = std::min(low[pieces[v]], positions(v, 1));
+    for (std::size_t v = 0; v < pieces.size(); ++v)
+        heights[pieces[v]] = std::max(heights[pieces[v]], positions(v, 1) - low[pieces[v]]);
     return heights;
 }
 
@@ -220,28 +226,28 @@ std::map<int, double> heights_of(const Positions& positions, const std::vector<i
 std::vector<Opening> openings_of(const TriangleMesh& outward)
 {
     const double diagonal = diagonal_of(outward), slice = k_slice * diagonal;
-    const Neighbours neighbours = neighbours_of(outward);
     const std::vector<int> pieces = pieces_of(outward);
-    const std::map<int, double> heights = heights_of(outward.positions, pieces);
-    const auto rings = large_rings(outward.positions, rings_of(border_edges(outward.triangles)), k_smallest_girth * diagonal);
-    std::vector<Opening> openings;
-    for (std::size_t r = 0; r < rings.size(); ++r) {
-        Opening opening = opening_of(outward.positions, rings[r]);
+    const std::vector<double> heights = heights_of(outward.positions, pieces);
+    const auto rings = large_rings(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
+                                   k_smallest_girth * diagonal);
+    const Paths paths(outward);
+    std::vector<Opening> openings(rings.size());
+    parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {
+        Opening& opening = openings[r] = opening_of(outward.positions, rings[r]);
         opening.piece = pieces[rings[r][0].first];
-        opening.piece_height = heights.at(opening.piece);
-        const std::vector<double> distance = distances_from(neighbours, rings[r]);
+        opening.piece_height = heights[opening.piece];
+        const std::vector<double> distance = paths.distances_from(rings[r]);
         std::vector<double> girths = girths_along(outward, distance, slice);
         const double slices = std::clamp(reach_of(distance, rings, r) / slice, 1.0, double(girths.size()));
         girths.resize(std::size_t(slices));
         measure_tube(opening, girths, slice);
-        openings.push_back(opening);
-    }
+    });
     return openings;
 }
 
 bool is_sealed(const TriangleMesh& outward)
 {
-    if (!border_edges(outward.triangles).empty())
+    if (!border_edges(outward).empty())
         return false;
     const std::vector<int> pieces = pieces_of(outward);
     const auto spheres = Eigen::Index(std::set<int>(pieces.begin(), pieces.end()).size());

@@ -29,15 +29,15 @@ std::vector<Bone> together(std::initializer_list<std::vector<Bone>> groups)
     return bones;
 }
 
-constexpr double k_armhole = 0.55;     // of armhole_likeness; sleeves have 0.1 to 0.4, a vest 0.7
+constexpr double k_armhole = 0.55;  // of armhole_likeness; sleeves have 0.1 to 0.4, a vest 0.7
 constexpr double k_long_sleeve = 0.9;  // girths; to the elbow 0.5, to the wrist 1.4
 
 // One connected piece of cloth, its openings told apart.
 struct Piece {
     std::vector<Opening> sleeves, legs;  // two each, or none
-    std::vector<Opening> others;         // neck, hem, waist, an open front
-    double height = 0;                   // m
-    double margin = 1;                   // of the closest decision so far
+    std::vector<Opening> others;  // neck, hem, waist, an open front
+    double height = 0;  // m
+    double margin = 1;  // of the closest decision so far
 
     // Is `value` above `threshold`? Half as much again is clear.
     bool above(double value, double threshold)
@@ -169,7 +169,8 @@ Sleeves sleeves_of(const Piece& piece)
     constexpr double armhole = 0.25;  // girths long at most
     if (piece.sleeves.empty() || length_in_girths(piece.sleeves) < armhole)
         return Sleeves::none;
-    if (piece.legs.empty() && piece.others.size() > 1 && armhole_likeness(piece.sleeves, piece.others.front()) > k_armhole)
+    if (piece.legs.empty() && piece.others.size() > 1
+        && armhole_likeness(piece.sleeves, piece.others.front()) > k_armhole)
         return Sleeves::none;
     return length_in_girths(piece.sleeves) > k_long_sleeve ? Sleeves::whole_arm : Sleeves::upper_arm;
 }
@@ -182,9 +183,8 @@ bool is_for_legs(GarmentType type)
 
 }  // namespace
 
-TypeGuess guess_garment_type(const GarmentMesh& garment)
+TypeGuess guess_type(const std::vector<Opening>& openings)
 {
-    const std::vector<Opening> openings = openings_of(outward_cloth(garment));
     TypeGuess guess;
     bool legs = false, tops = false;
     double largest = 0;
@@ -202,10 +202,25 @@ TypeGuess guess_garment_type(const GarmentMesh& garment)
     return guess;
 }
 
+TypeGuess guess_garment_type(const GarmentMesh& garment) { return guess_type(openings_of(outward_cloth(garment))); }
+
+TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings)
+{
+    if (given != GarmentType::automatic)
+        return { given, 1 };
+    const TypeGuess guess = guess_type(openings);
+    if (guess.type == GarmentType::automatic)
+        throw InvalidInput(
+            "garment has no openings that a body could be put through, so its type cannot be told; give a garment "
+            "with open edges, or its type");
+    return guess;
+}
+
 const std::vector<std::string_view>& garment_type_names()
 {
-    static const std::vector<std::string_view> names { "auto", "tshirt", "longsleeve", "blouse", "hoodie", "jacket", "coat", "vest",
-                                                       "trousers", "shorts", "skirt", "dress", "jumpsuit", "suit" };
+    static const std::vector<std::string_view> names { "auto",   "tshirt", "longsleeve", "blouse",   "hoodie",
+                                                       "jacket", "coat",   "vest",       "trousers", "shorts",
+                                                       "skirt",  "dress",  "jumpsuit",   "suit" };
     return names;
 }
 

@@ -32,15 +32,17 @@ public:
         if (squared < squared_ || (squared == squared_ && candidate < index_)) {
             squared_ = squared;
             index_ = candidate;
+            above_ = std::nextafter(squared, INFINITY);
         }
     }
-    double worstDist() const override { return std::nextafter(squared_, INFINITY); }  // FLANN passes on what is below
+    double worstDist() const override { return above_; }
 
     std::pair<int, double> found() const { return { int(index_), std::sqrt(squared_) }; }
 
 private:
     std::size_t index_ = 0;
     double squared_ = std::numeric_limits<double>::max();
+    double above_ = squared_;  // FLANN passes on what is below: points equally near have to be
 };
 
 }  // namespace
@@ -96,7 +98,6 @@ struct TriangleTree::Tree {
         }
         aabb.rebuild(triangles.cbegin(), triangles.cend());
         aabb.build();  // now, not at the first query: queries come from several threads
-        aabb.accelerate_distance_queries();
     }
     std::vector<Kernel::Triangle_3> triangles;
     std::vector<int> index;  // of each of them in the surface

@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <set>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "buckets.h"
+#include "joined_vertices.h"
 #include "winding_number.h"
 
 namespace fit {
 namespace {
 
 constexpr double k_weld_fraction = 1e-6;  // of the diagonal: what file formats round away, far below a stitch
-constexpr double k_flat_patch = 0.01;     // volume / area^1.5; a sphere has 0.094, a sleeve 0.03, a pocket 0.002
-constexpr double k_side_step = 0.02;      // m; how far a flat patch looks to either side of itself
-
-using Face = std::array<int, 3>;
+constexpr double k_flat_patch = 0.01;  // volume / area^1.5; a sphere has 0.094, a sleeve 0.03, a pocket 0.002
+constexpr double k_side_step = 0.02;  // m; how far a flat patch looks to either side of itself
 
 // Equal vertices become one; vertices without a face are left behind.
 TriangleMesh welded(const GarmentMesh& garment)
@@ -26,96 +26,85 @@ TriangleMesh welded(const GarmentMesh& garment)
     const Vec3 low = garment.positions.colwise().minCoeff();
     const double diagonal = (Vec3(garment.positions.colwise().maxCoeff()) - low).norm();
     const double cell = std::max(k_weld_fraction * diagonal, 1e-300);
-    std::map<std::array<long long, 3>, int> row_of;
-    std::vector<int> row(garment.positions.rows());
-    std::vector<int> first;
-    for (const int v : garment.triangles.reshaped()) {
-        std::array<long long, 3> key;
-        for (int k = 0; k < 3; ++k)
-            key[k] = std::llround((garment.positions(v, k) - low[k]) / cell);
-        const auto [found, is_new] = row_of.try_emplace(key, int(first.size()));
-        if (is_new)
+    const auto place
+        = [&](int v, int axis) { return std::uint64_t(std::llround((garment.positions(v, axis) - low[axis]) / cell)); };
+
+    std::vector<bool> used(garment.positions.rows(), false);
+    for (const int v : garment.triangles.reshaped())
+        used[v] = true;
+    std::vector<std::pair<std::uint64_t, int>> places;  // 1e6 cells along the diagonal: 21 bits an axis
+    for (int v = 0; v < int(used.size()); ++v)
+        if (used[v])
+            places.emplace_back(place(v, 0) << 42 | place(v, 1) << 21 | place(v, 2), v);
+    std::sort(places.begin(), places.end());
+
+    std::vector<int> first_of(garment.positions.rows(), -1);  // the first vertex of each place stands for all
+    for (std::size_t i = 0; i < places.size(); ++i)
+        first_of[places[i].second]
+            = i > 0 && places[i].first == places[i - 1].first ? first_of[places[i - 1].second] : places[i].second;
+    std::vector<int> row_of(garment.positions.rows(), -1), first;
+    for (int v = 0; v < int(first_of.size()); ++v)
+        if (first_of[v] == v) {
+            row_of[v] = int(first.size());
             first.push_back(v);
-        row[v] = found->second;
-    }
-    TriangleMesh mesh;
-    mesh.positions = garment.positions(first, Eigen::all);
-    mesh.triangles = garment.triangles.unaryExpr([&](int v) { return row[v]; });
-    return mesh;
+        }
+    return { garment.positions(first, Eigen::all),
+             garment.triangles.unaryExpr([&](int v) { return row_of[first_of[v]]; }) };
 }
 
-std::vector<Face> distinct_faces(const Triangles& triangles)
+std::array<int, 3> sorted_corners(const Triangles& triangles, Eigen::Index f)
 {
-    std::map<Face, Face> faces;
+    std::array<int, 3> key { triangles(f, 0), triangles(f, 1), triangles(f, 2) };
+    std::sort(key.begin(), key.end());
+    return key;
+}
+
+Triangles distinct_faces(const Triangles& triangles, int vertices)
+{
+    std::vector<int> lowest(triangles.rows());
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        lowest[f] = triangles.row(f).minCoeff();
+    const Buckets faces_at(vertices, lowest);
+    std::vector<Eigen::Index> rows;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Face face { triangles(f, 0), triangles(f, 1), triangles(f, 2) };
-        Face key = face;
-        std::sort(key.begin(), key.end());
-        if (key[0] != key[1] && key[1] != key[2])
-            faces.try_emplace(key, face);
+        const auto key = sorted_corners(triangles, f);
+        const auto at = faces_at[key[0]];
+        const bool is_first
+            = *std::find_if(at.begin(), at.end(), [&](int g) { return sorted_corners(triangles, g) == key; }) == f;
+        if (is_first && key[0] != key[1] && key[1] != key[2])
+            rows.push_back(f);
     }
-    std::vector<Face> result;
-    for (const auto& [key, face] : faces)
-        result.push_back(face);
-    return result;
+    return triangles(rows, Eigen::all);
 }
 
-bool runs_along(const Face& face, int from, int to)
+// Edge k of face f is 3 f + k. The other edge between the same vertices; -1 where there is none or more than one.
+std::vector<int> opposite_edges(const Triangles& triangles, int vertices)
 {
-    for (int k = 0; k < 3; ++k)
-        if (face[k] == from && face[(k + 1) % 3] == to)
-            return true;
-    return false;
-}
-
-using EdgeFaces = std::map<std::pair<int, int>, std::vector<int>>;
-
-EdgeFaces faces_by_edge(const std::vector<Face>& faces)
-{
-    EdgeFaces result;
-    for (int f = 0; f < int(faces.size()); ++f)
-        for (int k = 0; k < 3; ++k)
-            result[std::minmax(faces[f][k], faces[f][(k + 1) % 3])].push_back(f);
-    return result;
-}
-
-// Patches are joined through edges of exactly two faces; faces are turned to agree with the first of their patch.
-std::vector<std::vector<int>> consistent_patches(std::vector<Face>& faces)
-{
-    const EdgeFaces by_edge = faces_by_edge(faces);
-    std::vector<bool> seen(faces.size(), false);
-    std::vector<std::vector<int>> patches;
-    for (int seed = 0; seed < int(faces.size()); ++seed) {
-        if (seen[seed])
-            continue;
-        std::vector<int> patch { seed };
-        seen[seed] = true;
-        for (std::size_t next = 0; next < patch.size(); ++next)
-            for (int k = 0; k < 3; ++k) {
-                const int from = faces[patch[next]][k], to = faces[patch[next]][(k + 1) % 3];
-                const auto& pair = by_edge.at(std::minmax(from, to));
-                if (pair.size() != 2)
-                    continue;
-                const int other = pair[0] == patch[next] ? pair[1] : pair[0];
-                if (seen[other])
-                    continue;
-                seen[other] = true;
-                if (runs_along(faces[other], from, to))
-                    std::swap(faces[other][1], faces[other][2]);
-                patch.push_back(other);
+    const auto from = [&](int e) { return triangles(e / 3, e % 3); };
+    const auto to = [&](int e) { return triangles(e / 3, (e % 3 + 1) % 3); };
+    std::vector<int> lowest(3 * triangles.rows());
+    for (int e = 0; e < int(lowest.size()); ++e)
+        lowest[e] = std::min(from(e), to(e));
+    const Buckets edges_at(vertices, lowest);
+    std::vector<int> opposite(lowest.size(), -1);
+    for (int e = 0; e < int(lowest.size()); ++e) {
+        int found = -1, count = 0;
+        for (const int other : edges_at[lowest[e]])
+            if (other != e && std::max(from(other), to(other)) == std::max(from(e), to(e))) {
+                found = other;
+                ++count;
             }
-        patches.push_back(std::move(patch));
+        opposite[e] = count == 1 ? found : -1;
     }
-    return patches;
+    return opposite;
 }
 
-Triangles rows_of(const std::vector<Face>& faces, const std::vector<int>& patch)
-{
-    Triangles rows(patch.size(), 3);
-    for (std::size_t i = 0; i < patch.size(); ++i)
-        rows.row(i) << faces[patch[i]][0], faces[patch[i]][1], faces[patch[i]][2];
-    return rows;
-}
+// Faces that hang together through edges of exactly two faces, all turned to agree with the first.
+struct Patch {
+    std::vector<int> faces;
+    std::vector<std::pair<int, int>> border;  // directed as its faces are
+    double volume = 0, area = 0;  // volume with each opening closed by a fan to the opening's middle
+};
 
 Vec3 area_vector(const Positions& p, const Triangles& t, Eigen::Index f)
 {
@@ -123,93 +112,81 @@ Vec3 area_vector(const Positions& p, const Triangles& t, Eigen::Index f)
     return 0.5 * (b - a).cross(c - a);
 }
 
-std::vector<std::pair<int, int>> border_of(const Triangles& triangles)
+void turn(Triangles& triangles, int f) { std::swap(triangles(f, 1), triangles(f, 2)); }
+
+// Turning a face renames its edges, so faces are turned when all of the patch is known.
+Patch patch_from(int seed, Triangles& triangles, const std::vector<int>& opposite, std::vector<bool>& seen)
 {
-    std::set<std::pair<int, int>> edges;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            edges.insert({ triangles(f, k), triangles(f, (k + 1) % 3) });
-    std::vector<std::pair<int, int>> border;
-    for (const auto& [a, b] : edges)
-        if (!edges.count({ b, a }))
-            border.emplace_back(a, b);
-    return border;
+    Patch patch { { seed }, {}, 0, 0 };
+    std::vector<bool> turned { false };
+    seen[seed] = true;
+    for (std::size_t next = 0; next < patch.faces.size(); ++next)
+        for (int k = 0; k < 3; ++k) {
+            const int e = 3 * patch.faces[next] + k, other = opposite[e];
+            const int a = triangles(e / 3, k), b = triangles(e / 3, (k + 1) % 3);
+            if (other < 0) {
+                patch.border.push_back(turned[next] ? std::pair { b, a } : std::pair { a, b });
+            } else if (!seen[other / 3]) {
+                seen[other / 3] = true;
+                patch.faces.push_back(other / 3);
+                const bool runs_along = triangles(other / 3, other % 3) == a;
+                turned.push_back(runs_along != turned[next]);
+            }
+        }
+    for (std::size_t i = 0; i < patch.faces.size(); ++i)
+        if (turned[i])
+            turn(triangles, patch.faces[i]);
+    return patch;
 }
 
-// Disjoint sets of vertices, by their connection along an opening's edge.
-class Rings {
-public:
-    void join(int a, int b) { parent_[root(a)] = root(b); }
-    int root(int v)
-    {
-        int& up = parent_.try_emplace(v, v).first->second;
-        return up == v ? v : up = root(up);
-    }
+double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6; }
 
-private:
-    std::map<int, int> parent_;
-};
-
-// Volume of the patch with each of its openings closed by a fan to the opening's middle.
-double closed_volume(const Positions& positions, const Triangles& triangles)
+void measure(Patch& patch, const TriangleMesh& cloth, JoinedVertices& rings)
 {
-    const Vec3 origin = positions.row(triangles(0, 0));
-    const auto at = [&](int v) { return Vec3(Vec3(positions.row(v)) - origin); };
-    const auto tetrahedron = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6; };
-    double volume = 0;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        volume += tetrahedron(at(triangles(f, 0)), at(triangles(f, 1)), at(triangles(f, 2)));
-
-    const auto border = border_of(triangles);
-    Rings rings;
-    for (const auto& [a, b] : border)
+    const Vec3 origin = cloth.positions.row(cloth.triangles(patch.faces[0], 0));
+    const auto at = [&](int v) { return Vec3(Vec3(cloth.positions.row(v)) - origin); };
+    for (const int f : patch.faces) {
+        patch.volume += tetrahedron(at(cloth.triangles(f, 0)), at(cloth.triangles(f, 1)), at(cloth.triangles(f, 2)));
+        patch.area += area_vector(cloth.positions, cloth.triangles, f).norm();
+    }
+    for (const auto& [a, b] : patch.border)
         rings.join(a, b);
-    std::map<int, std::pair<Vec3, int>> sums;
-    for (const auto& [a, b] : border) {
-        auto& [sum, count] = sums.try_emplace(rings.root(a), Vec3(Vec3::Zero()), 0).first->second;
-        sum += at(a);
-        ++count;
+    std::vector<int> ring_of;
+    for (const auto& [a, b] : patch.border)
+        ring_of.push_back(rings.root(a));
+    std::vector<int> roots = ring_of;
+    std::sort(roots.begin(), roots.end());
+    roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+    std::vector<Vec3> sums(roots.size(), Vec3::Zero());
+    std::vector<int> counts(roots.size(), 0);
+    const auto ring
+        = [&](std::size_t i) { return std::lower_bound(roots.begin(), roots.end(), ring_of[i]) - roots.begin(); };
+    for (std::size_t i = 0; i < patch.border.size(); ++i) {
+        sums[ring(i)] += at(patch.border[i].first);
+        ++counts[ring(i)];
     }
-    for (const auto& [a, b] : border) {
-        const auto& [sum, count] = sums.at(rings.root(a));
-        volume += tetrahedron(at(b), at(a), sum / count);
-    }
-    return volume;
+    for (std::size_t i = 0; i < patch.border.size(); ++i)
+        patch.volume
+            += tetrahedron(at(patch.border[i].second), at(patch.border[i].first), sums[ring(i)] / counts[ring(i)]);
 }
 
-double area_of(const Positions& positions, const Triangles& triangles)
+Triangles rows_of(const Triangles& triangles, const std::vector<const Patch*>& patches)
 {
-    double area = 0;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        area += area_vector(positions, triangles, f).norm();
-    return area;
-}
-
-void turn(Triangles& triangles) { triangles.col(1).swap(triangles.col(2)); }
-
-Triangles joined(const std::vector<Triangles>& patches)
-{
-    Eigen::Index count = 0;
-    for (const auto& patch : patches)
-        count += patch.rows();
-    Triangles all(count, 3);
-    Eigen::Index row = 0;
-    for (const auto& patch : patches) {
-        all.middleRows(row, patch.rows()) = patch;
-        row += patch.rows();
-    }
-    return all;
+    std::vector<int> rows;
+    for (const Patch* patch : patches)
+        rows.insert(rows.end(), patch->faces.begin(), patch->faces.end());
+    return triangles(rows, Eigen::all);
 }
 
 // A pocket encloses nothing itself: it faces away from what the rest of the garment encloses.
-bool faces_inwards(const Positions& positions, const Triangles& patch, const WindingNumber& winding)
+bool faces_inwards(const TriangleMesh& cloth, const Patch& patch, const WindingNumber& winding)
 {
     double vote = 0;
-    for (Eigen::Index f = 0; f < patch.rows(); ++f) {
-        const Vec3 area = area_vector(positions, patch, f);
+    for (const int f : patch.faces) {
+        const Vec3 area = area_vector(cloth.positions, cloth.triangles, f);
         if (area.norm() == 0)
             continue;
-        const Vec3 middle = (positions.row(patch(f, 0)) + positions.row(patch(f, 1)) + positions.row(patch(f, 2))) / 3;
+        const Vec3 middle = cloth.positions(cloth.triangles.row(f), Eigen::all).colwise().mean();
         const Vec3 step = k_side_step * area.normalized();
         vote += area.norm() * (winding(middle + step) - winding(middle - step));
     }
@@ -221,24 +198,34 @@ bool faces_inwards(const Positions& positions, const Triangles& patch, const Win
 TriangleMesh outward_cloth(const GarmentMesh& garment)
 {
     TriangleMesh cloth = welded(garment);
-    std::vector<Face> faces = distinct_faces(cloth.triangles);
-    std::vector<Triangles> outward, flat;
-    for (const auto& patch : consistent_patches(faces)) {
-        Triangles part = rows_of(faces, patch);
-        const double volume = closed_volume(cloth.positions, part);
-        if (volume < 0)
-            turn(part);
-        const bool encloses = std::abs(volume) > k_flat_patch * std::pow(area_of(cloth.positions, part), 1.5);
-        (encloses ? outward : flat).push_back(std::move(part));
+    const int vertices = int(cloth.positions.rows());
+    cloth.triangles = distinct_faces(cloth.triangles, vertices);
+    const std::vector<int> opposite = opposite_edges(cloth.triangles, vertices);
+    std::vector<bool> seen(cloth.triangles.rows(), false);
+    JoinedVertices rings(vertices);
+    std::vector<Patch> patches;
+    for (int seed = 0; seed < int(seen.size()); ++seed)
+        if (!seen[seed]) {
+            patches.push_back(patch_from(seed, cloth.triangles, opposite, seen));
+            measure(patches.back(), cloth, rings);
+        }
+
+    std::vector<const Patch*> outward, flat;
+    for (const Patch& patch : patches) {
+        if (patch.volume < 0)
+            for (const int f : patch.faces)
+                turn(cloth.triangles, f);
+        (std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5) ? outward : flat).push_back(&patch);
     }
-    if (!outward.empty()) {
-        const WindingNumber winding({ cloth.positions, joined(outward) });
-        for (Triangles& part : flat)
-            if (faces_inwards(cloth.positions, part, winding))
-                turn(part);
+    if (!outward.empty() && !flat.empty()) {
+        const WindingNumber winding({ cloth.positions, rows_of(cloth.triangles, outward) });
+        for (const Patch* patch : flat)
+            if (faces_inwards(cloth, *patch, winding))
+                for (const int f : patch->faces)
+                    turn(cloth.triangles, f);
     }
     outward.insert(outward.end(), flat.begin(), flat.end());
-    cloth.triangles = joined(outward);
+    cloth.triangles = rows_of(cloth.triangles, outward);
     return cloth;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "error_metric.h"
 #include "search_grids.h"
 
 namespace fit {
@@ -27,10 +28,21 @@ constexpr double k_front = 0.3;  // m; for each opening that faces forwards
 constexpr double k_own_front = 0.1;  // m; where the garment does not tell its front, the body keeps its own
 constexpr double k_empty = 8;  // m/m; mean distance of the cloth from the nearest limb that could fill it
 constexpr double k_far_cloth = 0.25;  // m; cloth further away than this is just far: trains, wide skirts
-constexpr double k_cover_cells = 12, k_coarse_cover_cells = 6;  // along the garment's longest side
+constexpr double k_cover_cells = 8;  // along the garment's longest side
 constexpr double k_better = 1e-9;  // m; below this two poses are equal, and the nearer one wins
 
+constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
+constexpr double k_least_gain = 1e-4;  // m; of a step of the polish
+// All but the hip joints, which are as good as fixed to the pelvis.
+constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
+                                          lclavicle, rclavicle, lhumerus, rhumerus,  lradius,
+                                          rradius,   lfemur,    rfemur,   ltibia,    rtibia };
+
 constexpr std::array<int, 7> k_trunk { lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle };
+
+// What is looked for a place for before limbs are searched; legs stand as they hang, arms may point anywhere.
+constexpr std::array<int, 9> k_placed { lhipjoint, rhipjoint, lowerback, upperback, thorax,
+                                        lclavicle, rclavicle, lfemur,    rfemur };
 
 bool is_trunk(int bone) { return std::find(k_trunk.begin(), k_trunk.end(), bone) != k_trunk.end(); }
 
@@ -48,8 +60,8 @@ Eigen::ArrayX3f spread_points(const ClothRoom& cloth, double cells)
 {
     const double cell = (cloth.high() - cloth.low()).maxCoeff() / cells;
     std::map<std::tuple<int, int, int>, std::pair<Vec3, int>> sums;
-    for (Eigen::Index i = 0; i < cloth.points().rows(); ++i) {
-        const Vec3 p = cloth.points().row(i);
+    for (const ClothPatch& patch : cloth.patches()) {
+        const Vec3 p = patch.centre.cast<double>();
         const Eigen::Vector3i c = ((p - cloth.low()) / cell).array().floor().cast<int>();
         auto& [sum, count] = sums.try_emplace({ c.x(), c.y(), c.z() }, Vec3(Vec3::Zero()), 0).first->second;
         sum += p;
@@ -76,8 +88,7 @@ struct SkeletonSearch::Chain {
 SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const BoneMetric& metric,
                                const GarmentCues& cues) :
     rig_(rig),
-    limits_(limits), metric_(metric), cover_(spread_points(metric.cloth(), k_cover_cells)),
-    coarse_cover_(spread_points(metric.cloth(), k_coarse_cover_cells)), cues_(cues),
+    limits_(limits), metric_(metric), cover_(spread_points(metric.cloth(), k_cover_cells)), cues_(cues),
     hangs_from_shoulders_(metric.figure().covered[lclavicle])
 {
 }
@@ -128,17 +139,19 @@ double SkeletonSearch::bone_energy(int bone, const Vec3& head, const Vec3& tail,
         - cuff_cost(bone, tail, joints);
 }
 
+double SkeletonSearch::sag() const { return hangs_from_shoulders_ ? k_sag : -k_sag; }
+
 double SkeletonSearch::stance_energy(const Posture& posture) const
 {
     const Vec3 front = posture.turn * rig_.front;
     const double tilt = angle_between(posture.turn * rig_.up.normalized(), Vec3::UnitY());
     const double facing = k_front * front.dot(cues_.front) + k_own_front * front.dot(rig_.front);
-    return (hangs_from_shoulders_ ? k_sag : -k_sag) * posture.root.y() - k_upright * tilt * tilt + facing;
+    return sag() * posture.root.y() - k_upright * tilt * tilt + facing;
 }
 
 void SkeletonSearch::lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const
 {
-    const auto& points = distances.rows() == cover_.rows() ? cover_ : coarse_cover_;
+    const auto& points = cover_;
     const Eigen::Array3f a = head.cast<float>(), ab = (tail - head).cast<float>();
     const float inverse = 1 / ab.square().sum();
     const Eigen::ArrayXf x = points.col(0) - a.x(), y = points.col(1) - a.y(), z = points.col(2) - a.z();
@@ -149,10 +162,9 @@ void SkeletonSearch::lower_distances(CoverDistances& distances, int bone, const 
     distances = distances.max(0.f);
 }
 
-SkeletonSearch::CoverDistances SkeletonSearch::cover_distances(const PlacedBones& bones, const Limb* without,
-                                                               bool coarse) const
+SkeletonSearch::CoverDistances SkeletonSearch::cover_distances(const PlacedBones& bones, const Limb* without) const
 {
-    CoverDistances distances = CoverDistances::Constant((coarse ? coarse_cover_ : cover_).rows(), k_far_cloth);
+    CoverDistances distances = CoverDistances::Constant(cover_.rows(), k_far_cloth);
     for (int b = 0; b < bone_count; ++b)
         if (metric_.figure().covered[b] && !(without && (b == without->bones[0] || b == without->bones[1])))
             lower_distances(distances, b, bones.joints.head(b), bones.joints.tail(b));
@@ -164,7 +176,7 @@ double SkeletonSearch::emptiness(const CoverDistances& distances) const { return
 double SkeletonSearch::energy(const Posture& posture) const
 {
     const PlacedBones bones = placed(rig_.skeleton, posture);
-    double sum = stance_energy(posture) - emptiness(cover_distances(bones, nullptr, false));
+    double sum = stance_energy(posture) - emptiness(cover_distances(bones, nullptr));
     for (int b = 0; b < bone_count; ++b)
         sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b), bones.joints);
     for (int e = 0; e < extremity_count; ++e)
@@ -211,82 +223,74 @@ Posture SkeletonSearch::at_ease(const Vec3& root, const Eigen::Quaterniond& turn
     return posture;
 }
 
-double SkeletonSearch::trunk_energy(const Posture& posture) const
+std::vector<Place> SkeletonSearch::trunk_places(const RoomPyramid& room, const Posture& posture, double spacing,
+                                                double apart, std::size_t count) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, posture);
-    double sum = stance_energy(posture);
-    for (const int b : k_trunk)
-        sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b), bones.joints);
-    return sum;
-}
-
-double SkeletonSearch::largest_limb_energy() const
-{
-    double sum = 0;
-    for (const Limb& limb : k_limbs)
-        for (const int b : limb.bones)
-            if (metric_.figure().covered[b])
-                sum += 5 * 1.15 * metric_.figure().radii[b];
-    return sum;
-}
-
-template <class Moved>
-Posture SkeletonSearch::best_of(const Posture& present, const Reach& reach, const std::vector<Vec3>& offsets,
-                                Moved moved) const
-{
-    const auto penalty = [&](const Posture& p) { return reach.exact ? crossing_cost(p) : 0.0; };
-    Posture best = present;
-    double best_score = energy(present) - penalty(present);
-    for (const Vec3& offset : offsets) {
-        const Posture candidate = moved(offset);
-        const double score = energy(candidate);
-        if (score <= best_score + k_better)
-            continue;
-        if (const double exact = score - penalty(candidate); exact > best_score + k_better) {
-            best = candidate;
-            best_score = exact;
-        }
-    }
-    return best;
-}
-
-Posture SkeletonSearch::translated(const Posture& present, const Reach& reach) const
-{
-    return best_of(present, reach, grid_offsets(reach.extent, reach.spacing), [&](const Vec3& offset) {
-        Posture moved = present;
-        moved.root += offset;
-        return moved;
-    });
+    Posture at_origin = posture;
+    at_origin.root = Vec3::Zero();
+    const Skeleton joints = placed(rig_.skeleton, at_origin).joints;
+    std::vector<RoomSample> samples;
+    for (const int b : k_placed)
+        for (int i = 0; i < k_samples && metric_.figure().covered[b]; i += 2)  // both ends and the middle tell enough
+            samples.push_back({ bone_sample(joints.head(b), joints.tail(b), i), metric_.figure().radii[b] });
+    const ClothRoom& cloth = metric_.cloth();
+    const double hem
+        = hangs_from_shoulders_ ? (joints.tail(thorax) - joints.root).norm() : 0;  // its root may lie below
+    return RoomSearch(room, samples, sag() * Vec3::UnitY())
+        .best(cloth.low() - 1.2 * hem * Vec3::UnitY(), cloth.high(), spacing, apart, count);
 }
 
 // About the middle of the trunk: a turn about the root would swing the shoulders out of the garment.
-Posture SkeletonSearch::rotated(const Posture& present, const Reach& reach) const
+Posture SkeletonSearch::turned(const Posture& present, const Vec3& rotation_vector) const
 {
     const Skeleton joints = placed(rig_.skeleton, present).joints;
     const Vec3 centre = hangs_from_shoulders_ ? joints.tail(thorax) : joints.root;
-    return best_of(present, reach, grid_offsets(reach.extent, reach.spacing), [&](const Vec3& offset) {
-        const Eigen::Quaterniond turn = turned_by(offset);
-        Posture moved = present;
-        moved.root = centre + turn * (present.root - centre);
-        moved.turn = (turn * present.turn).normalized();
-        for (Vec3& direction : moved.directions)
-            direction = turn * direction;
-        return moved;
-    });
+    const Eigen::Quaterniond turn = turned_by(rotation_vector);
+    Posture moved = present;
+    moved.root = centre + turn * (present.root - centre);
+    moved.turn = (turn * present.turn).normalized();
+    for (Vec3& direction : moved.directions)
+        direction = turn * direction;
+    return moved;
 }
 
-// Bends the spine and the clavicles, one bone at a time; what hangs on them keeps its directions.
-Posture SkeletonSearch::trunk_bent(const Posture& present, const Reach& reach) const
+// Degrees of freedom: three of translation, three of rotation, and two of each bone that bends.
+Posture SkeletonSearch::moved(const Posture& present, int freedom, double step) const
 {
-    Posture best = present;
-    for (const int b : { lowerback, upperback, thorax, lclavicle, rclavicle })
-        best = best_of(best, reach, directions_about(best.directions[b], reach.extent, reach.spacing),
-                       [&](const Vec3& direction) {
-                           Posture moved = best;
-                           moved.directions[b] = direction;
-                           return moved;
-                       });
-    return best;
+    if (freedom >= 3 && freedom < 6)
+        return turned(present, step * Vec3::Unit(freedom - 3));
+    Posture moved = present;
+    if (freedom < 3) {
+        moved.root[freedom] += k_lever * step;
+    } else {
+        Vec3& direction = moved.directions[k_bending[(freedom - 6) / 2]];
+        const Vec3 across = direction.unitOrthogonal(), axis = freedom % 2 ? across : Vec3(direction.cross(across));
+        direction = turned_by(step * axis) * direction;
+    }
+    return moved;
+}
+
+Posture SkeletonSearch::polished(Posture present, double first_step, double last_step) const
+{
+    constexpr int freedoms = 6 + 2 * int(k_bending.size());
+    double score = total(present);
+    for (double step = first_step; step >= last_step; step *= 0.5)
+        for (bool improves = true; improves;) {
+            improves = false;
+            for (int freedom = 0; freedom < freedoms; ++freedom)
+                for (const double signed_step : { step, -step }) {
+                    const Posture next = moved(present, freedom, signed_step);
+                    if (energy(next) <= score + k_better)  // crossings only cost
+                        continue;
+                    if (const double next_score = total(next); next_score > score + k_least_gain) {
+                        present = next;
+                        score = next_score;
+                        improves = true;
+                        break;
+                    }
+                }
+        }
+    return present;
 }
 
 // A limb fills a tube of its own where the garment covers its lower bone, or is a sleeve; legs in a skirt share theirs.
@@ -352,8 +356,8 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
         = [&](const Vec3& from, const Vec3& to) { return reach.exact && metric_.cloth().crosses(from, to); };
 
     Chain root { bones.joints.head(upper), bones.parent_turn(upper), { Vec3::Zero(), Vec3::Zero() }, 0, {} };
-    if (fills_tube(limb))
-        root.distances = cover_distances(bones, &limb, !reach.exact);
+    if (reach.exact && fills_tube(limb))
+        root.distances = cover_distances(bones, &limb);
     std::vector<Chain> uppers = extended(root, limb, 0, present.directions[upper], bones.joints, reach);
     std::stable_sort(uppers.begin(), uppers.end(), better);
 

@@ -9,6 +9,7 @@
 #include "bone_metric.h"
 #include "joint_limits.h"
 #include "posture.h"
+#include "room_search.h"
 
 namespace fit {
 
@@ -54,16 +55,21 @@ public:
     /// The body at ease, turned by `turn`, its root at `root`.
     Posture at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const;
 
-    /// Energy of pelvis, spine and clavicles alone: what a translation decides before the limbs are known.
-    double trunk_energy(const Posture& posture) const;
-    /// No limb can add more than this to trunk_energy.
-    double largest_limb_energy() const;
+    /// Energy less the cost of crossings.
+    double total(const Posture& posture) const { return energy(posture) - crossing_cost(posture); }
 
-    // Each returns the present posture unless it finds a better one.
-    Posture translated(const Posture& present, const Reach& reach) const;
-    Posture rotated(const Posture& present, const Reach& reach) const;
+    /// Where the trunk has the most room as this posture holds and turns it; its root counts for nothing.
+    std::vector<Place> trunk_places(const RoomPyramid& room, const Posture& posture, double spacing, double apart,
+                                    std::size_t count) const;
+
+    /// The best chain of the limb's two bones; the present posture when all of them pass through cloth.
     Posture limb_moved(const Posture& present, const Limb& limb, const Reach& reach) const;
-    Posture trunk_bent(const Posture& present, const Reach& reach) const;
+
+    /// Ascent over all degrees of freedom together, each in turn by steps that are halved when none of them helps; radians.
+    Posture polished(Posture present, double first_step, double last_step) const;
+
+    /// Turned about the middle of the trunk.
+    Posture turned(const Posture& present, const Vec3& rotation_vector) const;
 
     /// The limb as the other of its pair is held, better or not.
     Posture mirrored(const Posture& present, const Limb& limb) const;
@@ -82,7 +88,9 @@ private:
     double cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
     double twin_cost(int bone, const Vec3& direction, const Skeleton& joints) const;
     double stance_energy(const Posture& posture) const;
-    CoverDistances cover_distances(const PlacedBones& bones, const Limb* without, bool coarse) const;
+    double sag() const;
+    Posture moved(const Posture& present, int freedom, double step) const;
+    CoverDistances cover_distances(const PlacedBones& bones, const Limb* without) const;
     double emptiness(const CoverDistances& distances) const;
     void lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const;
     bool fills_tube(const Limb& limb) const;
@@ -90,13 +98,11 @@ private:
                                 const Skeleton& joints, const Reach& reach) const;
     double tip_energy(const Limb& limb, const Chain& chain) const;
     Vec3 tip_of(const Limb& limb, const Chain& chain) const;
-    template <class Moved>
-    Posture best_of(const Posture& present, const Reach& reach, const std::vector<Vec3>& offsets, Moved moved) const;
 
     const Rig& rig_;
     const JointLimits& limits_;
     const BoneMetric& metric_;
-    Eigen::ArrayX3f cover_, coarse_cover_;  // points spread over the garment
+    Eigen::ArrayX3f cover_;  // points spread over the garment
     GarmentCues cues_;
     bool hangs_from_shoulders_;
 };

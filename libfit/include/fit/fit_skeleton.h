@@ -67,7 +67,8 @@ FIT_API const std::vector<std::string_view>& nearest_search_names();
 struct FitOptions {
     GarmentType type = GarmentType::automatic;
     FitMethod method = FitMethod::fast;
-    int iterations = 6;  ///< rounds of translation, rotation and bones; each halves spacing and extent
+    int iterations
+        = 6;  ///< of paper and tisserand: rounds of translation, rotation and bones; each halves spacing and extent
     NearestSearch nearest = NearestSearch::kd_tree;
 };
 
@@ -75,6 +76,9 @@ struct FitResult {
     Pose pose;  ///< takes the body from its own pose into the garment
     GarmentType type = GarmentType::automatic;  ///< as given, or as found
     double type_margin = 1;  ///< 1 when the type was given
+    double front_margin
+        = 1;  ///< 0: the body could as well face the other way; 1: it could not. 1 for paper and tisserand, which
+        ///< do not ask
     std::vector<Bone> covered;
     std::array<double, bone_count> scores_before {}, scores {};  ///< E_B of equation (1) by the method's own metric,
         ///< metres, at the start and at the end; 0 for bones that take no part

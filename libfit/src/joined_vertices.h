@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <numeric>
+#include <vector>
+
+namespace fit {
+
+/// Which vertices hang together: disjoint sets.
+class JoinedVertices {
+public:
+    explicit JoinedVertices(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    void join(int a, int b) { parent_[root(a)] = root(b); }
+    int root(int v)
+    {
+        while (parent_[v] != v)
+            v = parent_[v] = parent_[parent_[v]];
+        return v;
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+}  // namespace fit

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "room_pyramid.h"
+
+#include <cmath>
+
+#include "parallel.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_spacing = 0.05;  // m; less than half of what the slimmest trunk needs
+constexpr double k_border = 0.04;  // m; round the garment's box; beyond, everything is outside
+constexpr double k_largest_grid = 3e4;  // nodes; a garment far too large gets a coarser grid, not a slow one
+
+RoomRange joined(const RoomRange& a, const RoomRange& b)
+{
+    return { std::min(a.nearest, b.nearest), std::max(a.furthest, b.furthest), std::max(a.most_inside, b.most_inside) };
+}
+
+template <class Visit>
+void for_each_corner(const Eigen::Vector3i& low, const Eigen::Vector3i& high, const Visit& visit)
+{
+    for (int z = low.z(); z <= high.z(); ++z)
+        for (int y = low.y(); y <= high.y(); ++y)
+            for (int x = low.x(); x <= high.x(); ++x)
+                visit(Eigen::Vector3i(x, y, z));
+}
+
+}  // namespace
+
+RoomPyramid::RoomPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high)
+{
+    const Vec3 extent = high - low + Vec3::Constant(2 * k_border);
+    spacing_ = std::max(k_spacing, std::cbrt(extent.prod() / k_largest_grid));
+    origin_ = low - Vec3::Constant(k_border);
+    Level level;
+    level.size = (extent / spacing_).array().ceil().cast<int>() + 2;
+    level.nodes.resize(std::size_t(level.size.prod()));
+    parallel_for<int>(level.size.z(), [&](int z) {
+        for_each_corner({ 0, 0, z }, { level.size.x() - 1, level.size.y() - 1, z }, [&](const Eigen::Vector3i& c) {
+            const Vec3 place = origin_ + spacing_ * c.cast<double>();
+            const double distance = cloth.distance(place);
+            level.nodes[&level.at(c) - level.nodes.data()] = { distance, distance, inside_of(cloth.winding(place)) };
+        });
+    });
+    levels_.push_back(std::move(level));
+    while (levels_.back().size.maxCoeff() > 1)
+        levels_.push_back(above(levels_.back()));
+}
+
+RoomPyramid::Level RoomPyramid::above(const Level& level) const
+{
+    Level next;
+    next.size = (level.size.array() + 1) / 2;
+    for_each_corner(Eigen::Vector3i::Zero(), next.size - Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& c) {
+        const Eigen::Vector3i low = 2 * c,
+                              high = (low + Eigen::Vector3i::Ones()).cwiseMin(level.size - Eigen::Vector3i::Ones());
+        RoomRange range = level.at(low);
+        for_each_corner(low, high, [&](const Eigen::Vector3i& child) { range = joined(range, level.at(child)); });
+        next.nodes.push_back(range);
+    });
+    return next;
+}
+
+Room RoomPyramid::at(const Vec3& point) const
+{
+    const Level& nodes = levels_[0];
+    const Vec3 last = (nodes.size.array() - 1).cast<double>();
+    const Vec3 wanted = (point - origin_) / spacing_;
+    const Vec3 cell = wanted.cwiseMax(0).cwiseMin(last);
+    const Eigen::Vector3i c = cell.cast<int>().cwiseMin(nodes.size - Eigen::Vector3i::Constant(2));
+    const Vec3 t = cell - c.cast<double>();
+    Room room;
+    for_each_corner(Eigen::Vector3i::Zero(), Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& corner) {
+        double weight = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            weight *= corner[axis] ? t[axis] : 1 - t[axis];
+        const RoomRange& node = nodes.at(c + corner);
+        room.distance += weight * node.nearest;
+        room.inside += weight * node.most_inside;
+    });
+    const double beyond = spacing_ * (wanted - cell).norm();  // outside of the grid
+    return { room.distance + beyond, beyond > 0 ? 0.0 : room.inside };
+}
+
+RoomRange RoomPyramid::within(const Vec3& centre, const Vec3& half_size) const
+{
+    const Vec3 last = (levels_[0].size.array() - 1).cast<double>();
+    const Vec3 wanted_low = (centre - half_size - origin_) / spacing_,
+               wanted_high = (centre + half_size - origin_) / spacing_;
+    const Eigen::Vector3i low = wanted_low.cwiseMax(0).cwiseMin(last).array().floor().cast<int>();
+    const Eigen::Vector3i high = wanted_high.cwiseMax(0).cwiseMin(last).array().ceil().cast<int>();
+    std::size_t level = 0;  // on which no more than two nodes along each axis cover the box
+    while (level + 1 < levels_.size() && ((high / (1 << level)) - (low / (1 << level))).maxCoeff() > 1)
+        ++level;
+    const Eigen::Vector3i first = low / (1 << level), end = high / (1 << level);
+    RoomRange range = levels_[level].at(first);
+    for_each_corner(first, end, [&](const Eigen::Vector3i& c) { range = joined(range, levels_[level].at(c)); });
+    const Vec3 beyond = (-wanted_low).cwiseMax(wanted_high - last).cwiseMax(0);
+    range.furthest += spacing_ * beyond.norm();
+    return range;
+}
+
+}  // namespace fit

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "room_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace fit {
+namespace {
+
+constexpr double k_largest_outside = 0.1;  // m; further out is not worse: long arms reach beyond their cuffs
+constexpr double k_surplus = 0.15;  // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
+    // does not draw an arm out of its sleeve
+constexpr double k_first_cell = 0.4;  // m
+
+double inside_value(double distance, double radius)
+{
+    return std::min(distance, radius) + k_surplus * std::clamp(distance - radius, 0.0, radius);
+}
+
+struct Cell {
+    double bound;
+    int order;  // of making: of cells that promise the same, the first
+    Vec3 centre, half_size;
+    bool is_place = false;  // its bound is its value
+
+    bool operator<(const Cell& other) const
+    {
+        return bound < other.bound || (bound == other.bound && order > other.order);
+    }
+};
+
+}  // namespace
+
+double room_value(const Room& room, double radius)
+{
+    return room.inside * inside_value(room.distance, radius)
+        - (1 - room.inside) * std::min(room.distance, k_largest_outside);
+}
+
+RoomSearch::RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope) :
+    cloth_(cloth), samples_(std::move(samples)), slope_(slope)
+{
+}
+
+double RoomSearch::value(const Vec3& at) const
+{
+    double sum = slope_.dot(at);
+    for (const RoomSample& sample : samples_)
+        sum += room_value(cloth_.at(at + sample.offset), sample.radius);
+    return sum;
+}
+
+// More room is worth more inside and less outside, and being inside is worth more than not: so the three extremes bound the value.
+double RoomSearch::bound(const Vec3& centre, const Vec3& half_size) const
+{
+    double sum = slope_.dot(centre) + slope_.cwiseAbs().dot(half_size);
+    for (const RoomSample& sample : samples_) {
+        const RoomRange range = cloth_.within(centre + sample.offset, half_size);
+        sum += range.most_inside * inside_value(range.furthest, sample.radius)
+            - (1 - range.most_inside) * std::min(range.nearest, k_largest_outside);
+    }
+    return sum;
+}
+
+std::vector<Place> RoomSearch::best(const Vec3& low, const Vec3& high, double spacing, double apart,
+                                    std::size_t count) const
+{
+    std::priority_queue<Cell> cells;
+    int made = 0;
+    const auto add = [&](const Vec3& centre, const Vec3& half_size) {
+        cells.push({ bound(centre, half_size), made++, centre, half_size });
+    };
+    // Halves along the axes that are still longer than `longest`.
+    const auto split = [&](const Vec3& centre, const Vec3& half_size, double longest) {
+        const Eigen::Array3i parts = (half_size.array() > 0.5 * longest).select(Eigen::Array3i::Constant(2), 1);
+        const Vec3 half = half_size.cwiseQuotient(parts.cast<double>().matrix());
+        for (int x = 0; x < parts.x(); ++x)
+            for (int y = 0; y < parts.y(); ++y)
+                for (int z = 0; z < parts.z(); ++z)
+                    add(centre - half_size + half.cwiseProduct(Vec3(2 * x + 1, 2 * y + 1, 2 * z + 1)), half);
+    };
+    add(0.5 * (low + high), 0.5 * (high - low));
+
+    std::vector<Place> places;
+    while (!cells.empty() && places.size() < count) {
+        const Cell cell = cells.top();
+        cells.pop();
+        const bool is_near = std::any_of(places.begin(), places.end(), [&](const Place& better) {
+            return (better.at - cell.centre).norm() + cell.half_size.norm() < apart;
+        });
+        if (is_near)
+            continue;
+        if (cell.is_place) {
+            if (std::none_of(places.begin(), places.end(),
+                             [&](const Place& better) { return (better.at - cell.centre).norm() < apart; }))
+                places.push_back({ cell.centre, cell.bound });
+        } else if (2 * cell.half_size.maxCoeff() > spacing) {
+            split(cell.centre, cell.half_size, std::max(spacing, cell.half_size.maxCoeff()));
+        } else {
+            cells.push({ value(cell.centre), made++, cell.centre, Vec3::Zero(), true });
+        }
+    }
+    return places;
+}
+
+}  // namespace fit
