@@ -21,15 +21,17 @@ std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bo
     const TriangleTree tree(b);
     std::vector<std::vector<int>> hits(edges.rows());
     parallel_for(edges.rows(), [&](Eigen::Index e) {
-        hits[e] = tree.met_by(a.positions.row(edges(e, 0)), a.positions.row(edges(e, 1)));
+        const int i = edges(e, 0), j = edges(e, 1);
+        const auto is_neighbour = [&](int f) {
+            const auto corners = b.triangles.row(f).array();
+            return same && ((corners == i).any() || (corners == j).any());
+        };
+        hits[e] = tree.met_by(a.positions.row(i), a.positions.row(j), is_neighbour);
     });
     std::vector<Crossing> result;
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
-        for (int f : hits[e]) {
-            const auto corners = b.triangles.row(f).array();
-            if (!same || !((corners == edges(e, 0)).any() || (corners == edges(e, 1)).any()))
-                result.emplace_back(int(e), f);
-        }
+        for (int f : hits[e])
+            result.emplace_back(int(e), f);
     return result;
 }
 

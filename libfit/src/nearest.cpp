@@ -45,6 +45,28 @@ private:
     double above_ = squared_;  // FLANN passes on what is below: points equally near have to be
 };
 
+/// What a traversal of the tree does with the nodes and triangles it comes to.
+struct Listing {
+    const Aabb::AABB_traits& traits;
+    const std::vector<Kernel::Triangle_3>& triangles;
+    const std::vector<int>& index;
+    const std::function<bool(int)>& passed_over;
+    std::vector<int> result;
+
+    bool go_further() const { return true; }
+    template <class Node>
+    bool do_intersect(const Kernel::Segment_3& segment, const Node& node) const
+    {
+        return traits.do_intersect_object()(segment, node.bbox());
+    }
+    void intersection(const Kernel::Segment_3& segment, const Primitive& primitive)
+    {
+        const int triangle = index[primitive.id() - triangles.cbegin()];
+        if (!(passed_over && passed_over(triangle)) && CGAL::do_intersect(segment, *primitive.id()))
+            result.push_back(triangle);
+    }
+};
+
 }  // namespace
 
 struct NearestPoint::Tree {
@@ -111,16 +133,13 @@ bool TriangleTree::is_met(const Vec3& from, const Vec3& to) const
     return from != to && tree_->aabb.do_intersect(Kernel::Segment_3(point(from), point(to)));
 }
 
-std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to) const
+std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to, const std::function<bool(int)>& passed_over) const
 {
-    std::vector<TriangleIterator> hits;
-    if (from != to)
-        tree_->aabb.all_intersected_primitives(Kernel::Segment_3(point(from), point(to)), std::back_inserter(hits));
-    std::vector<int> result;
-    for (const TriangleIterator& hit : hits)
-        result.push_back(tree_->index[hit - tree_->triangles.cbegin()]);
-    std::sort(result.begin(), result.end());
-    return result;
+    Listing listing { tree_->aabb.traits(), tree_->triangles, tree_->index, passed_over, {} };
+    if (from != to && !tree_->triangles.empty())
+        tree_->aabb.traversal(Kernel::Segment_3(point(from), point(to)), listing);
+    std::sort(listing.result.begin(), listing.result.end());
+    return listing.result;
 }
 
 double TriangleTree::distance(const Vec3& query) const

@@ -4,6 +4,7 @@
 // Point, segment and ray queries: the only place that knows FLANN and the CGAL AABB tree. All of them may be asked from several
 // threads at a time.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,7 +44,9 @@ public:
     explicit TriangleTree(const TriangleMesh& surface);
 
     bool is_met(const Vec3& from, const Vec3& to) const;
-    std::vector<int> met_by(const Vec3& from, const Vec3& to) const;  ///< triangles that the segment meets, ascending
+    /// Triangles that the segment meets, ascending, but for those that `passed_over` tells to leave out: neighbours that meet it
+    /// at a corner would each cost an exact computation.
+    std::vector<int> met_by(const Vec3& from, const Vec3& to, const std::function<bool(int)>& passed_over = {}) const;
     double distance(const Vec3& query) const;  ///< infinite from an empty surface
 
     struct Hit {
