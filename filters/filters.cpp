@@ -31,7 +31,7 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
 
 Dressing dressing_of(const DrapeResult& result, const Pose& pose)
 {
-    return { result.garments, result.body, pose, result.size_reached, 1, result.too_tight, result.certified };
+    return { result.garments, result.body, pose, result.size_reached, 1, result.too_tight, result.held_back, result.certified };
 }
 
 bool all_clean(const std::vector<WornGarment>& garments)
@@ -48,6 +48,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     Dressing next = from;
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
+    next.held_back = result.held_back;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
         return next;

@@ -41,6 +41,7 @@ struct Dressing {
     double size_reached = 1;  ///< of the body; less than 1 where the last garment is too small
     double pose_reached = 1;  ///< of the last way between two poses
     std::vector<TooTight> too_tight;
+    std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
 };
 

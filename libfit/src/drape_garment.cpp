@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "body_parts.h"
 #include "cloth_motion.h"
 #include "collapse.h"
 #include "creases.h"
@@ -123,6 +124,8 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     put_positions(result.garments, reached.bottomRows(reached.rows() - body_vertices));
     result.garments.push_back({ garment, motion.cloth(), {} });
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
+    if (result.size_reached == 1)
+        result.held_back = held_back(result.body, inside.full.positions.topRows(body_vertices), rig.weights);
     result.certified = clean && reached == inside.full.positions;
     return result;
 }

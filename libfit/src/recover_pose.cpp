@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body_parts.h"
 #include "cloth_motion.h"
 #include "collapse.h"
 #include "creases.h"
@@ -147,6 +148,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
 
     put_positions(result.garments, motion.cloth());
     result.body = motion.obstacle();
+    result.held_back = held_back(result.body, way.at(1), rig.weights);
     result.pose_reached = arrived ? 1 : std::min(reached, 1 - 1e-3);
     result.certified = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived;
     return result;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <string>
+
+#include "body_parts.h"
 
 namespace fit {
 namespace {
@@ -15,41 +15,11 @@ constexpr double k_across = 0.5;
 // A part speaks when its edges would go round it this often: a hem that just reaches it does not stretch as a whole.
 constexpr double k_fewest_rounds = 6;
 
-struct Part {
-    const char* name;
-    std::vector<int> bones;
-};
-
-const std::vector<Part>& parts()
-{
-    static const std::vector<Part> table {
-        { "chest", { upperback, thorax } },   { "waist", { lowerback } },          { "hips", { lhipjoint, rhipjoint } },
-        { "neck", { lowerneck, upperneck } }, { "left shoulder", { lclavicle } },  { "right shoulder", { rclavicle } },
-        { "left upper arm", { lhumerus } },   { "right upper arm", { rhumerus } }, { "left forearm", { lradius } },
-        { "right forearm", { rradius } },     { "left thigh", { lfemur } },        { "right thigh", { rfemur } },
-        { "left calf", { ltibia } },          { "right calf", { rtibia } },
-    };
-    return table;
-}
-
-int part_of(int bone)
-{
-    for (std::size_t p = 0; p < parts().size(); ++p)
-        if (const auto& bones = parts()[p].bones; std::find(bones.begin(), bones.end(), bone) != bones.end())
-            return int(p);
-    return -1;
-}
-
 }  // namespace
 
 Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton) :
-    garment_(garment), skeleton_(skeleton), bones_(weights.bones.rows())
+    garment_(garment), skeleton_(skeleton), bones_(strongest_bones(weights))
 {
-    for (std::size_t v = 0; v < bones_.size(); ++v) {
-        int k;
-        weights.weights.row(v).maxCoeff(&k);
-        bones_[v] = weights.bones(v, k);
-    }
 }
 
 std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) const
@@ -58,7 +28,7 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
         double now = 0, rest = 0, radius = 0;
         int count = 0;
     };
-    std::vector<Sums> sums(parts().size());
+    std::array<Sums, k_body_parts> sums;
     const auto edges = edges_of(garment_.triangles);
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1), part = part_of(bones_[i]);
@@ -97,7 +67,7 @@ std::vector<TooTight> Tightness::too_tight(const Positions& positions, double al
     for (const Round& round : rounds(positions))
         if (round.stretch > allowed) {
             const double needed = round.girth / size, unstretched = round.girth / (1 + round.stretch);
-            result.push_back({ parts()[round.part].name, needed - unstretched });
+            result.push_back({ part_name(round.part), needed - unstretched });
         }
     std::sort(result.begin(), result.end(),
               [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });

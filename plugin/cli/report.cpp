@@ -78,6 +78,14 @@ Json too_tight_of(const Dressing& dressing, std::size_t garment, double metres_p
     return parts;
 }
 
+Json held_back_of(const Dressing& dressing, double metres_per_unit)
+{
+    Json parts = Json::array();
+    for (const HeldBack& held : dressing.held_back)
+        parts.push_back({ { "part", held.part }, { "distance", held.distance / metres_per_unit } });
+    return parts;
+}
+
 Json garment_of(const Session& session, std::size_t i)
 {
     const Scene& scene = session.scene;
@@ -111,6 +119,7 @@ Json json_of(const Call& call, const Session& session)
         json["certified"] = end->certified;
         json["size_reached"] = end->size_reached;
         json["pose_reached"] = end->pose_reached;
+        json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         if (!end->certified)
             json["note"] = explain(session);
     }

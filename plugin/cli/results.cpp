@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "fit/certificate.h"
@@ -147,6 +148,16 @@ std::string tight_parts(const Dressing& dressing)
     return text.str();
 }
 
+std::string held_parts(const Dressing& dressing)
+{
+    constexpr std::size_t k_named = 3;
+    std::ostringstream text;
+    for (std::size_t i = 0; i < std::min(k_named, dressing.held_back.size()); ++i)
+        text << (i > 0 ? ", " : "; no room for cloth at ") << dressing.held_back[i].part << " (held back by "
+             << std::setprecision(2) << 1000 * dressing.held_back[i].distance << " mm)";
+    return text.str();
+}
+
 }  // namespace
 
 const Dressing* final_dressing(const Scene& scene)
@@ -184,8 +195,12 @@ std::string explain(const Session& session)
              << c.self_crossings << " with itself, " << c.layer_crossings << " with layers, " << c.vertices_inside
              << " vertices inside";
     } else {
-        text << garment << " could not be certified: stopped at " << percent(end.pose_reached)
-             << "% of the way between two poses";
+        text << garment << " could not be certified: ";
+        if (end.pose_reached < 1)
+            text << "stopped at " << percent(end.pose_reached) << "% of the way between two poses";
+        else
+            text << "the body is not in its place everywhere";
+        text << held_parts(end);
     }
     return text.str();
 }

@@ -43,6 +43,12 @@ struct TooTight {
     double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
 };
 
+/// Where cloth keeps a part of the body from its place.
+struct HeldBack {
+    std::string part;  ///< as in TooTight
+    double distance;  ///< m; what is left of the way of its furthest vertex
+};
+
 /// A garment on a body, layer upon layer.
 struct WornGarment {
     GarmentMesh rest;  ///< as given: edge lengths and folds
@@ -55,6 +61,7 @@ struct DrapeResult {
     Positions body;  ///< the user's vertices in the fitted pose, at the size reached
     double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
+    std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
 };
 

@@ -23,6 +23,7 @@ struct RecoverOptions {
 struct RecoverResult {
     std::vector<WornGarment> garments;
     Positions body;  ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
+    std::vector<HeldBack> held_back;  ///< where cloth had no room in the pose `to`; worst first
     double pose_reached = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place
     bool certified = false;  ///< arrived, and every garment's certificate is clean
 };
