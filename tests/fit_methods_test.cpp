@@ -194,7 +194,7 @@ TEST(PaperMethod, FindsTheSameByScanAndByTree)
     const Relaxed scanned = relaxed(rig, by_scan, covered, relaxation, {});
     EXPECT_EQ(found.posture.root, scanned.posture.root);
     EXPECT_EQ(found.posture.directions, scanned.posture.directions);
-    EXPECT_EQ(found.evaluations, scanned.evaluations);
+    EXPECT_EQ(found.bone_evaluations, scanned.bone_evaluations);
     EXPECT_GT(by_tree.total(placed(rig.skeleton, found.posture)),
               by_tree.total(placed(rig.skeleton, relaxation.start)));
 }

@@ -218,6 +218,26 @@ TEST(FitSkeleton, ABodyThatFacesAwayTurnsToTheGarmentsFront)
     EXPECT_GT(posed(rig.skeleton, result.pose).tail(lradius).x(), 0.3) << "the left arm is in the left sleeve";
 }
 
+TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
+{
+    const PersonOptions own { .arm_angle = 45 };
+    const Rig rig = rig_of(own);
+    const GarmentMesh upright = shirt({ .arm_angle = 30 }, 1.9);
+    const FitResult expected = fit_skeleton(rig, upright);
+    EXPECT_EQ(expected.up, Vec3::UnitY());
+    for (const double half_or_quarter : { std::numbers::pi, std::numbers::pi / 2 }) {
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(half_or_quarter, Vec3::UnitX()));
+        GarmentMesh garment = upright;
+        garment.positions = garment.positions * turn.toRotationMatrix().transpose();
+        const FitResult result = fit_skeleton(rig, garment);
+        EXPECT_EQ(result.type, GarmentType::longsleeve);
+        EXPECT_LT((result.up - turn * Vec3::UnitY()).norm(), 1e-6);
+        const Skeleton joints = posed(rig.skeleton, result.pose), wanted = posed(rig.skeleton, expected.pose);
+        for (const int b : { thorax, lhumerus, rhumerus, lradius, rradius })
+            EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 10) << bone_name(b);
+    }
+}
+
 TEST(FitSkeleton, TipsAreDrawnBackToWhereTheyAreClear)
 {
     const Skeleton joints = person_skeleton({});

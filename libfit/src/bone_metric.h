@@ -14,8 +14,8 @@ namespace fit {
 /// Who takes part, and how thick the limbs are.
 struct Figure {
     std::array<bool, bone_count> covered {};
-    std::array<double, bone_count> radii {};            // m
-    std::array<double, extremity_count> tip_radii {};   // m
+    std::array<double, bone_count> radii {};  // m
+    std::array<double, extremity_count> tip_radii {};  // m
 };
 
 /// @param covered  as the garment's type says
@@ -48,7 +48,7 @@ public:
 
 private:
     const ClothRoom& cloth_;
-    const Figure& figure_;
+    Figure figure_;
 };
 
 }  // namespace fit

@@ -50,6 +50,7 @@ FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMes
     const Relaxed found = relaxed(rig, *metric, result.covered, relaxation, progress.part(0, 1, "fit the skeleton"));
     result.pose = pose_of(rig.skeleton, found.posture);
     result.evaluations = found.evaluations;
+    result.bone_evaluations = found.bone_evaluations;
     result.scores_before = scores(*metric, placed(rig.skeleton, relaxation.start), result.covered);
     result.scores = scores(*metric, placed(rig.skeleton, found.posture), result.covered);
     return result;

@@ -210,15 +210,20 @@ std::vector<int> pieces_of(const TriangleMesh& mesh)
     return pieces;
 }
 
-// Of the piece that each vertex belongs to, by the piece's name.
-std::vector<double> heights_of(const Positions& positions, const std::vector<int>& pieces)
+struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+};
+
+// In height, of each piece, by its name.
+std::vector<Range> ranges_of(const Positions& positions, const std::vector<int>& pieces)
 {
-    std::vector<double> low(pieces.size(), std::numeric_limits<double>::infinity()), heights(pieces.size());
-    for (std::size_t v = 0; v < pieces.size(); ++v)
-        low[pieces[v]] = std::min(low[pieces[v]], positions(v, 1));
-    for (std::size_t v = 0; v < pieces.size(); ++v)
-        heights[pieces[v]] = std::max(heights[pieces[v]], positions(v, 1) - low[pieces[v]]);
-    return heights;
+    std::vector<Range> ranges(pieces.size());
+    for (std::size_t v = 0; v < pieces.size(); ++v) {
+        Range& range = ranges[pieces[v]];
+        range.low = std::min(range.low, positions(v, 1));
+        range.high = std::max(range.high, positions(v, 1));
+    }
+    return ranges;
 }
 
 }  // namespace
@@ -227,7 +232,7 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
 {
     const double diagonal = diagonal_of(outward), slice = k_slice * diagonal;
     const std::vector<int> pieces = pieces_of(outward);
-    const std::vector<double> heights = heights_of(outward.positions, pieces);
+    const std::vector<Range> ranges = ranges_of(outward.positions, pieces);
     const auto rings = large_rings(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
                                    k_smallest_girth * diagonal);
     const Paths paths(outward);
@@ -235,7 +240,8 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
     parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {
         Opening& opening = openings[r] = opening_of(outward.positions, rings[r]);
         opening.piece = pieces[rings[r][0].first];
-        opening.piece_height = heights[opening.piece];
+        opening.piece_low = ranges[opening.piece].low;
+        opening.piece_height = ranges[opening.piece].high - opening.piece_low;
         const std::vector<double> distance = paths.distances_from(rings[r]);
         std::vector<double> girths = girths_along(outward, distance, slice);
         const double slices = std::clamp(reach_of(distance, rings, r) / slice, 1.0, double(girths.size()));

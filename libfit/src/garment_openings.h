@@ -11,14 +11,15 @@ namespace fit {
 
 struct Opening {
     Vec3 centre = Vec3::Zero();
-    Vec3 facing = Vec3::Zero();   ///< unit, out of the garment: the mean normal of the disc that would close it
-    Vec3 low, high;               ///< corners of its box
-    double girth = 0;             ///< m, length of its edge
-    double tube_length = 0;       ///< m along the cloth, until the tube widens, forks or ends
-    double tube_girth = 0;        ///< m, median
-    double tube_waist = 0;        ///< m, smallest, the hem itself left out
-    int piece = 0;                ///< openings of one connected piece of cloth share it
-    double piece_height = 0;      ///< m, of that piece
+    Vec3 facing = Vec3::Zero();  ///< unit, out of the garment: the mean normal of the disc that would close it
+    Vec3 low, high;  ///< corners of its box
+    double girth = 0;  ///< m, length of its edge
+    double tube_length = 0;  ///< m along the cloth, until the tube widens, forks or ends
+    double tube_girth = 0;  ///< m, median
+    double tube_waist = 0;  ///< m, smallest, the hem itself left out
+    int piece = 0;  ///< openings of one connected piece of cloth share it
+    double piece_low = 0;  ///< m; where that piece begins
+    double piece_height = 0;  ///< m, of that piece
 };
 
 /// @param outward  from outward_cloth. Holes as small as buttonholes are left out.

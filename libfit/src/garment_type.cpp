@@ -37,6 +37,7 @@ struct Piece {
     std::vector<Opening> sleeves, legs;  // two each, or none
     std::vector<Opening> others;  // neck, hem, waist, an open front
     double height = 0;  // m
+    double middle = 0;  // m; half-way up
     double margin = 1;  // of the closest decision so far
 
     // Is `value` above `threshold`? Half as much again is clear.
@@ -96,6 +97,7 @@ std::vector<Piece> pieces_of(const std::vector<Opening>& openings)
         std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.centre.y() < b.centre.y(); });
         Piece piece;
         piece.height = some[0].piece_height;
+        piece.middle = some[0].piece_low + 0.5 * piece.height;
         piece.others = some;
         take_legs(piece);
         take_sleeves(piece);
@@ -162,6 +164,23 @@ std::optional<GarmentType> type_of(Piece& piece)
     return type_with_hem(piece, lowest, highest);
 }
 
+// Legs point down, and so do sleeves; where they are held level, they leave from the upper half, above a hem or under a neckline. A
+// waist is narrower than a hem.
+bool hangs_upright(const Piece& piece)
+{
+    constexpr double level = 0.25, plumb = 0.6;  // sines
+    if (!piece.legs.empty())
+        return true;
+    const auto is_plumb = [](const Opening& opening) { return std::abs(opening.facing.y()) > plumb; };
+    if (!std::any_of(piece.others.begin(), piece.others.end(), is_plumb))
+        return false;
+    if (piece.sleeves.empty())
+        return piece.others.size() == 2 && piece.others[1].girth < 0.95 * piece.others[0].girth;
+    const double facing = 0.5 * (piece.sleeves[0].facing.y() + piece.sleeves[1].facing.y());
+    const double height = 0.5 * (piece.sleeves[0].centre.y() + piece.sleeves[1].centre.y());
+    return facing < -level || (facing < level && height > piece.middle);
+}
+
 enum class Sleeves { none, upper_arm, whole_arm };
 
 Sleeves sleeves_of(const Piece& piece)
@@ -203,6 +222,12 @@ TypeGuess guess_type(const std::vector<Opening>& openings)
 }
 
 TypeGuess guess_garment_type(const GarmentMesh& garment) { return guess_type(openings_of(outward_cloth(garment))); }
+
+bool hangs_upright(const std::vector<Opening>& openings)
+{
+    const std::vector<Piece> pieces = pieces_of(openings);
+    return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return hangs_upright(piece); });
+}
 
 TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings)
 {

@@ -13,6 +13,9 @@ TypeGuess guess_type(const std::vector<Opening>& openings);
 /// The given type, or for `automatic` the one that is found. @throws InvalidInput when there is none.
 TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings);
 
+/// Do the openings leave no doubt that the garment hangs upright?
+bool hangs_upright(const std::vector<Opening>& openings);
+
 /// The bones that a garment of this type covers; where a type may come with any sleeves, its openings tell.
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
 

@@ -124,7 +124,7 @@ public:
         for (const int b : chain)
             if (std::find(covered_.begin(), covered_.end(), b) != covered_.end()) {
                 const Relaxed turned = bone_turned(result.posture, b, scale);
-                result = { turned.posture, result.evaluations + turned.evaluations };
+                result = { turned.posture, 0, result.bone_evaluations + turned.bone_evaluations };
             }
         return result;
     }
@@ -150,7 +150,7 @@ private:
             const PlacedBones bones = placed(own_, with_bone_along(present, bone, direction));
             if (!is_human(bone, bones))
                 continue;
-            ++best.evaluations;
+            ++best.bone_evaluations;
             if (const double score = metric_.of_bone(bone, bones); score > best_score) {
                 best_score = score;
                 best.posture = with_bone_along(present, bone, direction);
@@ -192,7 +192,10 @@ Relaxed relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bon
 {
     const Search search(rig, metric, covered, relaxation);
     Relaxed present { relaxation.start };
-    const auto take = [&](const Relaxed& next) { present = { next.posture, present.evaluations + next.evaluations }; };
+    const auto take = [&](const Relaxed& next) {
+        present = { next.posture, present.evaluations + next.evaluations,
+                    present.bone_evaluations + next.bone_evaluations };
+    };
     for (int i = 0; i < relaxation.iterations; ++i) {
         const double scale = std::pow(0.5, i);
         const Progress round = progress.part(double(i) / relaxation.iterations, double(i + 1) / relaxation.iterations);
@@ -209,7 +212,7 @@ Relaxed relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bon
         for (std::size_t l = 0; l < limbs.size(); ++l) {
             for (const int b : k_independent[l])
                 present.posture.directions[b] = limbs[l].posture.directions[b];
-            present.evaluations += limbs[l].evaluations;
+            present.bone_evaluations += limbs[l].bone_evaluations;
         }
     }
     return present;

@@ -27,7 +27,7 @@ Relaxation relaxation_of(const Rig& rig, const GarmentMesh& garment, GarmentType
 
 struct Relaxed {
     Posture posture;
-    long long evaluations = 0;  // of the metric, whole or of one bone
+    long long evaluations = 0, bone_evaluations = 0;  // of E and of E_B
 };
 
 /// Translation, rotation, then the covered bones, parents before children, the two arms and the two legs in parallel. Poses

@@ -55,6 +55,9 @@ public:
     /// The body at ease, turned by `turn`, its root at `root`.
     Posture at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const;
 
+    /// What a metre of height is worth: a shirt hangs from the shoulders, trousers are pulled up. m/m.
+    double sag() const;
+
     /// Energy less the cost of crossings.
     double total(const Posture& posture) const { return energy(posture) - crossing_cost(posture); }
 
@@ -88,7 +91,6 @@ private:
     double cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
     double twin_cost(int bone, const Vec3& direction, const Skeleton& joints) const;
     double stance_energy(const Posture& posture) const;
-    double sag() const;
     Posture moved(const Posture& present, int freedom, double step) const;
     CoverDistances cover_distances(const PlacedBones& bones, const Limb* without) const;
     double emptiness(const CoverDistances& distances) const;

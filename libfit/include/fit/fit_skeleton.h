@@ -78,12 +78,14 @@ struct FitResult {
     double type_margin = 1;  ///< 1 when the type was given
     double front_margin
         = 1;  ///< 0: the body could as well face the other way; 1: it could not. 1 for paper and tisserand, which
-        ///< do not ask
+    ///< do not ask
+    Vec3 up = Vec3::UnitY();  ///< what is up for the garment as it was given
+    double up_margin = 1;  ///< 0: another way up is as good; 1 also where the given one leaves no doubt
     std::vector<Bone> covered;
     std::array<double, bone_count> scores_before {}, scores {};  ///< E_B of equation (1) by the method's own metric,
         ///< metres, at the start and at the end; 0 for bones that take no part
     double score_before = 0, score_after = 0;  ///< E of equation (4)
-    long long evaluations = 0;  ///< of the error metric; paper and tisserand only
+    long long evaluations = 0, bone_evaluations = 0;  ///< of E and of E_B; paper and tisserand only
 };
 
 /// The joints with their tips drawn back to where the extremities no longer pass through the garment. O(log n).
@@ -93,7 +95,7 @@ FIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garm
 FIT_API std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, const GarmentMesh& garment,
                                                     const std::vector<Bone>& covered);
 
-/// @pre    The garment hangs upright (+y up), somewhere; the body may be anywhere.
+/// @pre    By paper and tisserand: the garment hangs upright (+y up). By the fast method it may be turned in any way.
 /// @post   By the fast method: no bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
 ///         ankles and wrists do not bend, and a trouser leg longer than the leg has no room for a foot across it; there,
 ///         with_clear_tips says how far they reach.

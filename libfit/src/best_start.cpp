@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "best_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "parallel.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_place_spacing = 0.05;  // m
+constexpr double k_places_apart = 0.08;  // m; the thickness of an upper arm
+constexpr std::size_t k_places_a_heading = 4, k_wide_starts = 6;
+constexpr double k_clear_front = 0.5;  // m; a garment that much better one way round leaves no doubt
+constexpr double k_early_crossing = 0.1;  // of a crossing's cost
+constexpr double k_same_heading = 0.25;  // rad
+constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
+constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
+constexpr Reach k_near_limbs { 0.6, 0.15, 8, true };
+constexpr double k_first_step = 0.16, k_last_step = 0.01;  // rad
+
+struct Scored {
+    Posture posture;
+    double score = 0;
+};
+
+bool better(const Scored& a, const Scored& b) { return a.score > b.score; }
+
+bool is_worn(const SkeletonSearch& search, const Limb& limb) { return search.metric().figure().covered[limb.bones[0]]; }
+
+Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Reach& reach)
+{
+    for (const Limb& limb : k_limbs)
+        if (is_worn(search, limb))
+            posture = search.limb_moved(posture, limb, reach);
+    return posture;
+}
+
+// The horizontal direction in which the cloth is spread most: from sleeve to sleeve, from leg to leg.
+double widest_heading(const ClothRoom& cloth)
+{
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (const ClothPatch& patch : cloth.patches()) {
+        const Vec3 from_middle = patch.centre.cast<double>() - cloth.barycentre();
+        const Eigen::Vector2d level(from_middle.x(), from_middle.z());
+        spread += level * level.transpose();
+    }
+    const Eigen::Vector2d widest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+    return std::atan2(-widest.y(), widest.x());
+}
+
+double turned_apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+
+// Left to right along the cloth's widest direction or across it, either way round; and as the body stands.
+std::vector<double> headings(const Rig& rig, const ClothRoom& cloth)
+{
+    const Vec3 left = rig.up.cross(rig.front);
+    const double own = std::atan2(-left.z(), left.x()), widest = widest_heading(cloth) - own;
+    std::vector<double> result { 0 };
+    for (int quarter = 0; quarter < 4; ++quarter)
+        if (turned_apart(widest + quarter * std::numbers::pi / 2, 0) > k_same_heading)
+            result.push_back(widest + quarter * std::numbers::pi / 2);
+    return result;
+}
+
+// The best, no two of them alike: what is as near as that, the polish makes one.
+std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
+{
+    std::stable_sort(all.begin(), all.end(), better);
+    std::vector<Scored> kept;
+    for (const Scored& one : all) {
+        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Scored& other) {
+            return (one.posture.root - other.posture.root).norm() < k_places_apart
+                && one.posture.turn.angularDistance(other.posture.turn) < k_same_heading;
+        });
+        if (is_new && kept.size() < count)
+            kept.push_back(one);
+    }
+    return kept;
+}
+
+// Where the trunk has room, for each heading, with limbs as far as a coarse look finds them.
+std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
+{
+    const ClothRoom& cloth = search.metric().cloth();
+    const RoomPyramid room(cloth.tree(), cloth.low(), cloth.high());
+    std::vector<Posture> postures;
+    for (const double angle : headings(rig, cloth))
+        postures.push_back(search.at_ease(Vec3::Zero(), upright(rig, angle)));
+    std::vector<std::vector<Scored>> by_heading(postures.size());
+    parallel_for<std::size_t>(postures.size(), [&](std::size_t h) {
+        for (const Place& place :
+             search.trunk_places(room, postures[h], k_place_spacing, k_places_apart, k_places_a_heading)) {
+            postures[h].root = place.at;
+            const Posture with_limbs = with_worn_limbs(search, postures[h], k_coarse_limbs);
+            by_heading[h].push_back({ with_limbs, search.energy(with_limbs) });
+        }
+    });
+    std::vector<Scored> all;
+    for (auto& some : by_heading)
+        all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+// What still passes through cloth, the polish may free: before it, a crossing counts for less than a bone that is outside.
+Scored with_limbs_found(const SkeletonSearch& search, const Posture& start)
+{
+    const Posture posture = with_worn_limbs(search, start, k_wide_limbs);
+    return { posture, search.energy(posture) - k_early_crossing * search.crossing_cost(posture) };
+}
+
+Scored roughly_polished(const SkeletonSearch& search, const Scored& start)
+{
+    const Posture posture = search.polished(start.posture, k_first_step, k_first_step / 4);
+    return { posture, search.total(posture) };
+}
+
+bool faces_away(const Rig& rig, const Scored& a, const Scored& b)
+{
+    return (a.posture.turn * rig.front).dot(b.posture.turn * rig.front) < 0;
+}
+
+bool is_all_worn(const SkeletonSearch& search, const Limb& limb)
+{
+    const auto& covered = search.metric().figure().covered;
+    return covered[limb.bones[0]] && covered[limb.bones[1]];
+}
+
+Posture better_of(const SkeletonSearch& search, const Posture& present, const Posture& next)
+{
+    return search.total(next) > search.total(present) ? next : present;
+}
+
+// Looks anywhere for a bare limb, and for a worn one where its twin is.
+Posture limbs_reconsidered(const SkeletonSearch& search, Posture present)
+{
+    for (const Limb& limb : k_limbs) {
+        if (!is_all_worn(search, limb))
+            present = better_of(search, present, search.limb_moved(present, limb, k_wide_limbs));
+        if (is_worn(search, limb))
+            present = better_of(search, present, search.limb_moved(search.mirrored(present, limb), limb, k_near_limbs));
+    }
+    return present;
+}
+
+// A limb that still passes through cloth, a foot too long for its trouser leg, is searched ever more finely.
+Posture freed(const SkeletonSearch& search, Posture present)
+{
+    for (const Limb& limb : k_limbs)
+        for (double spacing = 0.2; spacing > 0.06 && search.crossing_cost(present, limb) > 0; spacing *= 0.6)
+            present = better_of(search, present, search.limb_moved(present, limb, { 1.5, spacing, 40 }));
+    return present;
+}
+
+}  // namespace
+
+Eigen::Quaterniond upright(const Rig& rig, double heading)
+{
+    return Eigen::Quaterniond(Eigen::AngleAxisd(heading, Vec3::UnitY()))
+        * shortest_arc(rig.up.normalized(), Vec3::UnitY());
+}
+
+// The best start, the best that faces the other way, and the best turned half round: most garments have as much room like that.
+std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& sorted)
+{
+    std::vector<Scored> result { sorted[0] };
+    const auto other
+        = std::find_if(sorted.begin(), sorted.end(), [&](const Scored& s) { return faces_away(rig, s, sorted[0]); });
+    if (other != sorted.end())
+        result.push_back(*other);
+    result.push_back(with_limbs_found(search, search.turned(sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
+    return result;
+}
+
+BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
+{
+    std::vector<Scored> candidates = distinct(starts(rig, search), k_wide_starts);
+    progress.at(0.4);
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
+    progress.at(0.6);
+    std::stable_sort(candidates.begin(), candidates.end(), better);
+    candidates = both_ways_round(rig, search, candidates);
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
+    progress.at(0.8);
+    std::stable_sort(candidates.begin(), candidates.end(), better);
+    const auto other = std::find_if(candidates.begin(), candidates.end(),
+                                    [&](const Scored& s) { return faces_away(rig, s, candidates[0]); });
+    const double margin = other == candidates.end() ? k_clear_front : candidates[0].score - other->score;
+    return { candidates[0].posture, std::clamp(margin / k_clear_front, 0.0, 1.0) };
+}
+
+Posture refined(const SkeletonSearch& search, const Posture& start)
+{
+    return search.polished(freed(search, limbs_reconsidered(search, start)), k_first_step / 2, k_last_step);
+}
+
+}  // namespace fit

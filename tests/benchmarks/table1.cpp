@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Table 1 of [wu_2018_garment_fitting] once more: eleven pairs, three methods, one run.
+//
+//   table1 [--all-of-scan] [PAIR ...]
+//
+// fast     the whole of it, preparation included: the best of five runs, with one thread and with all.
+// paper    found with the KD-tree, all threads; the poses are the same by scan. By scan, the paper's own O(n_G), the time is that
+//          of so many queries as the search made, each as long as the mean of k_timed_queries; --all-of-scan runs them all.
+// tisserand  of so many evaluations as paper made, each as long as the mean of k_timed_surfaces, by scan: O(n_H n_G).
+// E        of both poses by the paper's own metric, over the bones that the garment's type covers.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <tbb/global_control.h>
+
+#include "../../libfit/src/nearest.h"
+#include "../../libfit/src/parallel.h"
+#include "../../libfit/src/posture.h"
+#include "../../libfit/src/surface_metric.h"
+#include "fit/fit_skeleton.h"
+#include "fit/io.h"
+#include "fit/rig_body.h"
+
+namespace {
+
+using namespace fit;
+
+constexpr int k_timed_queries = 20000, k_timed_surfaces = 8;
+
+struct Row {
+    const char* garment;
+    GarmentType type;
+    const char* body;
+};
+
+const Row k_rows[] = {
+    { "g05_jacket", GarmentType::jacket, "b01_m_avg_A_6890" },
+    { "g07_trousers", GarmentType::trousers, "b01_m_avg_A" },
+    { "g09_dress", GarmentType::dress, "b01_m_avg_A_6890" },
+    { "g12_suit", GarmentType::suit, "b01_m_avg_A_6890" },
+    { "g03_blouse", GarmentType::blouse, "b01_m_avg_A_6890" },
+    { "g01_tshirt", GarmentType::tshirt, "b01_m_avg_A_6890" },
+    { "g08_skirt", GarmentType::skirt, "b01_m_avg_A_6890" },
+    { "g11_twolayer", GarmentType::suit, "b01_m_avg_A_6890" },
+    { "g04_hoodie", GarmentType::hoodie, "b01_m_avg_A_6890" },
+    { "g02_longshirt", GarmentType::longsleeve, "b01_m_avg_A_6890" },
+    { "g06_coat", GarmentType::coat, "b01_m_avg_A" },
+};
+
+TriangleMesh read(const std::string& name)
+{
+    const MeshFile file = MeshFile::read(std::string(FIT_TABLE1) + "/" + name + ".ply");
+    return { file.positions(), file.triangles() };
+}
+
+template <class Work>
+double seconds(const Work& work)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    work();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// With one thread, and with all there are.
+struct Times {
+    double one, all;
+};
+
+template <class Work>
+Times times(const Work& work)
+{
+    Times result {};
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+        result.one = work();
+    }
+    result.all = work();
+    return result;
+}
+
+double best_of_five(const Rig& rig, const GarmentMesh& garment, const FitOptions& options)
+{
+    double best = 1e300;
+    for (int i = 0; i < 5; ++i)
+        best = std::min(best, seconds([&] { fit_skeleton(rig, garment, options); }));
+    return best;
+}
+
+/// Of one query; where it is does not matter to a scan.
+double scan_seconds(const Positions& points)
+{
+    const PointScan scan(points);
+    std::vector<int> found(k_timed_queries);
+    const double total = seconds([&] {
+        parallel_for(
+            k_timed_queries, [&](int i) { found[i] = scan.index(1.1 * points.row(i % points.rows())); }, 64);
+    });
+    return std::accumulate(found.begin(), found.end(), 0LL) < 0
+        ? 0
+        : total / k_timed_queries;  // or the scan might be left out
+}
+
+double surface_seconds(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment)
+{
+    const SurfaceMetric metric(rig, body, garment, NearestSearch::scan);
+    Posture posture { rig.skeleton.root, Eigen::Quaterniond::Identity(), {} };
+    for (int b = 0; b < bone_count; ++b)
+        posture.directions[b] = rig.skeleton.direction(b);
+    const PlacedBones bones = placed(rig.skeleton, posture);
+    std::vector<double> found(k_timed_surfaces);
+    return seconds([&] { parallel_for(k_timed_surfaces, [&](int i) { found[i] = metric.total(bones); }); })
+        / k_timed_surfaces;
+}
+
+double energy(const Rig& rig, const Pose& pose, const GarmentMesh& garment, GarmentType type)
+{
+    const auto scores = paper_scores(rig, pose, garment, bones_covered_by(type));
+    return std::accumulate(scores.begin(), scores.end(), 0.0);
+}
+
+Times operator*(double factor, const Times& t) { return { factor * t.one, factor * t.all }; }
+
+void print_row(int number, const Row& row, const Rig& rig, const TriangleMesh& body, bool all_of_scan)
+{
+    const TriangleMesh cloth = read(row.garment);
+    const GarmentMesh garment = make_garment(cloth.positions, cloth.triangles);
+    FitOptions options;
+    options.type = row.type;
+    const Times fast = times([&] { return best_of_five(rig, garment, options); });
+    const FitResult fast_result = fit_skeleton(rig, garment, options);
+
+    options.method = FitMethod::paper;
+    FitResult paper_result;
+    const double tree = seconds([&] { paper_result = fit_skeleton(rig, garment, options); });
+    const double evaluations = double(paper_result.evaluations + paper_result.bone_evaluations);
+    const double queries = 5.0
+        * (double(paper_result.evaluations) * double(paper_result.covered.size())
+           + double(paper_result.bone_evaluations));
+    Times scan = queries * times([&] { return scan_seconds(garment.positions); });
+    if (all_of_scan) {
+        options.nearest = NearestSearch::scan;
+        scan.all = seconds([&] { fit_skeleton(rig, garment, options); });
+    }
+    const Times tisserand = evaluations * times([&] { return surface_seconds(rig, body, garment); });
+
+    std::printf("| %d | %s | %ld / %ld | %ld / %ld | %.3f / %.3f | %.1f | %.0f / %.0f%s | %.0f / %.0f | %.0f / %.0f | "
+                "%.0f / %.0f | %.3f | %.3f |\n",
+                number, row.garment, long(cloth.positions.rows()), long(cloth.triangles.rows()),
+                long(body.positions.rows()), long(body.triangles.rows()), fast.one, fast.all, tree, scan.one, scan.all,
+                all_of_scan ? " (all of it)" : "", tisserand.one, tisserand.all, scan.one / fast.one,
+                scan.all / fast.all, tisserand.one / fast.one, tisserand.all / fast.all,
+                energy(rig, fast_result.pose, garment, row.type), energy(rig, paper_result.pose, garment, row.type));
+    std::fflush(stdout);
+}
+
+struct RiggedBody {
+    TriangleMesh mesh;
+    Rig rig;
+};
+
+RiggedBody rigged(const std::string& name)
+{
+    const TriangleMesh mesh = read(name);
+    return { mesh, rig_body(make_body(mesh.positions, mesh.triangles)) };
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    bool all_of_scan = false;
+    std::vector<int> wanted;
+    for (int i = 1; i < argc; ++i)
+        if (argv[i] == std::string("--all-of-scan"))
+            all_of_scan = true;
+        else
+            wanted.push_back(std::stoi(argv[i]));
+    const RiggedBody small = rigged("b01_m_avg_A_6890"), large = rigged("b01_m_avg_A");
+    std::printf("Seconds and ratios: one thread / %zu threads. By scan: extrapolated from %d queries, and from %d "
+                "surfaces for tisserand.\n\n"
+                "| pair | garment | v / f | body v / f | fast, s | paper by KD-tree, s | paper by scan, s | tisserand, "
+                "s | paper by scan : fast "
+                "| tisserand : fast | E fast | E paper |\n"
+                "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+                tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism), k_timed_queries,
+                k_timed_surfaces);
+    for (int number = 1; number <= int(std::size(k_rows)); ++number) {
+        const Row& row = k_rows[number - 1];
+        const RiggedBody& body = row.body == std::string("b01_m_avg_A") ? large : small;
+        if (wanted.empty() || std::find(wanted.begin(), wanted.end(), number) != wanted.end())
+            print_row(number, row, body.rig, body.mesh, all_of_scan);
+    }
+}
