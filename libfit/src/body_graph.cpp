@@ -5,14 +5,17 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string>
 
+#include "curve_loops.h"
 #include "fit/error.h"
 
 namespace fit {
 namespace {
 
-constexpr int k_ends = 5;
+constexpr int k_ends = 5;          // one less where the head is missing
 constexpr int k_parts = 3;
 
 enum Part : int { head_end, hand_end, foot_end };
@@ -23,9 +26,11 @@ constexpr double k_between[k_parts][k_parts] = { { 0, 0.62, 1.07 }, { 0.62, 0.92
 
 // The curves of real bodies leave some 0.1 of spread (a child's large head most of all); a shape with another plan leaves far more.
 constexpr double k_largest_spread = 0.30;
+constexpr double k_largest_headless_spread = 0.15;  // fewer lengths to agree: they must do so better
 
 // A limb is at least this much longer than the longest finger, ear or toe that was pruned.
 constexpr double k_limb_over_finger = 1.25;
+constexpr double k_limb_over_stump = 2.5;  // without a head, what was pruned is a neck or a finger, nothing longer
 
 std::string text(double value)
 {
@@ -86,6 +91,7 @@ public:
         fork.erase(std::find(fork.begin(), fork.end(), branch[branch.size() - 2]));
     }
 
+    /// @pre both are still there
     std::vector<int> path(int from, int to) const
     {
         std::vector<int> before(nodes_.size(), -1), front { to };
@@ -103,45 +109,48 @@ public:
     }
 
 private:
-    const std::vector<Vec3>& nodes_;
+    std::vector<Vec3> nodes_;
     std::vector<std::vector<int>> neighbours_;
 };
 
-/// Fingers, toes, ears and nose are the shortest branches: they go until five are left.
-std::vector<int> prune_to_ends(Tree& tree)
+/// Fingers, toes, ears and nose are the shortest branches: they go until as many as wanted are left.
+std::vector<int> prune_to_ends(Tree& tree, std::size_t ends)
 {
     std::vector<int> leaves = tree.leaves();
-    if (leaves.size() < k_ends)
+    if (leaves.size() < ends)
         throw InvalidInput("body: " + std::to_string(leaves.size())
                            + " ends found, a human has 5 (head, hands, feet); give one whole human body");
     double longest_pruned = 0;
     const auto shorter = [&](int a, int b) { return tree.length(tree.branch(a)) < tree.length(tree.branch(b)); };
-    for (; leaves.size() > k_ends; leaves = tree.leaves()) {
+    for (; leaves.size() > ends; leaves = tree.leaves()) {
         const std::vector<int> branch = tree.branch(*std::min_element(leaves.begin(), leaves.end(), shorter));
         longest_pruned = std::max(longest_pruned, tree.length(branch));
         tree.remove(branch);
     }
     const double shortest = tree.length(tree.branch(*std::min_element(leaves.begin(), leaves.end(), shorter)));
-    if (shortest < k_limb_over_finger * longest_pruned)
+    if (shortest < (ends == k_ends ? k_limb_over_finger : k_limb_over_stump) * longest_pruned)
         throw InvalidInput("body: more than 5 ends found, the sixth is " + text(longest_pruned) + " m long and the fifth "
                            + text(shortest) + " m; give one human body without things attached to it");
     return leaves;
 }
 
-/// head, hand, hand, foot, foot, and how far the lengths between them are from a human's.
+/// (head,) hand, hand, foot, foot, and how far the lengths between them are from a human's.
 struct Labels {
-    std::array<int, k_ends> ends;
+    std::vector<int> ends;
     double spread = std::numeric_limits<double>::max();
     double size = 0;
+
+    bool headless() const { return ends.size() < k_ends; }
 };
 
-Labels judged(const std::array<int, k_ends>& order, const Eigen::Matrix<double, k_ends, k_ends>& lengths)
+Labels judged(const std::vector<int>& order, const Eigen::MatrixXd& lengths)
 {
     constexpr std::array<Part, k_ends> parts { head_end, hand_end, hand_end, foot_end, foot_end };
+    const std::size_t missing = k_ends - order.size();
     std::vector<double> logs;
-    for (int i = 0; i < k_ends; ++i)
-        for (int j = 0; j < i; ++j)
-            logs.push_back(std::log(lengths(order[i], order[j]) / k_between[parts[i]][parts[j]]));
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            logs.push_back(std::log(lengths(order[i], order[j]) / k_between[parts[i + missing]][parts[j + missing]]));
     double mean = 0, squares = 0;
     for (const double l : logs)
         mean += l / double(logs.size());
@@ -152,25 +161,70 @@ Labels judged(const std::array<int, k_ends>& order, const Eigen::Matrix<double, 
 
 Labels best_labels(const Tree& tree, const std::vector<int>& leaves)
 {
-    Eigen::Matrix<double, k_ends, k_ends> lengths;
-    for (int i = 0; i < k_ends; ++i)
-        for (int j = 0; j < k_ends; ++j)
+    const int n = int(leaves.size());
+    Eigen::MatrixXd lengths(n, n);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
             lengths(i, j) = i == j ? 0 : tree.length(tree.path(leaves[i], leaves[j]));
     Labels best;
-    std::array<int, k_ends> order { 0, 1, 2, 3, 4 };
+    std::vector<int> order(leaves.size());
+    std::iota(order.begin(), order.end(), 0);
     do {
-        if (order[1] > order[2] || order[3] > order[4])
+        if (order[n - 4] > order[n - 3] || order[n - 2] > order[n - 1])
             continue;  // sides come later
         const Labels labels = judged(order, lengths);
         if (labels.spread < best.spread)
             best = labels;
     } while (std::next_permutation(order.begin(), order.end()));
-    if (best.spread > k_largest_spread)
-        throw InvalidInput("body: the lengths between its five ends differ from a human's by a spread of " + text(best.spread)
-                           + " (at most " + text(k_largest_spread) + "); give a human body, or check that limbs are not fused");
+    const double most = best.headless() ? k_largest_headless_spread : k_largest_spread;
+    if (best.spread > most)
+        throw InvalidInput("body: the lengths between its ends differ from a human's by a spread of " + text(best.spread)
+                           + " (at most " + text(most) + "); give a human body, or check that limbs are not fused");
     for (int& end : best.ends)
         end = leaves[end];
     return best;
+}
+
+/// A curve skeleton without loops, as much of it as leads to an end with a name.
+struct NamedTree {
+    Tree tree;
+    Labels labels;
+};
+
+/// Of all ways to open the loops, the one that leaves a tree most like a human. @throws InvalidInput of the first way.
+NamedTree most_human(const std::vector<CurveSkeleton>& ways, std::size_t ends)
+{
+    std::optional<NamedTree> best;
+    std::optional<InvalidInput> refusal;
+    for (const CurveSkeleton& way : ways)
+        try {
+            Tree tree(way);
+            const std::vector<int> leaves = prune_to_ends(tree, ends);
+            const Labels labels = best_labels(tree, leaves);
+            if (!best || labels.spread < best->labels.spread)
+                best = { std::move(tree), labels };
+        } catch (const InvalidInput& reason) {
+            if (!refusal)
+                refusal = reason;
+        }
+    if (!best)
+        throw *refusal;
+    return *std::move(best);
+}
+
+/// With its head or, where that finds none, without: a neck is no longer than a finger.
+NamedTree named_tree(const std::vector<CurveSkeleton>& ways)
+{
+    try {
+        return most_human(ways, k_ends);
+    } catch (const InvalidInput&) {
+        try {
+            return most_human(ways, k_ends - 1);
+        } catch (const InvalidInput&) {
+            // the reason with a head is the one to tell
+        }
+        throw;
+    }
 }
 
 /// The part of `path` after its last node on `trunk`, that node included.
@@ -212,15 +266,17 @@ std::vector<BodyGraph::Place> places(const BodyGraph& graph, const CurveSkeleton
 
 BodyGraph body_graph(const CurveSkeleton& skeleton)
 {
-    Tree tree(skeleton);
-    const Labels labels = best_labels(tree, prune_to_ends(tree));
-    const auto [head, hand0, hand1, foot0, foot1] = labels.ends;
+    const auto [tree, labels] = named_tree(opened(skeleton));
+    const int* end = labels.ends.data() + labels.ends.size() - 4;
+    const int hand0 = end[0], hand1 = end[1], foot0 = end[2], foot1 = end[3];
 
     BodyGraph graph;
     graph.size = labels.size;
-    graph.legs[0] = beyond(tree.path(head, foot1), tree.path(head, foot0));
-    graph.legs[1] = beyond(tree.path(head, foot0), tree.path(head, foot1));
-    const std::vector<int> spine = tree.path(graph.legs[0].front(), head);
+    graph.headless = labels.headless();
+    const int top = graph.headless ? beyond(tree.path(foot0, hand0), tree.path(foot0, hand1)).front() : labels.ends[0];
+    graph.legs[0] = beyond(tree.path(top, foot1), tree.path(top, foot0));
+    graph.legs[1] = beyond(tree.path(top, foot0), tree.path(top, foot1));
+    const std::vector<int> spine = tree.path(graph.legs[0].front(), top);
     graph.arms[0] = beyond(spine, tree.path(foot0, hand0));
     graph.arms[1] = beyond(spine, tree.path(foot0, hand1));
     const auto leaves_at = [&](int i) { return std::find(spine.begin(), spine.end(), graph.arms[i].front()); };

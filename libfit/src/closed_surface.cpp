@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -108,24 +109,86 @@ Soup welded(const TriangleMesh& surface, double distance)
     return soup;
 }
 
+/// For each corner 3 f + k: the corner before which the other triangle on the edge from k to k + 1 begins that edge; empty
+/// where an edge has not exactly one triangle on each side.
+std::vector<int> across_edges(const Triangles& triangles)
+{
+    struct Half {
+        int low, high, corner;
+    };
+    std::vector<Half> halves;
+    halves.reserve(3 * triangles.rows());
+    for (int f = 0; f < int(triangles.rows()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(triangles(f, k), triangles(f, (k + 1) % 3));
+            halves.push_back({ low, high, 3 * f + k });
+        }
+    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
+        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+    });
+    std::vector<int> across(halves.size(), -1);
+    const auto from = [&](const Half& h) { return triangles(h.corner / 3, h.corner % 3); };
+    for (std::size_t i = 0; i < halves.size(); i += 2) {
+        const auto joins = [&](std::size_t j) {
+            return j < halves.size() && halves[j].low == halves[i].low && halves[j].high == halves[i].high;
+        };
+        if (halves[i].low == halves[i].high || !joins(i + 1) || joins(i + 2) || from(halves[i]) == from(halves[i + 1]))
+            return {};
+        across[halves[i].corner] = halves[i + 1].corner;
+        across[halves[i + 1].corner] = halves[i].corner;
+    }
+    return across;
+}
+
+/// Whether the triangles at each vertex are one fan, and all vertices have some.
+bool has_one_fan_a_vertex(const TriangleMesh& surface, const std::vector<int>& across)
+{
+    std::vector<bool> seen(surface.positions.rows(), false);
+    std::vector<bool> in_fan(across.size(), false);
+    for (int corner = 0; corner < int(across.size()); ++corner) {
+        if (in_fan[corner])
+            continue;
+        const int v = surface.triangles(corner / 3, corner % 3);
+        if (seen[v])
+            return false;
+        seen[v] = true;
+        for (int c = corner; !in_fan[c]; c = across[c / 3 * 3 + (c + 2) % 3])  // over the edge that ends at v
+            in_fan[c] = true;
+    }
+    return std::find(seen.begin(), seen.end(), false) == seen.end();
+}
+
+bool is_one_piece(const std::vector<int>& across)
+{
+    std::vector<bool> reached(across.size() / 3, false);
+    std::vector<int> front { 0 };
+    reached[0] = true;
+    for (std::size_t i = 0; i < front.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (const int next = across[3 * front[i] + k] / 3; !reached[next]) {
+                reached[next] = true;
+                front.push_back(next);
+            }
+    return front.size() == reached.size();
+}
+
+/// Enclosed, counted negative where triangles are turned inwards; m^3.
+double volume(const TriangleMesh& surface)
+{
+    const Vec3 origin = surface.positions.row(0);  // near by, to keep digits
+    double sum = 0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const auto corner = [&](int k) { return Vec3(surface.positions.row(surface.triangles(f, k)).transpose() - origin); };
+        sum += corner(0).cross(corner(1)).dot(corner(2)) / 6;
+    }
+    return sum;
+}
+
 /// One piece, closed, a manifold, its faces all turned one way, every vertex used, not all of it shrunk to a point.
 bool is_one_closed_manifold(const TriangleMesh& surface)
 {
-    std::vector<std::vector<std::size_t>> triangles;
-    std::vector<bool> used(surface.positions.rows(), false);
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        triangles.push_back({ std::size_t(surface.triangles(f, 0)), std::size_t(surface.triangles(f, 1)),
-                              std::size_t(surface.triangles(f, 2)) });
-        for (const std::size_t v : triangles.back())
-            used[v] = true;
-    }
-    if (std::find(used.begin(), used.end(), false) != used.end() || !pmp::is_polygon_soup_a_polygon_mesh(triangles))
-        return false;
-    CgalMesh mesh = to_cgal(surface);
-    if (pmp::area(mesh) == 0)
-        return false;
-    const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:component", 0).first;
-    return CGAL::is_closed(mesh) && pmp::connected_components(mesh, labels) == 1;
+    const std::vector<int> across = across_edges(surface.triangles);
+    return !across.empty() && has_one_fan_a_vertex(surface, across) && is_one_piece(across) && volume(surface) != 0;
 }
 
 /// What hangs together.
@@ -245,7 +308,7 @@ CgalMesh wrapped_body(const TriangleMesh& surface)
 
 TriangleMesh outward(TriangleMesh mesh)
 {
-    if (pmp::volume(to_cgal(mesh)) < 0)
+    if (volume(mesh) < 0)
         mesh.triangles.col(1).swap(mesh.triangles.col(2));
     return mesh;
 }

@@ -10,6 +10,7 @@
 
 #include "fit/error.h"
 #include "nearest.h"
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -18,6 +19,7 @@ constexpr double k_smallest_cotangent = 1e-3;    // keeps the matrix positive de
 constexpr double k_heat = 3;                     // c of the paper; larger keeps skin stiffer between joints
 constexpr double k_normal_weight = 0.015;        // of the diagonal: half of how far a point that faces away seems
 constexpr int k_neighbours = 4;                  // that a transferred weight is blended from
+constexpr int k_block = 4096;                    // vertices, of which one core finds the neighbours at a time
 
 double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 {
@@ -152,9 +154,13 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     tree.buildIndex();
     std::vector<int> rows(n * k_neighbours);
     std::vector<double> squared(n * k_neighbours);
-    flann::Matrix<int> found(rows.data(), n, k_neighbours);
-    flann::Matrix<double> distances(squared.data(), n, k_neighbours);
-    tree.knnSearch(flann::Matrix<double>(queries.data(), n, 6), found, distances, k_neighbours, flann::SearchParams(-1));
+    parallel_for((n + k_block - 1) / k_block, [&](std::size_t block) {
+        const std::size_t first = block * k_block, count = std::min<std::size_t>(k_block, n - first);
+        flann::Matrix<int> found(rows.data() + first * k_neighbours, count, k_neighbours);
+        flann::Matrix<double> distances(squared.data() + first * k_neighbours, count, k_neighbours);
+        tree.knnSearch(flann::Matrix<double>(queries.data() + 6 * first, count, 6), found, distances, k_neighbours,
+                       flann::SearchParams(-1));
+    });
 
     SkinWeights result;
     result.bones.resize(n, 4);
@@ -162,7 +168,7 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     for (std::size_t v = 0; v < n; ++v) {
         Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
         for (int k = 0; k < k_neighbours; ++k)
-            row += weights.row(found[v][k]) / (distances[v][k] + 1e-12 * diagonal * diagonal);
+            row += weights.row(rows[v * k_neighbours + k]) / (squared[v * k_neighbours + k] + 1e-12 * diagonal * diagonal);
         keep_four(row, v, result);
     }
     return result;

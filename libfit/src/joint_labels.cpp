@@ -22,6 +22,7 @@ constexpr double k_ankle_height = 0.041;    // above the sole
 constexpr double k_ankle_below_shin = 0.05;  // at most, below where the shin is narrowest
 constexpr double k_skull_base = 0.095;      // below the crown
 constexpr double k_neck_base = 0.145;       // below the crown: the seventh vertebra of the neck
+constexpr double k_stub = 0.25;             // of neck and head is left where the head is missing
 constexpr double k_elbow_ratio = 0.51;      // of the way from shoulder to wrist
 constexpr double k_knee_ratio = 0.49;       // of the way from hip to ankle
 constexpr double k_knee_above_shin = 0.53;  // of the way from hip to where the shin is narrowest
@@ -39,6 +40,10 @@ constexpr double k_girth_spread = 0.10;      // relative
 constexpr double k_widening = 1.15;          // of girth: wrist to palm, shin to heel
 
 constexpr int k_wider_in_a_row = 3;          // a single cut may go astray
+
+// From the first outline of its own to its end, an arm that is this short has no hand: 0.29 without, 0.40 with.
+constexpr double k_arm_without_hand = 0.345, k_arm_with_fist = 0.32;
+constexpr double k_toes_off_shin = 0.065;    // of stature: toes stick out further from the shin's axis than a stump
 
 // Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
 constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
@@ -172,26 +177,31 @@ struct Reach {
     double least, usual, most, spread;  ///< m, straight to the limb's tip
 };
 
-/// Row where the limb is narrowest before it widens to the hand or the heel; -1 when it is nowhere free. A reach unlike the
-/// usual one counts as a larger girth.
-int narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
+/// Where a limb is narrowest before it widens to the hand or the heel.
+struct Narrowest {
+    int row = -1;  ///< -1: it is nowhere free
+    bool widens = false;
+};
+
+/// A reach unlike the usual one counts as a larger girth.
+Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
 {
-    int best = -1, wider_in_a_row = 0;
+    Narrowest best;
+    int wider_in_a_row = 0;
     double least = std::numeric_limits<double>::max(), smallest = least;
-    for (int i = line.first_free; i < line.size(); ++i) {
+    for (int i = line.first_free; i < line.size() && !best.widens; ++i) {
         const double off = (tip - line.points[i]).norm();
         if (!line.free[i] || !line.across[i] || off > reach.most || off < reach.least)
             continue;
         wider_in_a_row = line.girths[i] > k_widening * smallest ? wider_in_a_row + 1 : 0;
-        if (wider_in_a_row == k_wider_in_a_row)
-            break;
+        best.widens = wider_in_a_row == k_wider_in_a_row;
         if (wider_in_a_row > 0)
             continue;
         smallest = std::min(smallest, line.girths[i]);
         const double score = std::log(line.girths[i]) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
         if (score < least) {
             least = score;
-            best = i;
+            best.row = i;
         }
     }
     return best;
@@ -232,7 +242,10 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, d
     const Vec3 along = (arm.tip() - line.at(0.6 * line.length())).normalized();
     LimbJoints joints;
     joints.tip = farthest(surface.last(arm.curve, 0.12 * size), [&](const Vec3& p) { return p.dot(along); });
-    const int wrist = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
+    const Narrowest narrow = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
+    const double free_length = line.length() - line.arcs[line.first_free];
+    const bool has_hand = free_length > (narrow.widens ? k_arm_with_fist : k_arm_without_hand) * size;
+    const int wrist = has_hand ? narrow.row : line.size() - 1;
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
     joints.middle = bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size);
@@ -255,21 +268,38 @@ Vec3 sole_below(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& shi
     return farthest(heel, [&](const Vec3& p) { return p.dot(shin_axis); });
 }
 
+/// From where the shin is narrowest down to a hand's breadth above the sole.
+Vec3 ankle(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& narrow, double size)
+{
+    const Vec3 shin_axis = (narrow - knee).normalized();
+    const Vec3 sole = sole_below(foot, knee, shin_axis, 0.05 * size);
+    const double above_sole = (sole - narrow).dot(shin_axis) - k_ankle_height * size;
+    return narrow + std::min(above_sole, k_ankle_below_shin * size) * shin_axis;  // of a pointed foot, the toes are the sole
+}
+
+bool has_foot(const Surface& surface, const Limb& leg, double size)
+{
+    const Centreline& line = leg.line;
+    const Vec3 knee = line.at(line.arcs[line.first_free] + 0.6 * (line.length() - line.arcs[line.first_free]));
+    const Vec3 shin_axis = (line.at(line.length() - 0.15 * size) - knee).normalized();
+    const std::vector<Vec3> end = surface.last(leg.curve, 0.1 * size);
+    return std::any_of(end.begin(), end.end(),
+                       [&](const Vec3& p) { return (p - knee).cross(shin_axis).norm() > k_toes_off_shin * size; });
+}
+
 LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
 {
     const Centreline& line = leg.line;
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
-    const int shin = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.22 * size, 0.04 * size });
+    const Narrowest narrow = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.22 * size, 0.04 * size });
+    const bool whole = narrow.widens || has_foot(surface, leg, size);
+    const int shin = whole ? narrow.row : line.size() - 1;
     require(shin > line.first_free + 4, "ankle", leg.tip());
     LimbJoints joints;
     const Vec3 along_thigh = (leg.ring() - line.at(line.arcs[line.first_free] + 0.12 * size)).normalized();
     joints.root = leg.ring() + k_hip_above_crotch * size * along_thigh;
-    joints.middle = bend(line, line.first_free, shin, joints.root, k_knee_above_shin, size);
-    const Vec3 shin_axis = (line.points[shin] - joints.middle).normalized();
-    const Vec3 sole = sole_below(foot, joints.middle, shin_axis, 0.05 * size);
-    const double above_sole = (sole - line.points[shin]).dot(shin_axis) - k_ankle_height * size;
-    const double below_shin = std::min(above_sole, k_ankle_below_shin * size);  // of a pointed foot, the toes are the sole
-    joints.end = line.points[shin] + below_shin * shin_axis;
+    joints.middle = bend(line, line.first_free, shin, joints.root, whole ? k_knee_above_shin : k_knee_ratio, size);
+    joints.end = whole ? ankle(foot, joints.middle, line.points[shin], size) : line.points[shin];
     joints.tip = farthest(foot, [&](const Vec3& p) { return (p - joints.end).dot(leg.tip() - joints.end); });
     return joints;
 }
@@ -304,6 +334,13 @@ Centreline spine(const Surface& surface, const Slicer& slicer, const Vec3& pelvi
     return polyline(middles, 0.5 * k_spacing * surface.graph.size);
 }
 
+Centreline extended(const Centreline& line, const Vec3& to)
+{
+    std::vector<Vec3> points = line.points;
+    points.push_back(to);
+    return polyline(points, line.length() / line.size());
+}
+
 /// The highest point of a line that is `distance` away from its end beyond, m.
 Vec3 below(const Centreline& line, const Vec3& end, double distance)
 {
@@ -325,7 +362,8 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
 
     BodyJoints joints;
     joints.size = graph.size;
-    joints.crown = farthest(surface.last(4, 0.12 * graph.size), [&](const Vec3& p) { return p.dot(up); });
+    joints.crown = farthest(graph.headless ? surface.last(5, 0.12 * graph.size) : surface.last(4, 0.12 * graph.size),
+                            [&](const Vec3& p) { return p.dot(up); });
     Centreline axis;
     for (int round = 0; round < 2; ++round) {  // curves cut corners: bent legs make the first size too small
         for (int i = 0; i < 2; ++i)
@@ -333,16 +371,19 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
         level_upper_lengths(joints.legs, k_knee_ratio);
         joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
         axis = spine(surface, slicer, joints.pelvis, up);
+        if (graph.headless)  // the curve ends where the arms leave
+            axis = extended(axis, joints.crown);
         const double trunk = axis.length() + (joints.crown - axis.points.back()).norm();
         const double leg = 0.5 * (length(joints.legs[0]) + length(joints.legs[1]));
-        joints.size = 0.5 * (leg / k_leg + trunk / k_hip_to_crown);
+        joints.size = graph.headless ? leg / k_leg : 0.5 * (leg / k_leg + trunk / k_hip_to_crown);
     }
     for (int i = 0; i < 2; ++i)
         joints.arms[i] = arm_joints(surface, arms[i], up, joints.size);
     level_upper_lengths(joints.arms, k_elbow_ratio);
 
-    joints.neck_base = below(axis, joints.crown, k_neck_base * joints.size);
-    joints.skull_base = joints.crown + k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
+    const double head = graph.headless ? k_stub : 1;
+    joints.neck_base = below(axis, joints.crown, head * k_neck_base * joints.size);
+    joints.skull_base = joints.crown + head * k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
     joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
     const double neck = axis.arcs[axis.nearest_row(joints.neck_base)];
     joints.lower_spine = axis.at(neck / 3);

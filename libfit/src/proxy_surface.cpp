@@ -5,11 +5,10 @@
 #include <utility>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include "cgal_mesh.h"
+#include "short_edges.h"
 
 namespace fit {
 
@@ -19,14 +18,9 @@ namespace sms = CGAL::Surface_mesh_simplification;
 
 using Stop = sms::Count_stop_predicate<CgalMesh>;
 
-// Above this multiple of the target, the shortest edges go first: ten times as fast, and they are far below the target's
+// Above this multiple of the target, the shortest edges go first: that is far cheaper, and they are far below the target's
 // resolution.
 constexpr int k_coarse_multiple = 4;
-
-Stop stop_at(int vertices)
-{
-    return Stop(3 * std::size_t(vertices));  // Euler: three edges a vertex
-}
 
 /// Each triangle cut into four at the middles of its edges.
 TriangleMesh quartered(const TriangleMesh& mesh)
@@ -56,12 +50,9 @@ TriangleMesh quartered(const TriangleMesh& mesh)
 
 TriangleMesh decimated(const TriangleMesh& closed, int vertices)
 {
-    CgalMesh mesh = to_cgal(closed);
-    if (closed.positions.rows() > k_coarse_multiple * vertices)
-        sms::edge_collapse(mesh, stop_at(k_coarse_multiple * vertices),
-                           CGAL::parameters::get_cost(sms::Edge_length_cost<CgalMesh>())
-                               .get_placement(sms::Midpoint_placement<CgalMesh>()));
-    sms::edge_collapse(mesh, stop_at(vertices));
+    const int coarse = k_coarse_multiple * vertices;
+    CgalMesh mesh = to_cgal(closed.positions.rows() > coarse ? without_short_edges(closed, coarse) : closed);
+    sms::edge_collapse(mesh, Stop(3 * std::size_t(vertices)));  // Euler: three edges a vertex
     mesh.collect_garbage();
     return from_cgal(mesh);
 }

@@ -8,6 +8,8 @@
 namespace fit {
 namespace {
 
+constexpr double k_stump = 0.03;  // of stature: no further do the ends of legs without feet stick out, toes twice as far
+
 /// One piece of evidence: a vector that should point forward, in the trunk's axes. Its weight is how far it can be trusted.
 struct Cue {
     Vec3 forward;
@@ -33,11 +35,12 @@ Vec3 carried_up_leg(const LimbJoints& leg, const Vec3& v, bool at_ankle, const V
     return carried(at_ankle ? carried(v, shin, thigh) : v, thigh, down);
 }
 
-void add_leg_cues(const LimbJoints& leg, const Vec3& up, std::vector<Cue>& cues)
+void add_leg_cues(const LimbJoints& leg, const Vec3& up, double size, std::vector<Cue>& cues)
 {
     const Vec3 shin = (leg.end - leg.middle).normalized(), thigh = (leg.middle - leg.root).normalized();
-    const Vec3 toes = without(leg.tip - leg.end, shin).normalized();
-    cues.push_back({ carried_up_leg(leg, toes, true, -up), 1.0 });
+    const Vec3 toes = without(leg.tip - leg.end, shin);
+    const double stick_out = (toes.norm() / size - k_stump) / k_stump;
+    cues.push_back({ carried_up_leg(leg, toes.normalized(), true, -up), std::clamp(stick_out, 0.0, 1.0) });
     const Vec3 knee = flexion(leg);
     const Vec3 kneecap = carried_up_leg(leg, without(knee, thigh).normalized(), false, -up);
     cues.push_back({ kneecap, std::min(1.0, 6 * knee.norm()) });
@@ -65,7 +68,7 @@ Sides side_vote(const BodyJoints& joints)
 
     std::vector<Cue> cues;
     for (int i = 0; i < 2; ++i) {
-        add_leg_cues(joints.legs[i], sides.up, cues);
+        add_leg_cues(joints.legs[i], sides.up, joints.size, cues);
         add_arm_cues(joints.arms[i], sides.up, cues);
     }
     cues.push_back({ without(joints.crown - joints.skull_base, sides.up).normalized(),
