@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/rig_body.h"
 
+#include <algorithm>
+
 #include "body_graph.h"
 #include "curve_skeleton.h"
 #include "fit/error.h"
+#include "given_joints.h"
 #include "heat_weights.h"
 #include "joint_labels.h"
 #include "proxy_surface.h"
@@ -94,33 +97,70 @@ Skeleton moved(Skeleton skeleton, const Vec3& by)
     return skeleton;
 }
 
-Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
+/// Skeleton and what the limbs' curves say about who sees whom.
+struct FoundBones {
+    Rig rig;  ///< without weights
+    VisibleBones visible;
+};
+
+FoundBones found_bones(const TriangleMesh& proxy, const RigOptions& options, const Progress& progress)
 {
-    const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
-    progress.at(0.15);
-    const CurveSkeleton curves = curve_skeleton(proxy, progress.part(0.15, 0.7));
+    const CurveSkeleton curves = curve_skeleton(proxy, progress);
     const BodyGraph graph = body_graph(curves);
     const BodyJoints joints = joint_labels(proxy, curves, graph);
-    progress.at(0.8);
-    Sides sides = side_vote(joints);
+    Sides sides = side_vote(joints, options.front);
     if (options.swap_sides) {
         sides.left_arm = 1 - sides.left_arm;
         sides.left_leg = 1 - sides.left_leg;
         sides.front = -sides.front;
     }
+    FoundBones found { {}, visible_bones(curves, graph, sides) };
+    found.rig.skeleton = corrected(skeleton_of(joints, sides), options.joints);
+    found.rig.up = sides.up;
+    found.rig.front = sides.front;
+    found.rig.side_margin = sides.margin;
+    return found;
+}
 
-    Rig rig;
-    rig.skeleton = skeleton_of(joints, sides);
-    rig.up = sides.up;
-    rig.front = sides.front;
-    rig.side_margin = sides.margin;
+/// Nothing to find: every joint is given.
+FoundBones given_bones(const TriangleMesh& proxy, const GivenJoints& joints)
+{
+    std::array<bool, bone_count> all;
+    all.fill(true);
+    FoundBones given { {}, VisibleBones(proxy.positions.rows(), all) };
+    const Skeleton& s = given.rig.skeleton = skeleton_of(joints);
+    given.rig.up = (s.tail(thorax) - s.root).normalized();
+    given.rig.front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(given.rig.up).normalized();
+    given.rig.side_margin = 1;
+    return given;
+}
+
+Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
+{
+    const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
+    progress.at(0.15);
+    auto [rig, visible] = options.joints.complete() ? given_bones(proxy, options.joints)
+                                                    : found_bones(proxy, options, progress.part(0.15, 0.8));
+    progress.at(0.8);
     check_rig(proxy, rig.skeleton);
-    const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible_bones(curves, graph, sides));
+    const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible);
     progress.at(0.9);
     rig.weights = transferred(proxy, weights, body);
     rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
     progress.at(1);
     return rig;
+}
+
+GivenJoints moved(GivenJoints joints, const Vec3& by)
+{
+    const auto move = [&](std::optional<Vec3>& joint) {
+        if (joint)
+            *joint += by;
+    };
+    move(joints.root);
+    std::for_each(joints.tails.begin(), joints.tails.end(), move);
+    std::for_each(joints.tips.begin(), joints.tips.end(), move);
+    return joints;
 }
 
 }  // namespace
@@ -129,12 +169,14 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
 {
     const Vec3 centre = 0.5 * (body.closed.positions.colwise().minCoeff() + body.closed.positions.colwise().maxCoeff());
     const BodyMesh at_origin = centred(body, centre);
+    RigOptions there = options;
+    there.joints = moved(options.joints, -centre);
     Rig rig;
     try {
-        rig = rigged(at_origin, options.proxy_vertices, options, progress.part(0, 1));
+        rig = rigged(at_origin, options.proxy_vertices, there, progress.part(0, 1));
     } catch (const InvalidInput&) {
         // the flow may lose its way at a touching hand or a deep bend: other triangles, another way
-        rig = rigged(at_origin, options.proxy_vertices * 2 / 3, options, progress.part(0.9, 1));
+        rig = rigged(at_origin, options.proxy_vertices * 2 / 3, there, progress.part(0.9, 1));
     }
     rig.skeleton = moved(rig.skeleton, centre);
     return rig;

@@ -54,9 +54,21 @@ void add_arm_cues(const LimbJoints& arm, const Vec3& up, std::vector<Cue>& cues)
     cues.push_back({ off.normalized(), std::min(0.5, 2 * off.norm()) });
 }
 
+std::vector<Cue> cues_of(const BodyJoints& joints, const Vec3& up)
+{
+    std::vector<Cue> cues;
+    for (int i = 0; i < 2; ++i) {
+        add_leg_cues(joints.legs[i], up, joints.size, cues);
+        add_arm_cues(joints.arms[i], up, cues);
+    }
+    cues.push_back({ without(joints.crown - joints.skull_base, up).normalized(),
+                     std::min(0.5, 2 * without(joints.crown - joints.skull_base, up).norm() / joints.size) });
+    return cues;
+}
+
 }  // namespace
 
-Sides side_vote(const BodyJoints& joints)
+Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front)
 {
     Sides sides;
     sides.up = (joints.neck_base - joints.pelvis).normalized();
@@ -66,13 +78,8 @@ Sides side_vote(const BodyJoints& joints)
     const Vec3 across = (hips + (same_order ? 1 : -1) * shoulders).normalized();  // from leg 1 to leg 0
     const Vec3 front = across.cross(sides.up).normalized();                       // if leg 0 is the left one
 
-    std::vector<Cue> cues;
-    for (int i = 0; i < 2; ++i) {
-        add_leg_cues(joints.legs[i], sides.up, joints.size, cues);
-        add_arm_cues(joints.arms[i], sides.up, cues);
-    }
-    cues.push_back({ without(joints.crown - joints.skull_base, sides.up).normalized(),
-                     std::min(0.5, 2 * without(joints.crown - joints.skull_base, sides.up).norm() / joints.size) });
+    const std::vector<Cue> cues
+        = known_front ? std::vector<Cue> { { known_front->normalized(), 1 } } : cues_of(joints, sides.up);
     double votes = 0, weights = 0;
     for (const Cue& cue : cues) {
         if (!cue.forward.allFinite())

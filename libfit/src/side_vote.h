@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "joint_labels.h"
 
 namespace fit {
@@ -14,6 +16,7 @@ struct Sides {
 
 /// A human is nearly its own mirror image, so cues vote: toes point forward, knees flex back, hips flex forward, elbows flex
 /// forward, the face is in front of the neck. Each is carried to the trunk along its limb without twist. O(n).
-Sides side_vote(const BodyJoints& joints);
+/// @param known_front  ends the vote: the sides are those that face it best, the margin says how well
+Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front = {});
 
 }  // namespace fit

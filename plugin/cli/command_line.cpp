@@ -24,7 +24,8 @@ constexpr CommandText k_commands[] = {
     { "rig",
       "Examples:\n"
       "  garmentfit rig man.ply -o rigged\n"
-      "  garmentfit rig woman.obj --unit dm --swap-sides -o rigged\n" },
+      "  garmentfit rig woman.obj --unit dm --swap-sides -o rigged\n"
+      "  garmentfit rig scan.ply --up +z --front +x --joints elbows.json -o rigged\n" },
     { "fit",
       "Examples:\n"
       "  garmentfit fit man.ply coat.obj -o fitted\n"
@@ -77,6 +78,10 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
         ->default_str("auto");
     command.add_option("--up", call.body_frame.up, "Up axis of the body's file: auto, +x, -x, +y, -y, +z, -z")
         ->default_str("auto");
+    command
+        .add_option("--front", call.front, "Where the chest faces, roughly: +x, -x, +y, -y, +z, -z of the body's file")
+        ->default_str("auto");
+    command.add_option("--joints", call.joints, "Joints given or corrected, all or some: JSON, see docs/rig.md");
     if (!filter.has(Stage::fit))
         return;
     command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out")->required();
@@ -89,8 +94,9 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
         ->default_str("auto");
     command.add_option("--garment-unit", call.garment_frame.unit, "Unit of the garments' files")->default_str("auto");
     command.add_option("--garment-up", call.garment_frame.up, "Up axis of the garments' files")->default_str("auto");
-    if (takes_a_rig(filter))
-        command.add_option("--rig", call.rig, "Take the skeleton from this rig.json (rigged.ply beside it)");
+    command.add_option("--rig", call.rig,
+                       "Take the skeleton from this rig.json (weights from rigged.ply beside it, where it stands there) or "
+                       "from this skinned GLB of the same vertices");
 }
 
 void add_command(CLI::App& app, const CommandText& text, Call& call)

@@ -15,10 +15,11 @@ namespace fit::cli {
 
 struct Call {
     const Filter* filter = nullptr;
-    std::filesystem::path body, from, rig, out;  ///< `from`: the folder that drape and recover continue
+    std::filesystem::path body, from, rig, joints, out;  ///< `from`: the folder that drape and recover continue
     std::vector<std::filesystem::path> garments;
     std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
     FrameChoice body_frame, garment_frame;
+    std::string front;  ///< an axis of the body's file; empty: found
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
     unsigned seed = 0;

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
@@ -19,6 +21,7 @@
 #include "progress_bar.h"
 #include "report.h"
 #include "results.h"
+#include "rig_file.h"
 #include "session.h"
 
 namespace {
@@ -28,7 +31,19 @@ using namespace fit::cli;
 
 constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
 
-Session read(const Call& call)
+/// What the user knows about the body's bones.
+void read_bones(Call& call, Session& session)
+{
+    const Frame& frame = session.body.frame.frame;
+    if (!call.front.empty() && call.front != "auto")
+        call.parameters.rig.front = frame.rotation() * axis_of(call.front);
+    if (!call.joints.empty())
+        call.parameters.rig.joints = read_joints(call.joints, frame);
+    if (!call.rig.empty() && !read_rig(session, call.rig))
+        call.parameters.rig.joints = read_joints(call.rig, frame);
+}
+
+Session read(Call& call)
 {
     Session session;
     if (call.filter->name == "drape") {
@@ -37,24 +52,39 @@ Session read(const Call& call)
         read_draped(session, call.from);
     } else {
         read_body(session, call.body, call.body_frame);
+        read_bones(call, session);
         for (std::size_t i = 0; i < call.garments.size(); ++i)
             add_garment(session, call.garments[i],
                         i < call.types.size() ? garment_type_of(call.types[i]) : GarmentType::automatic,
                         call.garment_frame);
-        if (!call.rig.empty())
-            read_rig(session, call.rig);
     }
     return session;
+}
+
+/// Which filters to run: each finds what it needs, or it stands in the scene already.
+std::vector<std::string_view> filters_for(const Call& call, const Session& session)
+{
+    if (call.filter->name == "fit" && !session.scene.rig)
+        return { "rig", "fit" };
+    if (call.filter->name == "dress" && session.scene.rig)
+        return { "fit", "drape", "recover" };
+    return { call.filter->name };
 }
 
 void compute(const Call& call, Session& session)
 {
     ProgressBar bar(isatty(STDERR_FILENO) && !call.quiet);
     const Progress progress = bar.progress();
-    const bool rig_first = call.filter->name == "fit" && !session.scene.rig;
-    if (rig_first)
-        filter_of("rig").run(session.scene, call.parameters, progress.part(0, 0.4));
-    call.filter->run(session.scene, call.parameters, progress.part(rig_first ? 0.4 : 0, 1));
+    const std::vector<std::string_view> names = filters_for(call, session);
+    Parameters parameters = call.parameters;
+    if (call.filter->has(Stage::drape))
+        parameters.recover.cloth = parameters.drape.cloth;  // one flag for both
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double n = double(names.size());
+        filter_of(names[i]).run(session.scene, parameters, progress.part(double(i) / n, double(i + 1) / n));
+        if (session.scene.draped && !session.scene.draped->certified)
+            break;
+    }
 }
 
 void write(const Call& call, Session& session, OutputFolder& folder)
@@ -77,7 +107,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
 
 int run(int argc, char** argv)
 {
-    const std::optional<Call> call = parse(argc, argv);
+    std::optional<Call> call = parse(argc, argv);
     if (!call)
         return 0;
     std::optional<tbb::global_control> threads;

@@ -8,6 +8,7 @@
 
 #include "fit/certificate.h"
 #include "fit/io.h"
+#include "fit/skinned_gltf.h"
 #include "rig_file.h"
 
 namespace fit::cli {
@@ -228,6 +229,8 @@ void write_results(Session& session, std::string_view command, const fs::path& f
     Scene& scene = session.scene;
     write_rig_file(folder / "rig.json", rig_file_of(session));
     write_rigged(session, folder / "rigged.ply");
+    if (command == "rig")
+        write_skinned_glb(folder / "rigged.glb", scene.body->surface, *scene.rig);
     if (command == "fit") {
         write_garments_as_given(session, folder);
         write_fitted_body(session, folder);

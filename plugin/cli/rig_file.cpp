@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* k_format = "garmentfit-rig";
 constexpr int k_version = 1;
+/// Of the joints at the bones' tails, in the order of Bone.
+constexpr const char* k_joint_names[bone_count]
+    = { "lhip", "lknee", "lankle", "rhip", "rknee", "rankle", "lower_spine", "upper_spine", "neck",
+        "mid_neck", "skull", "lshoulder", "lelbow", "lwrist", "rshoulder", "relbow", "rwrist" };
 constexpr const char* k_tip_names[extremity_count] = { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip", "rfoot_tip" };
 
 // ---- values in the file's units and axes -----------------------------------------------------------------------
@@ -187,6 +192,57 @@ RigFile rig_file_of(const Json& json)
     return contents;
 }
 
+GivenJoints all_joints(const Skeleton& skeleton)
+{
+    GivenJoints joints { skeleton.root, {}, {} };
+    for (int b = 0; b < bone_count; ++b)
+        joints.tails[b] = skeleton.tails[b];
+    for (int e = 0; e < extremity_count; ++e)
+        joints.tips[e] = skeleton.tips[e];
+    return joints;
+}
+
+/// Where a joint of that name is kept. @throws InvalidInput listing the names.
+std::optional<Vec3>& joint_of(GivenJoints& joints, const std::string& name)
+{
+    std::string names = "root";
+    for (int b = 0; b < bone_count; names += ", " + std::string(k_joint_names[b++]))
+        if (name == k_joint_names[b])
+            return joints.tails[b];
+    for (int e = 0; e < extremity_count; names += ", " + std::string(k_tip_names[e++]))
+        if (name == k_tip_names[e])
+            return joints.tips[e];
+    if (name != "root")
+        throw InvalidInput("no joint is called \"" + name + "\"; there are " + names);
+    return joints.root;
+}
+
+GivenJoints joints_of(const Frame& frame, const Json& json)
+{
+    if (json.contains("bones"))
+        return all_joints(skeleton_of(frame_of(json), json));
+    GivenJoints joints;
+    for (const auto& [name, position] : json.at("joints").items())
+        joint_of(joints, name) = point(frame, position);
+    return joints;
+}
+
+/// @throws InvalidInput naming the file, whatever is wrong in it.
+template <class Read>
+auto read_json(const std::filesystem::path& path, const char* remedy, const Read& read)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw InvalidInput("cannot read " + path.string() + "; " + remedy);
+    try {
+        return read(Json::parse(file));
+    } catch (const Json::exception& error) {
+        throw InvalidInput(path.string() + ": " + error.what() + "; " + remedy);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(path.string() + ": " + error.what() + "; " + remedy);
+    }
+}
+
 }  // namespace
 
 void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
@@ -209,18 +265,15 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
         throw InvalidInput("cannot write " + path.string() + "; is the disk full?");
 }
 
+GivenJoints read_joints(const std::filesystem::path& path, const Frame& frame)
+{
+    return read_json(path, "give {\"joints\": {\"lelbow\": [x, y, z], ...}}, or a rig.json",
+                     [&](const Json& json) { return joints_of(frame, json); });
+}
+
 RigFile read_rig_file(const std::filesystem::path& path)
 {
-    std::ifstream file(path);
-    if (!file)
-        throw InvalidInput("cannot read " + path.string() + "; give what garmentfit wrote");
-    try {
-        return rig_file_of(Json::parse(file));
-    } catch (const Json::exception& error) {
-        throw InvalidInput(path.string() + ": " + error.what() + "; write it again with garmentfit");
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(path.string() + ": " + error.what() + "; write it again with garmentfit");
-    }
+    return read_json(path, "give what garmentfit wrote", rig_file_of);
 }
 
 }  // namespace fit::cli

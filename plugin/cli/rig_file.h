@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/fit_skeleton.h"
+#include "fit/rig_body.h"
 #include "fit/skeleton.h"
 #include "fit/units.h"
 
@@ -26,6 +27,9 @@ struct RigFile {
 };
 
 void write_rig_file(const std::filesystem::path& path, const RigFile& contents);
+/// Joints given by hand, {"joints": {"lelbow": [x, y, z], ...}}, or those of a whole rig.json; in metres.
+/// @throws InvalidInput naming the file and what is wrong in it, or all names of joints.
+GivenJoints read_joints(const std::filesystem::path& path, const Frame& frame);
 /// @throws InvalidInput naming the file and what is wrong in it.
 RigFile read_rig_file(const std::filesystem::path& path);
 

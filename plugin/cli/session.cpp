@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "fit/certificate.h"
 #include "fit/error.h"
+#include "fit/skinned_gltf.h"
 #include "results.h"
 #include "rig_file.h"
 
@@ -12,6 +14,8 @@ namespace fit::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double k_same_place = 1e-3;  // of the diagonal: floats of a body in millimetres are far better
 
 class Stopwatch {
 public:
@@ -78,10 +82,8 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     session.garments.push_back(std::move(garment));
 }
 
-RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
+SkinWeights read_weights(const fs::path& rigged)
 {
-    RigFile contents = read_rig_file(rig_json);
-    const fs::path rigged = rig_json.parent_path() / "rigged.ply";
     const std::vector<VertexProperty> properties = read_ply_properties(rigged);
     const auto column = [&](const std::string& name) -> const std::vector<double>& {
         for (const VertexProperty& property : properties)
@@ -91,22 +93,68 @@ RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
                            + "; write it again with garmentfit rig");
     };
     const std::size_t n = column("weight0").size();
-    Rig rig = contents.rig;
-    rig.weights.bones.resize(n, 4);
-    rig.weights.weights.resize(n, 4);
+    SkinWeights weights;
+    weights.bones.resize(n, 4);
+    weights.weights.resize(n, 4);
     for (int k = 0; k < 4; ++k) {
-        const auto& bones = column("joint" + std::to_string(k));
-        const auto& weights = column("weight" + std::to_string(k));
+        const auto& bone = column("joint" + std::to_string(k));
+        const auto& weight = column("weight" + std::to_string(k));
         for (std::size_t v = 0; v < n; ++v) {
-            if (!(bones[v] >= 0 && bones[v] < int(bone_count) && weights[v] >= 0 && weights[v] <= 1))
+            if (!(bone[v] >= 0 && bone[v] < int(bone_count) && weight[v] >= 0 && weight[v] <= 1))
                 throw InvalidInput(rigged.string() + ": vertex " + std::to_string(v)
                                    + " has a bone or weight out of range; write it again with garmentfit rig");
-            rig.weights.bones(v, k) = static_cast<int>(bones[v]);
-            rig.weights.weights(v, k) = weights[v];
+            weights.bones(v, k) = static_cast<int>(bone[v]);
+            weights.weights(v, k) = weight[v];
         }
     }
-    session.scene.rig = std::move(rig);
+    return weights;
+}
+
+RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
+{
+    RigFile contents = read_rig_file(rig_json);
+    session.scene.rig = contents.rig;
+    session.scene.rig->weights = read_weights(rig_json.parent_path() / "rigged.ply");
     return contents;
+}
+
+void require_same_count(const Session& session, const fs::path& rig)
+{
+    const auto rigged = session.scene.rig->weights.weights.rows(), given = session.body.file.positions().rows();
+    if (rigged != given)
+        throw InvalidInput(rig.string() + " belongs to a body of " + std::to_string(rigged) + " vertices, "
+                           + session.body.path.string() + " has " + std::to_string(given) + "; rig this body");
+}
+
+/// The units and axes in which a rig's own mesh lies on the body: the body's, or glTF's own.
+Frame frame_on_body(const Session& session, const fs::path& glb)
+{
+    const Positions body = session.scene.body->surface.positions, mesh = MeshFile::read(glb).positions();
+    const double close = k_same_place * (body.colwise().maxCoeff() - body.colwise().minCoeff()).norm();
+    for (const Frame& frame : { session.body.frame.frame, Frame() })
+        if (mesh.rows() == body.rows() && (frame.to_metres(mesh) - body).rowwise().norm().maxCoeff() < close)
+            return frame;
+    throw InvalidInput(glb.string() + " has " + std::to_string(mesh.rows()) + " vertices that do not lie where the "
+                       + std::to_string(body.rows()) + " of " + session.body.path.string()
+                       + " do; give the rig of this very mesh in its bind pose");
+}
+
+void read_skinned(Session& session, const fs::path& glb)
+{
+    const Frame frame = frame_on_body(session, glb);
+    const ForeignRig foreign = read_skinned_gltf(glb);
+    const auto in_metres = [&](const Vec3& p) { return Vec3(frame.to_metres(Positions(p.transpose())).row(0)); };
+    Rig rig { foreign.skeleton, foreign.weights };
+    rig.skeleton.root = in_metres(rig.skeleton.root);
+    std::transform(rig.skeleton.tails.begin(), rig.skeleton.tails.end(), rig.skeleton.tails.begin(), in_metres);
+    std::transform(rig.skeleton.tips.begin(), rig.skeleton.tips.end(), rig.skeleton.tips.begin(), in_metres);
+    session.scene.rig = std::move(rig);
+    require_same_count(session, glb);
+    Rig& made = *session.scene.rig;
+    made.up = (made.skeleton.tail(thorax) - made.skeleton.root).normalized();
+    made.front = (made.skeleton.tail(lhipjoint) - made.skeleton.tail(rhipjoint)).cross(made.up).normalized();
+    made.side_margin = 1;
+    made.radii = bone_radii(made.skeleton, made.weights, session.scene.body->surface.positions);
 }
 
 /// Body, rig and fits as `fit` and `drape` leave them; the garments as given lie in `rest`.
@@ -159,17 +207,21 @@ void add_garment(Session& session, const fs::path& path, GarmentType type, const
     add_garment_file(session, std::move(garment), type);
 }
 
-void read_rig(Session& session, const fs::path& rig_json)
+bool read_rig(Session& session, const fs::path& rig)
 {
     const Stopwatch watch(session.read_seconds);
-    const RigFile contents = read_rig_with_weights(session, rig_json);
-    const auto rigged = session.scene.rig->weights.weights.rows(), given = session.body.file.positions().rows();
-    if (rigged != given)
-        throw InvalidInput(rig_json.string() + " belongs to a body of " + std::to_string(rigged) + " vertices, "
-                           + session.body.path.string() + " has " + std::to_string(given) + "; rig this body");
+    if (rig.extension() != ".json") {
+        read_skinned(session, rig);
+        return true;
+    }
+    if (!fs::exists(rig.parent_path() / "rigged.ply"))
+        return false;
+    const RigFile contents = read_rig_with_weights(session, rig);
+    require_same_count(session, rig);
     if (!same(contents.frame, session.body.frame.frame))
-        throw InvalidInput(rig_json.string() + " has other units or axes than were found for "
+        throw InvalidInput(rig.string() + " has other units or axes than were found for "
                            + session.body.path.string() + "; give the same --unit and --up as to garmentfit rig");
+    return true;
 }
 
 void read_fitted(Session& session, const fs::path& folder)

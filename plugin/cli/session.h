@@ -44,8 +44,9 @@ struct Session {
 void read_body(Session& session, const std::filesystem::path& path, const FrameChoice& choice);
 void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const FrameChoice& choice);
 
-/// The skeleton and weights from what `rig` or `fit` wrote: rig.json, and rigged.ply beside it.
-void read_rig(Session& session, const std::filesystem::path& rig_json);
+/// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.
+/// False: only joints stand there, weights are still to be found.
+bool read_rig(Session& session, const std::filesystem::path& rig);
 /// All that `fit` wrote, for draping.
 void read_fitted(Session& session, const std::filesystem::path& folder);
 /// All that `drape` wrote, for recovering the pose.
