@@ -9,7 +9,7 @@
 namespace fit {
 namespace {
 
-constexpr double k_short_loop = 0.15;   // of the diagonal: two fingers that touch, not an arm and the trunk
+constexpr double k_short_loop = 0.15;  // of the diagonal: two fingers that touch, not an arm and the trunk
 constexpr std::size_t k_most_ways = 1000;
 
 using Edge = std::array<int, 2>;
@@ -64,7 +64,10 @@ std::vector<int> shortest_loop(const CurveSkeleton& skeleton, const Neighbours& 
     return shortest;
 }
 
-Edge edge_at(const std::vector<int>& loop, std::size_t i) { return { loop[i % loop.size()], loop[(i + 1) % loop.size()] }; }
+Edge edge_at(const std::vector<int>& loop, std::size_t i)
+{
+    return { loop[i % loop.size()], loop[(i + 1) % loop.size()] };
+}
 
 /// The edges of a loop beside its forks, and those halfway between.
 std::vector<Edge> places_to_cut(const std::vector<int>& loop, const Neighbours& neighbours)

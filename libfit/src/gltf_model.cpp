@@ -14,7 +14,8 @@ using nlohmann::ordered_json;
 ordered_json geometry_of(const ordered_json& json)
 {
     ordered_json geometry = ordered_json::object();
-    for (const char* key : { "asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene", "skins" })
+    for (const char* key :
+         { "asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene", "skins" })
         if (json.contains(key))
             geometry[key] = json[key];
     return geometry;
@@ -55,10 +56,7 @@ tinygltf::FsCallbacks plain_files()
 
 }  // namespace
 
-std::string first_line(const std::string& text)
-{
-    return text.substr(0, std::min<std::size_t>(text.find('\n'), 200));
-}
+std::string first_line(const std::string& text) { return text.substr(0, std::min<std::size_t>(text.find('\n'), 200)); }
 
 tinygltf::Model load_model(const FileBytes& file, const GltfContainer& container, const std::filesystem::path& folder)
 {
@@ -74,7 +72,8 @@ tinygltf::Model load_model(const FileBytes& file, const GltfContainer& container
     const auto size = static_cast<unsigned int>(bytes.size());
     const std::string base = folder.empty() ? "." : folder.string();
     const bool loaded = container.is_binary
-        ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), size, base)
+        ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+                                      size, base)
         : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, base);
     if (!loaded || !error.empty())
         file.fail("is not valid glTF: " + first_line(error));
@@ -103,7 +102,8 @@ Column column_of(const FileBytes& file, const tinygltf::Model& model, int index,
         && element <= size - column.begin && column.stride >= element && column.count > 0
         && column.count - 1 <= (size - column.begin - element) / column.stride;
     if (!fits)
-        file.fail(name + " reaches beyond its buffer of " + std::to_string(size) + " bytes; the file is truncated or mangled");
+        file.fail(name + " reaches beyond its buffer of " + std::to_string(size)
+                  + " bytes; the file is truncated or mangled");
     return column;
 }
 

@@ -37,10 +37,16 @@ ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
 
 MeshFile MeshFile::read(const std::filesystem::path& path)
 {
+    MeshFile mesh = read_points(path);
+    if (mesh.triangles().rows() == 0)
+        throw InvalidInput(path.string() + ": has no faces; give a surface mesh, or --reconstruct the points of a body");
+    return mesh;
+}
+
+MeshFile MeshFile::read_points(const std::filesystem::path& path)
+{
     MeshFile mesh;
     mesh.content_ = read_content(read_file(path), path);
-    if (mesh.triangles().rows() == 0)
-        throw InvalidInput(path.string() + ": has no faces; give a surface mesh");
     return mesh;
 }
 

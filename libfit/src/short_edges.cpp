@@ -15,8 +15,9 @@ constexpr int k_most_sweeps = 12;
 
 class Collapser {
 public:
-    explicit Collapser(const TriangleMesh& mesh)
-        : positions_(mesh.positions), triangles_(mesh.triangles), faces_of_(mesh.positions.rows()), left_(int(mesh.positions.rows()))
+    explicit Collapser(const TriangleMesh& mesh) :
+        positions_(mesh.positions), triangles_(mesh.triangles), faces_of_(mesh.positions.rows()),
+        left_(int(mesh.positions.rows()))
     {
         for (int f = 0; f < int(triangles_.rows()); ++f)
             for (int k = 0; k < 3; ++k)
@@ -85,7 +86,8 @@ private:
         common_.clear();
         std::set_intersection(of_v_.begin(), of_v_.end(), of_u_.begin(), of_u_.end(), std::back_inserter(common_));
         const Vec3 middle = 0.5 * (at(v) + at(u));
-        return common_.size() == 2 && of_v_.size() + of_u_.size() > 8 && stays_up(v, u, middle) && stays_up(u, v, middle);
+        return common_.size() == 2 && of_v_.size() + of_u_.size() > 8 && stays_up(v, u, middle)
+            && stays_up(u, v, middle);
     }
 
     bool stays_up(int v, int other, const Vec3& to) const
@@ -98,7 +100,10 @@ private:
                 before[k] = at(triangles_(f, k));
                 after[k] = triangles_(f, k) == v ? to : before[k];
             }
-            return (before[1] - before[0]).cross(before[2] - before[0]).dot((after[1] - after[0]).cross(after[2] - after[0])) > 0;
+            return (before[1] - before[0])
+                       .cross(before[2] - before[0])
+                       .dot((after[1] - after[0]).cross(after[2] - after[0]))
+                > 0;
         });
     }
 
@@ -123,10 +128,10 @@ private:
     }
 
     Positions positions_;
-    Triangles triangles_;                     // rows of -1: gone
+    Triangles triangles_;  // rows of -1: gone
     std::vector<std::vector<int>> faces_of_;  // empty: gone
     int left_;
-    std::vector<int> of_v_, of_u_, common_;   // kept between calls for their memory
+    std::vector<int> of_v_, of_u_, common_;  // kept between calls for their memory
 };
 
 double area(const TriangleMesh& mesh)
@@ -145,7 +150,8 @@ double area(const TriangleMesh& mesh)
 TriangleMesh without_short_edges(const TriangleMesh& closed, int vertices)
 {
     Collapser collapser(closed);
-    double length = k_first_length * std::sqrt(2 / std::sqrt(3.0) * area(closed) / vertices);  // a vertex has two triangles
+    double length
+        = k_first_length * std::sqrt(2 / std::sqrt(3.0) * area(closed) / vertices);  // a vertex has two triangles
     for (int sweep = 0; sweep < k_most_sweeps && collapser.left() > vertices; ++sweep, length *= k_growth)
         collapser.sweep(length);
     return collapser.result();

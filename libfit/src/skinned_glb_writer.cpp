@@ -15,10 +15,11 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::uint32_t k_binary_chunk = 0x004E4942;
-constexpr int k_unsigned_byte = 5121, k_unsigned_int = 5125, k_float = 5126;     // glTF component types
-constexpr int k_array_buffer = 34962, k_element_array_buffer = 34963;            // glTF targets
+constexpr int k_unsigned_byte = 5121, k_unsigned_int = 5125, k_float = 5126;  // glTF component types
+constexpr int k_array_buffer = 34962, k_element_array_buffer = 34963;  // glTF targets
 constexpr std::array<const char*, extremity_count> k_last_joints { "head", "lhand", "rhand", "lfoot", "rfoot" };
-constexpr std::array<const char*, extremity_count> k_tips { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip", "rfoot_tip" };
+constexpr std::array<const char*, extremity_count> k_tips { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip",
+                                                            "rfoot_tip" };
 
 struct Joint {
     std::string name;
@@ -45,7 +46,8 @@ public:
     template <class Number, class Matrix>
     int add(const Matrix& rows, int component, const char* type, int target)
     {
-        const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values = rows.template cast<Number>();
+        const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values
+            = rows.template cast<Number>();
         const std::size_t begin = bytes_.size(), size = std::size_t(values.size()) * sizeof(Number);
         bytes_.resize(begin + size);
         std::memcpy(bytes_.data() + begin, values.data(), size);
@@ -53,8 +55,12 @@ public:
         if (target)
             view["target"] = target;
         views_.push_back(view);
-        const std::size_t count = std::string(type) == "SCALAR" ? std::size_t(values.size()) : std::size_t(values.rows());
-        accessors_.push_back({ { "bufferView", views_.size() - 1 }, { "componentType", component }, { "count", count }, { "type", type } });
+        const std::size_t count
+            = std::string(type) == "SCALAR" ? std::size_t(values.size()) : std::size_t(values.rows());
+        accessors_.push_back({ { "bufferView", views_.size() - 1 },
+                               { "componentType", component },
+                               { "count", count },
+                               { "type", type } });
         bytes_.resize((bytes_.size() + 3) / 4 * 4);
         return int(accessors_.size()) - 1;
     }
@@ -62,7 +68,8 @@ public:
     /// The format wants them for positions.
     void set_bounds(int accessor, const Positions& positions)
     {
-        const Eigen::RowVector3f least = positions.cast<float>().colwise().minCoeff(), most = positions.cast<float>().colwise().maxCoeff();
+        const Eigen::RowVector3f least = positions.cast<float>().colwise().minCoeff(),
+                                 most = positions.cast<float>().colwise().maxCoeff();
         accessors_[accessor]["min"] = { least.x(), least.y(), least.z() };
         accessors_[accessor]["max"] = { most.x(), most.y(), most.z() };
     }
@@ -118,8 +125,10 @@ void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& su
     Buffer buffer;
     const int positions = buffer.add<float>(surface.positions, k_float, "VEC3", k_array_buffer);
     buffer.set_bounds(positions, surface.positions);
-    const int normals = buffer.add<float>(vertex_normals(surface.positions, surface.triangles), k_float, "VEC3", k_array_buffer);
-    const Eigen::MatrixXi used = (rig.weights.weights.array() > 0).select(rig.weights.bones.array() + 1, 0);  // 0 where unused
+    const int normals
+        = buffer.add<float>(vertex_normals(surface.positions, surface.triangles), k_float, "VEC3", k_array_buffer);
+    const Eigen::MatrixXi used
+        = (rig.weights.weights.array() > 0).select(rig.weights.bones.array() + 1, 0);  // 0 where unused
     const int bones = buffer.add<std::uint8_t>(used, k_unsigned_byte, "VEC4", k_array_buffer);
     const int weights = buffer.add<float>(rig.weights.weights, k_float, "VEC4", k_array_buffer);
     const int indices = buffer.add<std::uint32_t>(surface.triangles, k_unsigned_int, "SCALAR", k_element_array_buffer);
@@ -128,8 +137,11 @@ void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& su
     ordered_json json { { "asset", { { "version", "2.0" }, { "generator", "garmentfit" } } }, { "scene", 0 } };
     json["scenes"] = { { { "nodes", { 0, 1 } } } };
     json["nodes"] = nodes_of(joints);
-    const ordered_json attributes { { "POSITION", positions }, { "NORMAL", normals }, { "JOINTS_0", bones }, { "WEIGHTS_0", weights } };
-    json["meshes"] = { { { "name", "body" }, { "primitives", { { { "attributes", attributes }, { "indices", indices } } } } } };
+    const ordered_json attributes {
+        { "POSITION", positions }, { "NORMAL", normals }, { "JOINTS_0", bones }, { "WEIGHTS_0", weights }
+    };
+    json["meshes"]
+        = { { { "name", "body" }, { "primitives", { { { "attributes", attributes }, { "indices", indices } } } } } };
     ordered_json all = ordered_json::array();
     for (std::size_t j = 0; j < joints.size(); ++j)
         all.push_back(j + 1);

@@ -16,7 +16,8 @@ namespace fit {
 namespace {
 
 constexpr int k_pelvis = -1;
-constexpr std::array k_limb_bones { std::array { lclavicle, rclavicle }, std::array { lhumerus, rhumerus }, std::array { lradius, rradius } };
+constexpr std::array k_limb_bones { std::array { lclavicle, rclavicle }, std::array { lhumerus, rhumerus },
+                                    std::array { lradius, rradius } };
 
 /// The skin as the file has it.
 struct FileSkin {
@@ -33,7 +34,8 @@ double number_at(const tinygltf::Model& model, const Column& column, std::size_t
         + std::size_t(k) * std::size_t(tinygltf::GetComponentSizeInBytes(accessor.componentType));
     const auto read = [&](auto number) {
         std::memcpy(&number, at, sizeof number);
-        return accessor.normalized ? double(number) / double(std::numeric_limits<decltype(number)>::max()) : double(number);
+        return accessor.normalized ? double(number) / double(std::numeric_limits<decltype(number)>::max())
+                                   : double(number);
     };
     switch (accessor.componentType) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return read(std::uint8_t());
@@ -101,7 +103,8 @@ private:
         const auto joints = primitive.attributes.find("JOINTS_0"), weights = primitive.attributes.find("WEIGHTS_0");
         if (joints == primitive.attributes.end() || weights == primitive.attributes.end())
             file_.fail("has vertices without JOINTS_0 and WEIGHTS_0; give a rigged body");
-        const Column joint = column_of(file_, model_, joints->second, "JOINTS_0"), weight = column_of(file_, model_, weights->second, "WEIGHTS_0");
+        const Column joint = column_of(file_, model_, joints->second, "JOINTS_0"),
+                     weight = column_of(file_, model_, weights->second, "WEIGHTS_0");
         if (model_.accessors[std::size_t(joint.accessor)].type != TINYGLTF_TYPE_VEC4
             || model_.accessors[std::size_t(weight.accessor)].type != TINYGLTF_TYPE_VEC4 || joint.count != weight.count)
             file_.fail("has JOINTS_0 and WEIGHTS_0 that are not four numbers a vertex; the file is mangled");
@@ -110,7 +113,8 @@ private:
             for (int k = 0; k < 4; ++k) {
                 hang[std::size_t(k)] = { int(number_at(model_, joint, v, k)), number_at(model_, weight, v, k) };
                 if (hang[std::size_t(k)].first >= int(skin_.names.size()))
-                    file_.fail("vertex " + std::to_string(v) + " hangs on joint " + std::to_string(hang[std::size_t(k)].first) + " of "
+                    file_.fail("vertex " + std::to_string(v) + " hangs on joint "
+                               + std::to_string(hang[std::size_t(k)].first) + " of "
                                + std::to_string(skin_.names.size()));
             }
         }
@@ -124,7 +128,10 @@ private:
 /// Our bones among the joints of another rig.
 class Translation {
 public:
-    Translation(const FileBytes& file, const FileSkin& skin) : file_(file), skin_(skin), joints_(named_joints(skin.names)) { }
+    Translation(const FileBytes& file, const FileSkin& skin) :
+        file_(file), skin_(skin), joints_(named_joints(skin.names))
+    {
+    }
 
     ForeignRig rig()
     {
@@ -150,8 +157,13 @@ private:
         for (std::size_t j = 0; j < joints_.size(); ++j)
             if (joints_[j] && joints_[j]->kind == kind && joints_[j]->side == side)
                 return skin_.places[j];
-        file_.fail(std::string("has no joint with a known name for the ") + (side == 0 ? "" : side == 1 ? "left " : "right ") + what
-                   + "; name joints as Mixamo does: Hips, Neck, Head, LeftArm, LeftForeArm, LeftHand, LeftUpLeg, LeftLeg, LeftFoot");
+        file_.fail(std::string("has no joint with a known name for the ")
+                   + (side == 0       ? ""
+                          : side == 1 ? "left "
+                                      : "right ")
+                   + what
+                   + "; name joints as Mixamo does: Hips, Neck, Head, LeftArm, LeftForeArm, LeftHand, LeftUpLeg, "
+                     "LeftLeg, LeftFoot");
     }
 
     void place_limbs()
@@ -191,7 +203,8 @@ private:
             skeleton_.tips[e] = last + 0.5 * (last - skeleton_.head(bone));
             double farthest = 0;
             for (std::size_t j = 0; j < joints_.size(); ++j)
-                if (const double d = (skin_.places[j] - last).norm(); d > farthest && skin_.places[j] != last && bone_for(int(j)) == bone && !joints_[j]) {
+                if (const double d = (skin_.places[j] - last).norm();
+                    d > farthest && skin_.places[j] != last && bone_for(int(j)) == bone && !joints_[j]) {
                     farthest = d;
                     skeleton_.tips[e] = skin_.places[j];
                 }
@@ -225,7 +238,8 @@ private:
     /// Our bone of the joint, or of the nearest one above it that has a name.
     int bone_for(int joint) const
     {
-        for (std::size_t steps = 0; joint >= 0 && steps <= joints_.size(); ++steps, joint = skin_.parents[std::size_t(joint)])
+        for (std::size_t steps = 0; joint >= 0 && steps <= joints_.size();
+             ++steps, joint = skin_.parents[std::size_t(joint)])
             if (const int b = bone_of(skin_.names[std::size_t(joint)]); b >= 0)
                 return b;
             else if (joints_[std::size_t(joint)])

@@ -81,6 +81,7 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
     command
         .add_option("--front", call.front, "Where the chest faces, roughly: +x, -x, +y, -y, +z, -z of the body's file")
         ->default_str("auto");
+    command.add_flag("--reconstruct", call.reconstruct, "Lay a surface through the body's points where it has no faces");
     command.add_option("--joints", call.joints, "Joints given or corrected, all or some: JSON, see docs/rig.md");
     if (!filter.has(Stage::fit))
         return;

@@ -23,6 +23,7 @@ struct Call {
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
     unsigned seed = 0;
+    bool reconstruct = false;  ///< the body may be a point cloud
     bool quiet = false, json = false;
 };
 

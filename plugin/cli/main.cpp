@@ -51,7 +51,7 @@ Session read(Call& call)
     } else if (call.filter->name == "recover") {
         read_draped(session, call.from);
     } else {
-        read_body(session, call.body, call.body_frame);
+        read_body(session, call.body, call.body_frame, call.reconstruct);
         read_bones(call, session);
         for (std::size_t i = 0; i < call.garments.size(); ++i)
             add_garment(session, call.garments[i],

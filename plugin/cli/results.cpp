@@ -32,7 +32,7 @@ void write_rigged(const Session& session, const fs::path& path)
         properties.push_back({ "joint" + std::to_string(k), { bones.begin(), bones.end() }, true });
         properties.push_back({ "weight" + std::to_string(k), { values.begin(), values.end() }, false });
     }
-    write_ply(path, session.body.file.positions(), session.body.file.triangles(), properties,
+    write_ply(path, session.body.file.positions(), session.body.triangles, properties,
               { "garmentfit: the body in its own pose, joint0..3 are rows of bones in rig.json" });
 }
 
@@ -75,7 +75,7 @@ void write_garments(const Session& session, const Dressing& dressing, const fs::
 
 void write_body(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
-    write_ply(folder / "body.ply", body_in_file(session, dressing.body), session.body.file.triangles(), {},
+    write_ply(folder / "body.ply", body_in_file(session, dressing.body), session.body.triangles, {},
               comments_of(dressing));
 }
 
@@ -121,7 +121,7 @@ void write_fitted_body(const Session& session, const fs::path& folder)
     const Pose& pose = session.scene.fits.back().pose;
     const Positions fitted
         = skin(session.scene.body->surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
-    write_ply(folder / "body.ply", session.body.frame.frame.to_file(fitted), session.body.file.triangles(), {},
+    write_ply(folder / "body.ply", session.body.frame.frame.to_file(fitted), session.body.triangles, {},
               { "garmentfit: the body in the pose fitted to " + session.garments.back().name() });
 }
 

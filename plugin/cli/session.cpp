@@ -6,6 +6,7 @@
 
 #include "fit/certificate.h"
 #include "fit/error.h"
+#include "fit/reconstruct.h"
 #include "fit/skinned_gltf.h"
 #include "results.h"
 #include "rig_file.h"
@@ -53,7 +54,7 @@ bool same(const Frame& a, const Frame& b) { return a.metres_per_unit == b.metres
 void make_scene_body(Session& session)
 {
     const MeshFile& file = session.body.file;
-    session.scene.body = make_body(session.body.frame.frame.to_metres(file.positions()), file.triangles());
+    session.scene.body = make_body(session.body.frame.frame.to_metres(file.positions()), session.body.triangles);
     if (session.scene.body->repaired)
         session.warnings.push_back(session.body.path.filename().string()
                                    + " is not one closed surface; its geometry was read from a repaired copy");
@@ -163,6 +164,7 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
     const RigFile contents = read_rig_with_weights(session, folder / "rig.json");
     session.body.path = folder / "rigged.ply";
     session.body.file = MeshFile::read(session.body.path);
+    session.body.triangles = session.body.file.triangles();
     session.body.frame = known(contents.frame);
     make_scene_body(session);
     if (contents.garments.empty())
@@ -189,11 +191,17 @@ WornGarment worn_garment(const Session& session, std::size_t i, const fs::path& 
 
 }  // namespace
 
-void read_body(Session& session, const fs::path& path, const FrameChoice& choice)
+void read_body(Session& session, const fs::path& path, const FrameChoice& choice, bool reconstruct)
 {
     const Stopwatch watch(session.read_seconds);
-    BodyFile body { path, MeshFile::read(path), {} };
-    body.frame = chosen(guess_body_frame(body.file.positions(), body.file.triangles()), choice);
+    BodyFile body { path, reconstruct ? MeshFile::read_points(path) : MeshFile::read(path), {}, {} };
+    body.triangles = body.file.triangles();
+    if (body.triangles.rows() == 0) {
+        body.triangles = reconstruct_surface(body.file.positions());
+        session.warnings.push_back(path.filename().string() + " is a point cloud; a surface was laid through "
+                                   + std::to_string(body.file.positions().rows()) + " points");
+    }
+    body.frame = chosen(guess_body_frame(body.file.positions(), body.triangles), choice);
     session.body = std::move(body);
     make_scene_body(session);
 }

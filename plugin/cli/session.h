@@ -22,6 +22,7 @@ struct FrameChoice {
 struct BodyFile {
     std::filesystem::path path;
     MeshFile file;
+    Triangles triangles;  ///< of the file, or reconstructed from its points
     FrameGuess frame;  ///< margins are 1 where the user said it
 };
 
@@ -41,7 +42,8 @@ struct Session {
     double read_seconds = 0, write_seconds = 0;
 };
 
-void read_body(Session& session, const std::filesystem::path& path, const FrameChoice& choice);
+/// @param reconstruct  lays a surface through a file's points where it has no faces
+void read_body(Session& session, const std::filesystem::path& path, const FrameChoice& choice, bool reconstruct);
 void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const FrameChoice& choice);
 
 /// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.

@@ -23,6 +23,9 @@ public:
     ///         finite; names file and line or byte.
     static MeshFile read(const std::filesystem::path& path);
 
+    /// The same for what may have no faces: the points of a scanner. @throws InvalidInput.
+    static MeshFile read_points(const std::filesystem::path& path);
+
     const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
     const Triangles& triangles() const;  ///< polygons cut into fans
     const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" or "gltf"
