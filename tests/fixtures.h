@@ -232,6 +232,23 @@ inline Person capsule_person(const PersonOptions& options = {})
     return person;
 }
 
+/// A rig that needs no search: every vertex hangs on two bones.
+inline Rig simple_rig(const Person& person)
+{
+    Rig rig;
+    rig.skeleton = person.skeleton;
+    const Eigen::Index n = person.mesh.positions.rows();
+    rig.weights.bones = Eigen::Matrix<int, Eigen::Dynamic, 4>::Zero(n, 4);
+    rig.weights.weights = Eigen::Matrix<double, Eigen::Dynamic, 4>::Zero(n, 4);
+    for (Eigen::Index v = 0; v < n; ++v) {
+        rig.weights.bones(v, 0) = int(v % bone_count);
+        rig.weights.bones(v, 1) = int((v + 3) % bone_count);
+        rig.weights.weights(v, 0) = 0.75;
+        rig.weights.weights(v, 1) = 0.25;
+    }
+    return rig;
+}
+
 /// A garment round a skeleton's capsules, `ease` metres off the skin: the surface where `keep` says so, holes where not.
 inline TriangleMesh garment_round(const Skeleton& skeleton, double ease, const std::function<bool(const Vec3&)>& keep,
                                   double spacing = 0.03)

@@ -105,6 +105,30 @@ TEST(MakeBody, WeldsATriangleSoup)
     EXPECT_EQ(body.surface.positions.rows(), 3 * mesh.triangles.rows());
 }
 
+TEST(MakeBody, WeldsASoupWhoseCornersWereShaken)
+{
+    const TriangleMesh whole = ball(Vec3::Zero(), 0.5, 0.1);
+    TriangleMesh soup { Positions(3 * whole.triangles.rows(), 3), Triangles(whole.triangles.rows(), 3) };
+    for (int f = 0; f < int(whole.triangles.rows()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            soup.triangles(f, k) = 3 * f + k;
+            soup.positions.row(3 * f + k) = whole.positions.row(whole.triangles(f, k)) + 2e-5 * Vec3(f % 3 - 1, k - 1, f % 2).transpose();
+        }
+    const BodyMesh body = make_body(soup.positions, soup.triangles);
+    EXPECT_TRUE(is_closed(body.closed));
+    EXPECT_EQ(body.closed.positions.rows(), whole.positions.rows());
+}
+
+TEST(MakeBody, TakesTheFullPieceForTheBodyNotTheFloor)
+{
+    const TriangleMesh whole = ball(Vec3(0, 0.5, 0), 0.5, 0.1);
+    TriangleMesh floor { Positions(4, 3), Triangles(2, 3) };
+    floor.positions << -3, -0.01, -3, 3, -0.01, -3, 3, -0.01, 3, -3, -0.01, 3;
+    floor.triangles << 0, 2, 1, 0, 3, 2;
+    const TriangleMesh both = fixtures::joined(whole, floor);
+    EXPECT_EQ(make_body(both.positions, both.triangles).closed.positions.rows(), whole.positions.rows());
+}
+
 TEST(MakeBody, LeavesIslandsOutOfTheClosedSurfaceAndKeepsThemInTheUsersOwn)
 {
     const TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1), eye = ball(Vec3(0.2, 0, 0), 0.05, 0.03);

@@ -190,6 +190,128 @@ TEST(RigBody, ExchangesSidesWhenAsked)
     EXPECT_EQ(rig.front, -swapped.front);
 }
 
+TEST(RigBody, TakesGivenJointsAndMovesThoseBetween)
+{
+    const BodyMesh body = body_of(capsule_person().mesh);
+    const Rig found = rig_body(body);
+    RigOptions options;
+    const Vec3 wrist = found.skeleton.tail(lradius) + Vec3(0, 0, 0.04);
+    options.joints.tails[lradius] = wrist;
+    const Rig given = rig_body(body, options);
+    EXPECT_LT((given.skeleton.tail(lradius) - wrist).norm(), 1e-9);
+    const double elbow = given.skeleton.tail(lhumerus).z() - found.skeleton.tail(lhumerus).z();
+    EXPECT_GT(elbow, 0.01);
+    EXPECT_LT(elbow, 0.03);
+    EXPECT_LT((given.skeleton.tail(rhumerus) - found.skeleton.tail(rhumerus)).norm(), 1e-9);
+}
+
+TEST(RigBody, NeedsToFindNothingWhenEveryJointIsGiven)
+{
+    const Person person = capsule_person();
+    RigOptions options;
+    options.joints.root = person.skeleton.root;
+    for (int b = 0; b < bone_count; ++b)
+        options.joints.tails[b] = person.skeleton.tail(b);
+    const Rig rig = rig_body(body_of(person.mesh), options);
+    for (int b = 0; b < bone_count; ++b)
+        EXPECT_LT((rig.skeleton.tail(b) - person.skeleton.tail(b)).norm(), 1e-9) << bone_name(b);
+    EXPECT_GT(rig.front.z(), 0.95);
+    EXPECT_EQ(rig.weights.weights.rows(), person.mesh.positions.rows());
+}
+
+TEST(RigBody, FacesWhereTheUserSays)
+{
+    const BodyMesh body = body_of(capsule_person().mesh);
+    RigOptions options;
+    options.front = -Vec3::UnitZ();
+    const Rig rig = rig_body(body, options);
+    EXPECT_LT(rig.front.z(), -0.95);
+    EXPECT_LT(rig.skeleton.tail(lfemur).x(), 0);
+    EXPECT_GT(rig.side_margin, 0.95);
+}
+
+TEST(RigBody, IsAsGoodFarFromTheOrigin)
+{
+    const Person person = capsule_person();
+    const Vec3 far(5e4, -2e3, 1e5);
+    TriangleMesh away = person.mesh;
+    away.positions.rowwise() += far.transpose();
+    const Rig here = rig_body(body_of(person.mesh)), there = rig_body(body_of(away));
+    for (int b = 0; b < bone_count; ++b)
+        EXPECT_LT((there.skeleton.tail(b) - far - here.skeleton.tail(b)).norm(), 0.02 * k_stature) << bone_name(b);
+}
+
+/// What is left of a person where `keep` says so, with holes where the rest was cut off.
+TriangleMesh cut(const TriangleMesh& mesh, const std::function<bool(const Vec3&)>& keep)
+{
+    std::vector<int> rows;
+    for (int f = 0; f < int(mesh.triangles.rows()); ++f)
+        if (keep(mesh.positions(mesh.triangles.row(f), Eigen::all).colwise().mean().transpose()))
+            rows.push_back(f);
+    return { mesh.positions, mesh.triangles(rows, Eigen::all) };
+}
+
+TEST(RigBody, DoesWithoutAHead)
+{
+    const Person person = capsule_person();
+    const double neck = person.skeleton.tail(thorax).y() + 0.03;
+    const Rig rig = rig_body(body_of(cut(person.mesh, [&](const Vec3& p) { return p.y() < neck; })));
+    for (const int bone : { lfemur, rfemur, ltibia, rtibia, lhumerus, rhumerus, lradius, rradius })
+        EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.05 * k_stature) << bone_name(bone);
+}
+
+TEST(RigBody, DoesWithoutHands)
+{
+    const Person person = capsule_person({ .arm_angle = 0, .elbow_angle = 0 });
+    const double wrist = person.skeleton.tail(lradius).x();
+    const Rig rig = rig_body(body_of(cut(person.mesh, [&](const Vec3& p) { return std::abs(p.x()) < wrist; })));
+    for (const int bone : { lhumerus, rhumerus, lradius, rradius })
+        EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.05 * k_stature) << bone_name(bone);
+}
+
+TEST(RigBody, CutsAHandOffTheHipThatItIsFusedTo)
+{
+    const Person person = capsule_person({ .arm_angle = 60, .elbow_angle = 15 });
+    const auto bridge = [&](const Vec3& p) {  // from the left hand to the thigh beside it
+        const Vec3 a = person.skeleton.tips[lhand_tip], b(0.12, a.y(), 0), axis = b - a;
+        return (p - a - std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0) * axis).norm() - 0.035;
+    };
+    const auto both = [&](const Vec3& p) { return std::min(fixtures::person_distance(person.skeleton, p), bridge(p)); };
+    const TriangleMesh fused = fixtures::polygonise(both, Vec3(-1.1, -0.2, -0.5), Vec3(1.1, 2.1, 0.5), 0.02);
+    const Rig rig = rig_body(body_of(fused));
+    for (const int bone : { lhumerus, rhumerus, lfemur, rfemur, ltibia, rtibia })
+        EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.06 * k_stature) << bone_name(bone);
+}
+
+TEST(RigBody, RefusesTwoPeople)
+{
+    const TriangleMesh one = capsule_person().mesh;
+    Eigen::Isometry3d aside = Eigen::Isometry3d::Identity();
+    aside.translation() = Vec3(1.8, 0, 0);
+    const TriangleMesh two = fixtures::joined(one, moved(one, aside));
+    try {
+        body_of(two);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("pieces that lie apart, the second 100% the size"), std::string::npos) << error.what();
+    }
+}
+
+TEST(RigBody, StaysWhereItWasOnFinerAndCoarserTrianglesAndInAnyOrderOfVertices)
+{
+    const Person person = capsule_person();
+    const Rig rig = rig_body(body_of(person.mesh));
+    TriangleMesh turned = person.mesh;  // vertices in reverse order
+    turned.positions = person.mesh.positions.colwise().reverse().eval();
+    turned.triangles = int(person.mesh.positions.rows()) - 1 - person.mesh.triangles.array();
+    const TriangleMesh finer = capsule_person({ .spacing = 0.025 }).mesh, coarser = capsule_person({ .spacing = 0.06 }).mesh;
+    for (const TriangleMesh& mesh : { turned, finer, coarser }) {
+        const Rig other = rig_body(body_of(mesh));
+        for (int b = 0; b < bone_count; ++b)
+            EXPECT_LT((other.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 0.03 * k_stature) << bone_name(b);
+    }
+}
+
 TEST(RigBody, GivesTheSameBitsAgain)
 {
     const BodyMesh body = body_of(capsule_person().mesh);

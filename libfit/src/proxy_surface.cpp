@@ -22,6 +22,8 @@ using Stop = sms::Count_stop_predicate<CgalMesh>;
 // resolution.
 constexpr int k_coarse_multiple = 4;
 
+constexpr double k_fewest = 0.65;  // of the target: on larger triangles the flow loses its way at wrists and armpits
+
 /// Each triangle cut into four at the middles of its edges.
 TriangleMesh quartered(const TriangleMesh& mesh)
 {
@@ -61,10 +63,12 @@ TriangleMesh decimated(const TriangleMesh& closed, int vertices)
 
 TriangleMesh proxy_surface(const TriangleMesh& closed, int vertices)
 {
+    if (closed.positions.rows() > vertices)
+        return decimated(closed, vertices);
     TriangleMesh proxy = closed;
-    while (3 * proxy.positions.rows() < vertices)
+    while (double(proxy.positions.rows()) < k_fewest * vertices)  // not thinned out again: that would undo it where it is flat
         proxy = quartered(proxy);
-    return proxy.positions.rows() > vertices ? decimated(proxy, vertices) : proxy;
+    return proxy;
 }
 
 }  // namespace fit

@@ -32,8 +32,8 @@ struct GivenJoints {
 struct RigOptions {
     int proxy_vertices = 8000;  ///< the skeleton is read from a surface decimated to about this many vertices
     bool swap_sides = false;  ///< exchange left and right where the vote is known to be wrong
-    std::optional<Vec3> front;  ///< where the chest faces, roughly, where the user knows; then nothing is voted on
-    GivenJoints joints;  ///< corrections; joints between them adapt
+    std::optional<Vec3> front {};  ///< where the chest faces, roughly, where the user knows; then nothing is voted on
+    GivenJoints joints {};  ///< corrections; joints between them adapt
 };
 
 /// @throws InvalidInput naming the gate that failed, with numbers, where the mesh is not a human body. Cancelled.
