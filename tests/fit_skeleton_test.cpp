@@ -294,6 +294,47 @@ TEST(FitSkeleton, WhatNobodyFitsIntoIsRefused)
     }
 }
 
+TEST(FitSkeleton, ScrapsAreRefusedInWords)
+{
+    const Rig rig = rig_of({});
+    const auto expect_refused = [&](const TriangleMesh& mesh, const std::string& what) {
+        try {
+            fit_skeleton(rig, make_garment(mesh.positions, mesh.triangles));
+            ADD_FAILURE() << what << " is worn";
+        } catch (const InvalidInput& e) {
+            EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << what;
+        }
+    };
+    const Vec3 low(-0.3, 0.8, -0.1), high(0.3, 1.4, 0.5);
+    const TriangleMesh slab
+        = polygonise([](const Vec3& p) { return (p - Vec3(0, 1.1, 0.2)).norm() - 0.25; }, low, high, 0.05);
+    TriangleMesh square = slab;
+    square.positions.col(2).setZero();
+    expect_refused(square, "a square of cloth");
+
+    const TriangleMesh tube = polygonise(
+        [](const Vec3& p) { return Vec3(p.x(), 0.2 * (p.y() - 1.1), p.z() - 0.2).norm() - 0.045; }, low, high, 0.02);
+    TriangleMesh sock = tube;
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < tube.triangles.rows(); ++f)
+        if (tube.positions(tube.triangles(f, 0), 1) < 1.3)
+            rows.push_back(f);
+    sock.triangles = tube.triangles(rows, Eigen::all);
+    expect_refused(sock, "a sock");
+
+    TriangleMesh ten { Positions(30, 3), Triangles(10, 3) }, buttons { Positions(3000, 3), Triangles(1000, 3) };
+    for (int i = 0; i < 30; ++i)
+        ten.positions.row(i) << std::sin(7.0 * i), 1 + std::sin(11.0 * i), std::sin(13.0 * i);
+    for (int i = 0; i < 3000; ++i)
+        buttons.positions.row(i) << std::sin(7.0 * (i / 3)) + 0.01 * (i % 3),
+            1 + std::sin(11.0 * (i / 3)) + 0.01 * (i % 2), std::sin(13.0 * (i / 3));
+    for (TriangleMesh* scraps : { &ten, &buttons })
+        for (Eigen::Index f = 0; f < scraps->triangles.rows(); ++f)
+            scraps->triangles.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+    expect_refused(ten, "ten triangles");
+    expect_refused(buttons, "a thousand loose buttons");
+}
+
 TEST(FitSkeleton, StopsWhenTold)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });

@@ -24,6 +24,7 @@ namespace {
 constexpr double k_shortest_tip = 0.02;  // of an extremity; below, it ends at its joint
 constexpr int k_partly_inside = 2, k_mostly_inside = 3;  // of a bone's five samples
 constexpr double k_least_room = 0.2;  // share of the room that covered bones need
+constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
 constexpr double k_same_way = 0.9;  // cosine; between ways up that are worth trying apart
 
@@ -82,15 +83,18 @@ double share_of_room(const SkeletonSearch& search, const Posture& posture)
     return needed > 0 ? found / needed : 0;
 }
 
-// What is inside must also have some room there: above a plate everything is half inside.
+// What is inside must also have some room there: above a plate everything is half inside. And a bone or two may still be
+// freed from the cloth, but among scraps there is no way for any of them.
 void require_fit(const SkeletonSearch& search, const Posture& posture, const std::string& sizes)
 {
     const std::vector<Bone> inside = bones_inside(search, posture, k_mostly_inside);
     const auto& covered_bones = search.metric().figure().covered;
     const auto covered = std::size_t(std::count(covered_bones.begin(), covered_bones.end(), true));
-    if (2 * inside.size() < covered || share_of_room(search, posture) < k_least_room)
+    const int stuck = search.bones_through_cloth(posture);
+    if (2 * inside.size() < covered || share_of_room(search, posture) < k_least_room || stuck > k_most_stuck)
         throw InvalidInput("no body fits into the garment: of the " + std::to_string(covered)
-                           + " bones it should cover, " + std::to_string(inside.size()) + " can be put inside; " + sizes
+                           + " bones it should cover, " + std::to_string(inside.size()) + " can be put inside, and "
+                           + std::to_string(stuck) + " of all pass through cloth; " + sizes
                            + "; check the garment's units and type");
 }
 

@@ -16,6 +16,8 @@
 namespace fit {
 namespace {
 
+constexpr Eigen::Index k_fewest_triangles = 24;  // two prisms of six sides, one above the other
+
 std::array<double, bone_count> scores(const ErrorMetric& metric, const PlacedBones& bones,
                                       const std::vector<Bone>& covered)
 {
@@ -86,6 +88,11 @@ FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMe
 {
     if (options.iterations < 1)
         throw InvalidInput("iterations is " + std::to_string(options.iterations) + "; give at least 1");
+    if (garment.triangles.rows() < k_fewest_triangles)
+        throw InvalidInput("garment has " + std::to_string(garment.triangles.rows())
+                           + " triangles, too few to go round a body; give a "
+                             "garment of at least "
+                           + std::to_string(k_fewest_triangles));
     FitResult result = options.method == FitMethod::fast ? fast_fit(rig, garment, options.type, progress)
                                                          : relaxed_fit(rig, body, garment, options, progress);
     result.score_before = std::accumulate(result.scores_before.begin(), result.scores_before.end(), 0.0);

@@ -191,12 +191,19 @@ double SkeletonSearch::crossing_cost(const PlacedBones& bones, Extremity extremi
     return crosses ? (may_stick(extremity) ? k_stuck : k_crossing) : 0;
 }
 
+int SkeletonSearch::bones_through_cloth(const Posture& posture) const
+{
+    const Skeleton joints = placed(rig_.skeleton, posture).joints;
+    int count = 0;
+    for (int b = 0; b < bone_count; ++b)
+        count += metric_.cloth().crosses(joints.head(b), joints.tail(b));
+    return count;
+}
+
 double SkeletonSearch::crossing_cost(const Posture& posture) const
 {
     const PlacedBones bones = placed(rig_.skeleton, posture);
-    double cost = 0;
-    for (int b = 0; b < bone_count; ++b)
-        cost += metric_.cloth().crosses(bones.joints.head(b), bones.joints.tail(b)) ? k_crossing : 0;
+    double cost = k_crossing * bones_through_cloth(posture);
     for (int e = 0; e < extremity_count; ++e)
         cost += crossing_cost(bones, Extremity(e));
     return cost;

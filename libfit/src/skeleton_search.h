@@ -51,6 +51,7 @@ public:
     /// feet, which may find none.
     double crossing_cost(const Posture& posture) const;
     double crossing_cost(const Posture& posture, const Limb& limb) const;
+    int bones_through_cloth(const Posture& posture) const;
 
     /// The body at ease, turned by `turn`, its root at `root`.
     Posture at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const;

@@ -86,6 +86,21 @@ Json held_back_of(const Dressing& dressing, double metres_per_unit)
     return parts;
 }
 
+/// E_B of each covered bone at the start and at the end, and how sure the fit is of how the garment is held.
+void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
+{
+    json["up"] = vector_of(file_from_metres * fit.up);
+    json["up_margin"] = fit.up_margin;
+    json["front_margin"] = fit.front_margin;
+    Json bones;
+    for (const Bone bone : fit.covered)
+        bones[std::string(bone_name(bone))] = { { "before", fit.scores_before[bone] / metres_per_unit },
+                                                { "after", fit.scores[bone] / metres_per_unit } };
+    json["score"] = { { "before", fit.score_before / metres_per_unit },
+                      { "after", fit.score_after / metres_per_unit },
+                      { "bones", bones } };
+}
+
 Json garment_of(const Session& session, std::size_t i)
 {
     const Scene& scene = session.scene;
@@ -98,8 +113,7 @@ Json garment_of(const Session& session, std::size_t i)
         json["covered"] = Json::array();
         for (const Bone bone : fit.covered)
             json["covered"].push_back(bone_name(bone));
-        json["score"]
-            = { { "before", fit.score_before / metres_per_unit }, { "after", fit.score_after / metres_per_unit } };
+        put_fit(json, fit, metres_per_unit, session.body.frame.frame.rotation().transpose());
     }
     if (const Dressing* end = final_dressing(scene)) {
         json["worn"] = i < end->garments.size();

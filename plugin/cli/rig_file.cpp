@@ -125,6 +125,18 @@ Json pose_of(const Frame& frame, const Pose& pose)
     return json;
 }
 
+/// For people, and not read back: how far each bone turns from the body's own pose, degrees.
+Json angles_of(const Pose& pose)
+{
+    constexpr double degrees = 180 / 3.14159265358979323846;
+    const auto angle
+        = [](const Eigen::Quaterniond& q) { return degrees * q.angularDistance(Eigen::Quaterniond::Identity()); };
+    Json json { { "root", angle(pose.root_rotation) } };
+    for (int b = 0; b < bone_count; ++b)
+        json[std::string(bone_name(b))] = angle(pose.rotations[b]);
+    return json;
+}
+
 Pose pose_of(const Frame& frame, const Json& json)
 {
     Pose pose;
@@ -145,6 +157,7 @@ Json garment_of(const Frame& body_frame, const FittedGarment& garment)
     for (const Bone bone : garment.fit.covered)
         json["covered"].push_back(bone_name(bone));
     json["pose"] = pose_of(body_frame, garment.fit.pose);
+    json["angles"] = angles_of(garment.fit.pose);
     return json;
 }
 
