@@ -227,8 +227,8 @@ bool read_rig(Session& session, const fs::path& rig)
     const RigFile contents = read_rig_with_weights(session, rig);
     require_same_count(session, rig);
     if (!same(contents.frame, session.body.frame.frame))
-        throw InvalidInput(rig.string() + " has other units or axes than were found for "
-                           + session.body.path.string() + "; give the same --unit and --up as to garmentfit rig");
+        throw InvalidInput(rig.string() + " has other units or axes than were found for " + session.body.path.string()
+                           + "; give the same --unit and --up as to garmentfit rig");
     return true;
 }
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dressed_folder.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "fit/error.h"
 #include "fit/io.h"
+#include "fit/skeleton.h"
 #include "fit/units.h"
 
 namespace fit::picture {
@@ -21,7 +25,7 @@ Json read_json(const fs::path& path)
 {
     std::ifstream file(path);
     if (!file)
-        throw InvalidInput("cannot read " + path.string() + "; give a folder that garmentfit dress wrote");
+        throw InvalidInput("cannot read " + path.string() + "; give a folder that garmentfit dress or rig wrote");
     return Json::parse(file);
 }
 
@@ -71,7 +75,55 @@ std::string verdict_of(const Json& report, const Frame& frame)
     return text.str();
 }
 
+/// Neighbouring bones get colours far apart.
+Eigen::RowVector3d colour_of(int bone)
+{
+    const double hue = std::fmod(bone * 0.381966, 1) * 6;  // the golden section of the circle
+    const auto channel
+        = [&](double shift) { return 0.3 + 0.65 * std::clamp(std::abs(std::fmod(hue + shift, 6) - 3) - 1, 0.0, 1.0); };
+    return { channel(0), channel(4), channel(2) };
+}
+
+Positions colours_of(const fs::path& rigged)
+{
+    std::map<std::string, std::vector<double>> columns;
+    for (VertexProperty& property : read_ply_properties(rigged))
+        columns[property.name] = std::move(property.values);
+    Positions colours = Positions::Zero(Eigen::Index(columns["weight0"].size()), 3);
+    for (int k = 0; k < 4; ++k)
+        for (Eigen::Index v = 0; v < colours.rows(); ++v)
+            colours.row(v) += columns.at("weight" + std::to_string(k)).at(std::size_t(v))
+                * colour_of(int(columns.at("joint" + std::to_string(k)).at(std::size_t(v))));
+    return colours;
+}
+
+std::vector<ShownBone> bones_of(const Json& rig, const Frame& frame)
+{
+    const auto place
+        = [&](const Json& json) { return Vec3(frame.to_metres(Positions(vector_of(json).transpose())).row(0)); };
+    std::vector<ShownBone> bones;
+    for (const Json& bone : rig.at("bones")) {
+        const int b = bone_of(bone.at("name").get<std::string>());
+        const int side = b < 0 || mirror_of(b) == b ? 0 : bone_name(b)[0] == 'l' ? 1 : 2;
+        bones.push_back({ place(bone.at("head")), place(bone.at("tail")), side });
+    }
+    return bones;
+}
+
 }  // namespace
+
+bool is_rig_folder(const fs::path& folder) { return !read_json(folder / "rig.json").contains("garments"); }
+
+State read_rig_folder(const fs::path& folder)
+{
+    const Json rig = read_json(folder / "rig.json");
+    const Frame frame = frame_of(rig);
+    return { read_mesh(folder / "rigged.ply", frame),
+             {},
+             frame.rotation() * vector_of(rig.at("front")),
+             bones_of(rig, frame),
+             colours_of(folder / "rigged.ply") };
+}
 
 DressedFolder read_dressed_folder(const fs::path& folder)
 {

@@ -11,11 +11,18 @@
 
 namespace fit::picture {
 
+struct ShownBone {
+    Vec3 head, tail;
+    int side = 0;  ///< 0 the middle, 1 left, 2 right
+};
+
 /// One moment of dressing, in metres with +y up.
 struct State {
     TriangleMesh body;  ///< no faces: none shown
     std::vector<TriangleMesh> garments;  ///< from the inside out
     Vec3 front = Vec3::UnitZ();  ///< where the body's chest faces
+    std::vector<ShownBone> bones {};  ///< where there are some, the body is shown transparent
+    Positions colours {};  ///< of the body's vertices, red, green, blue from 0 to 1; none: skin
 };
 
 struct DressedFolder {
@@ -25,6 +32,11 @@ struct DressedFolder {
     State dressed;  ///< as dressed
     std::string verdict;  ///< "certified: ..." or why not
 };
+
+/// Whether a folder holds a rig and no garments: what `garmentfit rig` wrote. @throws InvalidInput.
+bool is_rig_folder(const std::filesystem::path& folder);
+/// The body with its bones, each vertex in the colours of the bones that it hangs on. @throws InvalidInput.
+State read_rig_folder(const std::filesystem::path& folder);
 
 /// @throws InvalidInput.
 DressedFolder read_dressed_folder(const std::filesystem::path& folder);

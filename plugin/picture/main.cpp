@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// garmentfit-picture: what `garmentfit dress` wrote, side by side.
+// garmentfit-picture: what `garmentfit dress` or `garmentfit rig` wrote, side by side.
 
 #include <cstdlib>
 #include <iostream>
@@ -15,6 +15,7 @@ namespace {
 
 using namespace fit::picture;
 
+constexpr double k_half_turn = 3.14159;
 constexpr double k_part_turn = 0.7;  // radians; shows a sleeve and the front at once
 
 std::vector<Panel> panels_of(const DressedFolder& folder)
@@ -27,16 +28,34 @@ std::vector<Panel> panels_of(const DressedFolder& folder)
     return panels;
 }
 
+std::vector<Panel> panels_of(const State& rigged)
+{
+    return { { &rigged, "front", 0 }, { &rigged, "from the left", k_part_turn }, { &rigged, "back", k_half_turn } };
+}
+
+void draw_folder(const std::string& folder, int height, const std::string& output)
+{
+    if (is_rig_folder(folder)) {
+        const State rigged = read_rig_folder(folder);
+        draw(panels_of(rigged), "bones: left blue, right red; skin in the colours of its bones", height, output);
+    } else {
+        const DressedFolder read = read_dressed_folder(folder);
+        draw(panels_of(read), read.verdict, height, output);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
 {
     std::string folder, output;
     int height = 800;
-    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result",
+    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result; or what "
+                 "garmentfit rig wrote: "
+                 "bones and weights",
                  "garmentfit-picture");
     app.set_version_flag("--version", "garmentfit-picture " FIT_VERSION);
-    app.add_option("DIR", folder, "Folder that garmentfit dress wrote")->required();
+    app.add_option("DIR", folder, "Folder that garmentfit dress or rig wrote")->required();
     app.add_option("-o,--output", output, "PNG file")->required();
     app.add_option("--height", height, "Height of the picture in pixels")
         ->check(CLI::Range(100, 10000))
@@ -46,8 +65,7 @@ int main(int argc, char** argv)
     try {
         if (!std::getenv("DISPLAY"))  // VTK would end the process without a word on what to do
             throw fit::InvalidInput("no display; run it under xvfb-run -a");
-        const DressedFolder read = read_dressed_folder(folder);
-        draw(panels_of(read), read.verdict, height, output);
+        draw_folder(folder, height, output);
     } catch (const std::exception& error) {
         std::cerr << "garmentfit-picture: " << error.what() << '\n';
         return 2;

@@ -11,8 +11,10 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkLight.h>
+#include <vtkLineSource.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -22,6 +24,8 @@
 #include <vtkRenderer.h>
 #include <vtkTextMapper.h>
 #include <vtkTextProperty.h>
+#include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace fit::picture {
@@ -32,6 +36,8 @@ using Colour = std::array<double, 3>;
 constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15, 0.15, 0.2 };
 constexpr Colour k_cloth[]
     = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
+constexpr Colour k_bones[] = { { 0.25, 0.25, 0.3 }, { 0.1, 0.35, 0.85 }, { 0.85, 0.15, 0.1 } };  // middle, left, right
+constexpr double k_see_through = 0.45, k_bone_thickness = 0.012;  // opacity; of half the picture's height
 constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
 constexpr double k_narrowest = 0.42, k_widest = 1;  // width / height of a panel; a caption has to stand under it
 constexpr double k_margin = 1.06;  // room around the largest figure
@@ -77,6 +83,41 @@ vtkNew<vtkActor> cloth_of(const TriangleMesh& mesh, std::size_t layer)
     lining->DeepCopy(actor->GetProperty());
     lining->SetColor(k_lining[0], k_lining[1], k_lining[2]);
     actor->SetBackfaceProperty(lining);
+    return actor;
+}
+
+/// See-through, in the colours of the bones that each vertex hangs on.
+vtkNew<vtkActor> transparent_body(const State& state)
+{
+    vtkNew<vtkActor> actor = actor_of(state.body, k_skin);
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(3);
+    for (Eigen::Index v = 0; v < state.colours.rows(); ++v)
+        colours->InsertNextTuple3(255 * state.colours(v, 0), 255 * state.colours(v, 1), 255 * state.colours(v, 2));
+    auto* normals = vtkPolyDataNormals::SafeDownCast(actor->GetMapper()->GetInputAlgorithm());
+    vtkPolyData::SafeDownCast(normals->GetInput())->GetPointData()->SetScalars(colours);
+    actor->GetMapper()->ScalarVisibilityOn();
+    actor->GetProperty()->SetOpacity(k_see_through);
+    actor->GetProperty()->BackfaceCullingOn();  // one layer of skin in front of the bones
+    return actor;
+}
+
+vtkNew<vtkActor> bone_actor(const ShownBone& bone, double thickness)
+{
+    vtkNew<vtkLineSource> line;
+    line->SetPoint1(bone.head.x(), bone.head.y(), bone.head.z());
+    line->SetPoint2(bone.tail.x(), bone.tail.y(), bone.tail.z());
+    vtkNew<vtkTubeFilter> tube;
+    tube->SetInputConnection(line->GetOutputPort());
+    tube->SetRadius(thickness);
+    tube->SetNumberOfSides(12);
+    tube->CappingOn();
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(tube->GetOutputPort());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    const Colour& colour = k_bones[bone.side];
+    actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
     return actor;
 }
 
@@ -169,8 +210,13 @@ vtkNew<vtkRenderer> renderer_of(const Panel& panel, double scale)
 {
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(k_paper.data());
-    if (panel.state->body.triangles.rows() > 0)
+    if (!panel.state->bones.empty()) {
+        renderer->AddActor(transparent_body(*panel.state));
+    } else if (panel.state->body.triangles.rows() > 0) {
         renderer->AddActor(actor_of(panel.state->body, k_skin));
+    }
+    for (const ShownBone& bone : panel.state->bones)
+        renderer->AddActor(bone_actor(bone, k_bone_thickness * scale));
     for (std::size_t i = 0; i < panel.state->garments.size(); ++i)
         renderer->AddActor(cloth_of(panel.state->garments[i], i));
     light(renderer);
