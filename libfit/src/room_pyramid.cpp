@@ -40,7 +40,7 @@ RoomPyramid::RoomPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& hi
         for_each_corner({ 0, 0, z }, { level.size.x() - 1, level.size.y() - 1, z }, [&](const Eigen::Vector3i& c) {
             const Vec3 place = origin_ + spacing_ * c.cast<double>();
             const double distance = cloth.distance(place);
-            level.nodes[&level.at(c) - level.nodes.data()] = { distance, distance, inside_of(cloth.winding(place)) };
+            level.nodes[level.index(c)] = { distance, distance, inside_of(cloth.winding(place)) };
         });
     });
     levels_.push_back(std::move(level));

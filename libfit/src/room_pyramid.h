@@ -30,10 +30,12 @@ private:
     struct Level {
         Eigen::Vector3i size;
         std::vector<RoomRange> nodes;  // over 2^level nodes along each axis
-        const RoomRange& at(const Eigen::Vector3i& c) const
+
+        std::size_t index(const Eigen::Vector3i& c) const
         {
-            return nodes[(std::size_t(c.z()) * size.y() + c.y()) * size.x() + c.x()];
+            return (std::size_t(c.z()) * size.y() + c.y()) * size.x() + c.x();
         }
+        const RoomRange& at(const Eigen::Vector3i& c) const { return nodes[index(c)]; }
     };
     Level above(const Level& level) const;
 
