@@ -260,15 +260,6 @@ TEST(RigBody, DoesWithoutAHead)
         EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.05 * k_stature) << bone_name(bone);
 }
 
-TEST(RigBody, DoesWithoutHands)
-{
-    const Person person = capsule_person({ .arm_angle = 0, .elbow_angle = 0 });
-    const double wrist = person.skeleton.tail(lradius).x();
-    const Rig rig = rig_body(body_of(cut(person.mesh, [&](const Vec3& p) { return std::abs(p.x()) < wrist; })));
-    for (const int bone : { lhumerus, rhumerus, lradius, rradius })
-        EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.05 * k_stature) << bone_name(bone);
-}
-
 TEST(RigBody, CutsAHandOffTheHipThatItIsFusedTo)
 {
     const Person person = capsule_person({ .arm_angle = 60, .elbow_angle = 15 });

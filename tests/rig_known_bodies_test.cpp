@@ -2,6 +2,8 @@
 
 // Rigs of bodies whose joints are known: tests/bodies.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -29,6 +31,8 @@ constexpr KnownBody k_bodies[] = {
     { "old_woman_sitting", 0.018, 0.04 },     { "tall_man_fighting", 0.017, 0.04 },
     { "woman_squatting", 0.016, 0.035 },      { "woman_t_pose", 0.015, 0.03 },
 };
+
+constexpr std::array k_forearms { lradius, rradius };
 
 struct JointPlace {
     const char* name;
@@ -105,6 +109,23 @@ TEST(Slow, JointsOfKnownBodiesAreWhereTheyAre)
         means.push_back(mean(off));
     }
     EXPECT_LT(mean(means), 0.013);
+}
+
+TEST(Slow, JointsStayWhereHandsAreCutOff)
+{
+    BodyMesh body = body_of("man_a_pose");
+    const Skeleton whole = rig_body(body).skeleton;
+    std::vector<int> kept;
+    for (int f = 0; f < int(body.surface.triangles.rows()); ++f) {
+        const Vec3 p = body.surface.positions(body.surface.triangles.row(f), Eigen::all).colwise().mean().transpose();
+        if (std::none_of(k_forearms.begin(), k_forearms.end(), [&](int b) {
+                return (p - whole.tail(b)).dot(whole.direction(b)) > 0 && (p - whole.tail(b)).norm() < 0.3;
+            }))
+            kept.push_back(f);
+    }
+    const Triangles without_hands = body.surface.triangles(kept, Eigen::all);
+    const Skeleton cut = rig_body(make_body(body.surface.positions, without_hands)).skeleton;
+    EXPECT_LT(mean(errors("man_a_pose", cut)), 0.02);
 }
 
 // Shares of stature [drillis_1966_segments]: thigh 0.245, shin 0.246, upper arm 0.186 (0.17 between joint centres), forearm 0.146,

@@ -15,7 +15,7 @@
 namespace fit {
 namespace {
 
-constexpr int k_ends = 5;          // one less where the head is missing
+constexpr int k_ends = 5;  // one less where the head is missing
 constexpr int k_parts = 3;
 
 enum Part : int { head_end, hand_end, foot_end };
@@ -64,7 +64,8 @@ public:
     {
         std::vector<int> nodes { leaf };
         for (int before = -1, n = leaf;;) {
-            const auto next = std::find_if(neighbours_[n].begin(), neighbours_[n].end(), [&](int m) { return m != before; });
+            const auto next
+                = std::find_if(neighbours_[n].begin(), neighbours_[n].end(), [&](int m) { return m != before; });
             if (next == neighbours_[n].end())
                 return nodes;
             before = n;
@@ -129,8 +130,9 @@ std::vector<int> prune_to_ends(Tree& tree, std::size_t ends)
     }
     const double shortest = tree.length(tree.branch(*std::min_element(leaves.begin(), leaves.end(), shorter)));
     if (shortest < (ends == k_ends ? k_limb_over_finger : k_limb_over_stump) * longest_pruned)
-        throw InvalidInput("body: more than 5 ends found, the sixth is " + text(longest_pruned) + " m long and the fifth "
-                           + text(shortest) + " m; give one human body without things attached to it");
+        throw InvalidInput("body: more than 5 ends found, the sixth is " + text(longest_pruned)
+                           + " m long and the fifth " + text(shortest)
+                           + " m; give one human body without things attached to it");
     return leaves;
 }
 
@@ -178,8 +180,9 @@ Labels best_labels(const Tree& tree, const std::vector<int>& leaves)
     } while (std::next_permutation(order.begin(), order.end()));
     const double most = best.headless() ? k_largest_headless_spread : k_largest_spread;
     if (best.spread > most)
-        throw InvalidInput("body: the lengths between its ends differ from a human's by a spread of " + text(best.spread)
-                           + " (at most " + text(most) + "); give a human body, or check that limbs are not fused");
+        throw InvalidInput("body: the lengths between its ends differ from a human's by a spread of "
+                           + text(best.spread) + " (at most " + text(most)
+                           + "); give a human body, or check that limbs are not fused");
     for (int& end : best.ends)
         end = leaves[end];
     return best;
@@ -281,6 +284,9 @@ BodyGraph body_graph(const CurveSkeleton& skeleton)
     graph.arms[1] = beyond(spine, tree.path(foot0, hand1));
     const auto leaves_at = [&](int i) { return std::find(spine.begin(), spine.end(), graph.arms[i].front()); };
     const auto fork = std::max(leaves_at(0), leaves_at(1));
+    if (fork == spine.end())
+        throw InvalidInput(
+            "body: its arms do not leave the line from hips to head; give a human body whose limbs are not fused");
     graph.trunk.assign(spine.begin(), fork + 1);
     graph.head.assign(fork, spine.end());
     graph.place_of_node = places(graph, skeleton);

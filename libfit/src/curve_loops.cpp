@@ -10,7 +10,7 @@ namespace fit {
 namespace {
 
 constexpr double k_short_loop = 0.15;  // of the diagonal: two fingers that touch, not an arm and the trunk
-constexpr std::size_t k_most_ways = 1000;
+constexpr std::size_t k_most_ways = 300;
 
 using Edge = std::array<int, 2>;
 using Neighbours = std::vector<std::vector<int>>;

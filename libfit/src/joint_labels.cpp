@@ -15,16 +15,16 @@ namespace fit {
 namespace {
 
 // Shares of stature between joint centres [deleva_1996_segments], heights and widths [drillis_1966_segments].
-constexpr double k_leg = 0.485;             // hip to knee to ankle
+constexpr double k_leg = 0.485;  // hip to knee to ankle
 constexpr double k_hip_to_crown = 0.48;
-constexpr double k_hand = 0.108;            // wrist to fingertip
-constexpr double k_ankle_height = 0.041;    // above the sole
+constexpr double k_hand = 0.108;  // wrist to fingertip
+constexpr double k_ankle_height = 0.041;  // above the sole
 constexpr double k_ankle_below_shin = 0.05;  // at most, below where the shin is narrowest
-constexpr double k_skull_base = 0.095;      // below the crown
-constexpr double k_neck_base = 0.145;       // below the crown: the seventh vertebra of the neck
-constexpr double k_stub = 0.25;             // of neck and head is left where the head is missing
-constexpr double k_elbow_ratio = 0.51;      // of the way from shoulder to wrist
-constexpr double k_knee_ratio = 0.49;       // of the way from hip to ankle
+constexpr double k_skull_base = 0.095;  // below the crown
+constexpr double k_neck_base = 0.145;  // below the crown: the seventh vertebra of the neck
+constexpr double k_stub = 0.25;  // of neck and head is left where the head is missing
+constexpr double k_elbow_ratio = 0.51;  // of the way from shoulder to wrist
+constexpr double k_knee_ratio = 0.49;  // of the way from hip to ankle
 constexpr double k_knee_above_shin = 0.53;  // of the way from hip to where the shin is narrowest
 
 // Where the joint lies, as shares of stature, from the middle of the first outline that is the limb's own.
@@ -35,15 +35,15 @@ constexpr double k_shoulder_above_middle = 0.012;  // the outline at the armpit 
 // How far the bodies of this world stray from these shares, and cuts from straight limbs.
 constexpr double k_ratio_spread = 0.03;
 constexpr double k_straight_spread = 0.006;  // of stature
-constexpr double k_hand_spread = 0.02;       // of stature
-constexpr double k_girth_spread = 0.10;      // relative
-constexpr double k_widening = 1.15;          // of girth: wrist to palm, shin to heel
+constexpr double k_hand_spread = 0.02;  // of stature
+constexpr double k_girth_spread = 0.10;  // relative
+constexpr double k_widening = 1.15;  // of girth: wrist to palm, shin to heel
 
-constexpr int k_wider_in_a_row = 3;          // a single cut may go astray
+constexpr int k_wider_in_a_row = 3;  // a single cut may go astray
 
-// From the first outline of its own to its end, an arm that is this short has no hand: 0.29 without, 0.40 with.
-constexpr double k_arm_without_hand = 0.345, k_arm_with_fist = 0.32;
-constexpr double k_toes_off_shin = 0.065;    // of stature: toes stick out further from the shin's axis than a stump
+// From the first outline of its own to its end, an arm that is this short and does not widen has no hand: 0.27 without, 0.34 with.
+constexpr double k_arm_without_hand = 0.325;
+constexpr double k_toes_off_shin = 0.055;  // of stature: toes stick out further from the shin's axis than a stump
 
 // Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
 constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
@@ -97,7 +97,8 @@ struct Surface {
 /// The point of `points` where `value` is largest.
 Vec3 farthest(const std::vector<Vec3>& points, const std::function<double(const Vec3&)>& value)
 {
-    return *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); });
+    return *std::max_element(points.begin(), points.end(),
+                             [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); });
 }
 
 double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
@@ -116,8 +117,9 @@ int bend_row(const Centreline& line, int from, int to, const Vec3& root, double 
     for (int i = from + 1; i < to; ++i) {
         double squares = 0;
         for (int k = from; k <= to; ++k)
-            squares += std::min(outlier, k < i ? squared_distance_to_segment(line.points[k], root, line.points[i])
-                                               : squared_distance_to_segment(line.points[k], line.points[i], line.points[to]));
+            squares += std::min(outlier,
+                                k < i ? squared_distance_to_segment(line.points[k], root, line.points[i])
+                                      : squared_distance_to_segment(line.points[k], line.points[i], line.points[to]));
         const double upper = (line.points[i] - root).norm(), lower = (line.points[to] - line.points[i]).norm();
         const double off_line = squares / (to - from + 1) / std::pow(k_straight_spread * size, 2);
         const double off_ratio = std::pow((upper / (upper + lower) - usual_ratio) / k_ratio_spread, 2);
@@ -158,7 +160,8 @@ Vec3 bend(const Centreline& line, int from, int to, const Vec3& root, double usu
     const int upper = row - from, lower = to - row;
     if (upper < k_fewest_cuts || lower < k_fewest_cuts)
         return line.points[row];
-    const StraightLine a = fitted(line, from + upper / 5, row - upper * 3 / 10), b = fitted(line, row + lower * 3 / 10, to);
+    const StraightLine a = fitted(line, from + upper / 5, row - upper * 3 / 10),
+                       b = fitted(line, row + lower * 3 / 10, to);
     const double cosine = a.direction.dot(b.direction), angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double share = std::clamp((angle - k_corner_from) / (k_corner_to - k_corner_from), 0.0, 1.0);
     if (share == 0)
@@ -198,7 +201,8 @@ Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
         if (wider_in_a_row > 0)
             continue;
         smallest = std::min(smallest, line.girths[i]);
-        const double score = std::log(line.girths[i]) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
+        const double score
+            = std::log(line.girths[i]) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
         if (score < least) {
             least = score;
             best.row = i;
@@ -212,8 +216,8 @@ void require(bool found, const char* what, const Vec3& near)
     if (found)
         return;
     const auto number = [](double x) { return std::to_string(x).substr(0, 6); };
-    throw InvalidInput(std::string("body: no ") + what + " found near (" + number(near.x()) + ", " + number(near.y()) + ", "
-                       + number(near.z()) + "); give a human body whose limbs are not fused to it");
+    throw InvalidInput(std::string("body: no ") + what + " found near (" + number(near.x()) + ", " + number(near.y())
+                       + ", " + number(near.z()) + "); give a human body whose limbs are not fused to it");
 }
 
 struct Limb {
@@ -225,15 +229,14 @@ struct Limb {
 
 Limb limb(const Surface& surface, const Slicer& slicer, int curve)
 {
-    const Limb result { curve, centreline(slicer, surface.curve(curve), k_spacing * surface.graph.size, surface.foreign_to(curve)) };
+    const Limb result {
+        curve, centreline(slicer, surface.curve(curve), k_spacing * surface.graph.size, surface.foreign_to(curve))
+    };
     require(result.line.first_free + 10 < result.line.size(), curve < 2 ? "free arm" : "free leg", result.tip());
     return result;
 }
 
-double length(const LimbJoints& limb)
-{
-    return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm();
-}
+double length(const LimbJoints& limb) { return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm(); }
 
 /// @param up  of the trunk
 LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, double size)
@@ -242,17 +245,19 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, d
     const Vec3 along = (arm.tip() - line.at(0.6 * line.length())).normalized();
     LimbJoints joints;
     joints.tip = farthest(surface.last(arm.curve, 0.12 * size), [&](const Vec3& p) { return p.dot(along); });
-    const Narrowest narrow = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
-    const double free_length = line.length() - line.arcs[line.first_free];
-    const bool has_hand = free_length > (narrow.widens ? k_arm_with_fist : k_arm_without_hand) * size;
-    const int wrist = has_hand ? narrow.row : line.size() - 1;
+    const Narrowest narrow
+        = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
+    require(narrow.row >= 0, "wrist", arm.tip());
+    joints.whole = narrow.widens || line.length() - line.arcs[line.first_free] > k_arm_without_hand * size;
+    const int wrist = joints.whole ? narrow.row : line.size() - 1;
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
     joints.middle = bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size);
     // seen from the shoulder the armpit is a little below and to the inside, however the arm is held
     const Vec3 inwards = (arm.ring() - joints.middle).normalized();
     const double rise = inwards.dot(up);
-    const double beyond = k_shoulder_above_armpit * rise - k_shoulder_beside_armpit * std::sqrt(std::max(0.0, 1 - rise * rise));
+    const double beyond
+        = k_shoulder_above_armpit * rise - k_shoulder_beside_armpit * std::sqrt(std::max(0.0, 1 - rise * rise));
     joints.root = arm.ring() + size * (beyond * inwards + k_shoulder_above_middle * (up - rise * inwards));
     return joints;
 }
@@ -274,17 +279,19 @@ Vec3 ankle(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& narrow, 
     const Vec3 shin_axis = (narrow - knee).normalized();
     const Vec3 sole = sole_below(foot, knee, shin_axis, 0.05 * size);
     const double above_sole = (sole - narrow).dot(shin_axis) - k_ankle_height * size;
-    return narrow + std::min(above_sole, k_ankle_below_shin * size) * shin_axis;  // of a pointed foot, the toes are the sole
+    return narrow
+        + std::min(above_sole, k_ankle_below_shin * size) * shin_axis;  // of a pointed foot, the toes are the sole
 }
 
 bool has_foot(const Surface& surface, const Limb& leg, double size)
 {
     const Centreline& line = leg.line;
-    const Vec3 knee = line.at(line.arcs[line.first_free] + 0.6 * (line.length() - line.arcs[line.first_free]));
-    const Vec3 shin_axis = (line.at(line.length() - 0.15 * size) - knee).normalized();
+    const double free_length = line.length() - line.arcs[line.first_free];
+    const Vec3 shin = line.at(line.arcs[line.first_free] + 0.55 * free_length);  // with a foot or without
+    const Vec3 shin_axis = (line.at(line.arcs[line.first_free] + 0.75 * free_length) - shin).normalized();
     const std::vector<Vec3> end = surface.last(leg.curve, 0.1 * size);
     return std::any_of(end.begin(), end.end(),
-                       [&](const Vec3& p) { return (p - knee).cross(shin_axis).norm() > k_toes_off_shin * size; });
+                       [&](const Vec3& p) { return (p - shin).cross(shin_axis).norm() > k_toes_off_shin * size; });
 }
 
 LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
@@ -292,14 +299,15 @@ LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
     const Centreline& line = leg.line;
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
     const Narrowest narrow = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.22 * size, 0.04 * size });
-    const bool whole = narrow.widens || has_foot(surface, leg, size);
-    const int shin = whole ? narrow.row : line.size() - 1;
-    require(shin > line.first_free + 4, "ankle", leg.tip());
     LimbJoints joints;
+    joints.whole = narrow.widens || has_foot(surface, leg, size);
+    const int shin = joints.whole ? narrow.row : line.size() - 1;
+    require(shin > line.first_free + 4, "ankle", leg.tip());
     const Vec3 along_thigh = (leg.ring() - line.at(line.arcs[line.first_free] + 0.12 * size)).normalized();
     joints.root = leg.ring() + k_hip_above_crotch * size * along_thigh;
-    joints.middle = bend(line, line.first_free, shin, joints.root, whole ? k_knee_above_shin : k_knee_ratio, size);
-    joints.end = whole ? ankle(foot, joints.middle, line.points[shin], size) : line.points[shin];
+    joints.middle
+        = bend(line, line.first_free, shin, joints.root, joints.whole ? k_knee_above_shin : k_knee_ratio, size);
+    joints.end = joints.whole ? ankle(foot, joints.middle, line.points[shin], size) : line.points[shin];
     joints.tip = farthest(foot, [&](const Vec3& p) { return (p - joints.end).dot(leg.tip() - joints.end); });
     return joints;
 }
@@ -379,11 +387,15 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     }
     for (int i = 0; i < 2; ++i)
         joints.arms[i] = arm_joints(surface, arms[i], up, joints.size);
+    const auto none_whole = [](const auto& limbs) { return !limbs[0].whole && !limbs[1].whole; };
+    if (graph.headless && (none_whole(joints.arms) || none_whole(joints.legs)))
+        throw InvalidInput("body: no head found, and no hands or no feet, as in clothes; give a human body");
     level_upper_lengths(joints.arms, k_elbow_ratio);
 
     const double head = graph.headless ? k_stub : 1;
     joints.neck_base = below(axis, joints.crown, head * k_neck_base * joints.size);
-    joints.skull_base = joints.crown + head * k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
+    joints.skull_base
+        = joints.crown + head * k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
     joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
     const double neck = axis.arcs[axis.nearest_row(joints.neck_base)];
     joints.lower_spine = axis.at(neck / 3);

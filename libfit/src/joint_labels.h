@@ -13,6 +13,7 @@ namespace fit {
 /// Root, middle and end joint of an arm (shoulder, elbow, wrist) or a leg (hip, knee, ankle), and the tip beyond.
 struct LimbJoints {
     Vec3 root, middle, end, tip;
+    bool whole = true;  ///< with a hand or a foot
 };
 
 /// Joints of a body before anybody has asked which side is left.

@@ -21,8 +21,9 @@ struct LimbBones {
     Extremity tip;
 };
 
-constexpr LimbBones k_left_arm { lclavicle, lhumerus, lradius, lhand_tip }, k_right_arm { rclavicle, rhumerus, rradius, rhand_tip },
-    k_left_leg { lhipjoint, lfemur, ltibia, lfoot_tip }, k_right_leg { rhipjoint, rfemur, rtibia, rfoot_tip };
+constexpr LimbBones k_left_arm { lclavicle, lhumerus, lradius, lhand_tip },
+    k_right_arm { rclavicle, rhumerus, rradius, rhand_tip }, k_left_leg { lhipjoint, lfemur, ltibia, lfoot_tip },
+    k_right_leg { rhipjoint, rfemur, rtibia, rfoot_tip };
 
 void place(const LimbJoints& joints, const LimbBones& bones, Skeleton& skeleton)
 {
@@ -163,6 +164,30 @@ GivenJoints moved(GivenJoints joints, const Vec3& by)
     return joints;
 }
 
+struct Attempt {
+    double proxy, from, to;  ///< share of the vertices; slice of the progress
+};
+
+// The flow may lose its way at a touching hand or a deep bend: other triangles, another way.
+constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { 2.0 / 3, 0.9, 0.95 }, { 1.5, 0.95, 1 } };
+
+/// @throws InvalidInput of the first attempt, when none passes the gates.
+Rig first_that_passes(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+{
+    std::optional<InvalidInput> refusal;
+    for (const Attempt& attempt : k_attempts)
+        try {
+            Rig rig = rigged(body, int(attempt.proxy * options.proxy_vertices), options,
+                             progress.part(attempt.from, attempt.to));
+            progress.at(1);
+            return rig;
+        } catch (const InvalidInput& reason) {
+            if (!refusal)
+                refusal = reason;
+        }
+    throw *refusal;
+}
+
 }  // namespace
 
 Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
@@ -171,13 +196,7 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     const BodyMesh at_origin = centred(body, centre);
     RigOptions there = options;
     there.joints = moved(options.joints, -centre);
-    Rig rig;
-    try {
-        rig = rigged(at_origin, options.proxy_vertices, there, progress.part(0, 1));
-    } catch (const InvalidInput&) {
-        // the flow may lose its way at a touching hand or a deep bend: other triangles, another way
-        rig = rigged(at_origin, options.proxy_vertices * 2 / 3, there, progress.part(0.9, 1));
-    }
+    Rig rig = first_that_passes(at_origin, there, progress);
     rig.skeleton = moved(rig.skeleton, centre);
     return rig;
 }
