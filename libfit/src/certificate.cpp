@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "contact.h"
+#include "joined_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "winding_number.h"
@@ -74,21 +74,15 @@ int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const
     std::vector<char> crosses(edges.rows(), 0);
     for (const auto& [e, f] : through_body)
         crosses[e] = 1;
-    std::vector<int> piece(garment.positions.rows());
-    std::iota(piece.begin(), piece.end(), 0);
-    const auto root = [&](int v) {
-        while (piece[v] != v)
-            v = piece[v] = piece[piece[v]];
-        return v;
-    };
+    JoinedVertices pieces(int(garment.positions.rows()));
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
         if (!crosses[e])
-            piece[root(edges(e, 0))] = root(edges(e, 1));
-    std::vector<int> size(piece.size(), 0), roots;
+            pieces.join(edges(e, 0), edges(e, 1));
+    std::vector<int> size(garment.positions.rows(), 0), roots;
     for (int v : vertices_of(garment.triangles))
-        if (size[root(v)]++ == 0)
-            roots.push_back(root(v));
-    std::vector<char> inside(piece.size(), 0);
+        if (size[pieces.root(v)]++ == 0)
+            roots.push_back(pieces.root(v));
+    std::vector<char> inside(size.size(), 0);
     parallel_for(roots.size(), [&](std::size_t i) {
         inside[roots[i]] = winding_number(body, garment.positions.row(roots[i])) > 0.5;
     });

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include "fit/mesh.h"
+#include "joined_vertices.h"
 #include "parallel.h"
 
 namespace fit {
@@ -53,43 +53,20 @@ void lower(std::atomic<double>& value, double to)
     while (to < now && !value.compare_exchange_weak(now, to, std::memory_order_relaxed)) { }
 }
 
-/// Sets of vertices, joined one by one.
-class Zones {
-public:
-    explicit Zones(int vertices) : parent_(vertices) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    bool join(int a, int b)
-    {
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-        return a != b;
+/// The mean of the values of each set, at all of its vertices.
+Positions means(JoinedVertices& sets, const Positions& values)
+{
+    Positions sum = Positions::Zero(values.rows(), 3);
+    std::vector<int> size(values.rows(), 0);
+    for (int v = 0; v < int(values.rows()); ++v) {
+        sum.row(sets.root(v)) += values.row(v);
+        ++size[sets.root(v)];
     }
-
-    Positions means(const Positions& values)
-    {
-        Positions sum = Positions::Zero(values.rows(), 3);
-        std::vector<int> size(values.rows(), 0);
-        for (int v = 0; v < int(values.rows()); ++v) {
-            sum.row(root(v)) += values.row(v);
-            ++size[root(v)];
-        }
-        Positions result(values.rows(), 3);
-        for (int v = 0; v < int(values.rows()); ++v)
-            result.row(v) = sum.row(root(v)) / size[root(v)];
-        return result;
-    }
-
-private:
-    int root(int v)
-    {
-        while (parent_[v] != v)
-            v = parent_[v] = parent_[parent_[v]];
-        return v;
-    }
-
-    std::vector<int> parent_;
-};
+    Positions result(values.rows(), 3);
+    for (int v = 0; v < int(values.rows()); ++v)
+        result.row(v) = sum.row(sets.root(v)) / size[sets.root(v)];
+    return result;
+}
 
 }  // namespace
 
@@ -220,7 +197,7 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
 Positions Contact::joined(const Positions& x, const Positions& displacements, double gap) const
 {
     constexpr double k_nearly_all = 0.9;
-    Zones zones(int(x.rows()));
+    JoinedVertices zones(int(x.rows()));
     Positions common = displacements;
     std::vector<char> locked(pairs_.size());
     for (bool grown = true; grown;) {
@@ -234,7 +211,7 @@ Positions Contact::joined(const Positions& x, const Positions& displacements, do
             if (locked[p])
                 for (int k = 1; k < 4; ++k)
                     grown |= zones.join(pairs_[p].vertices[0], pairs_[p].vertices[k]);
-        common = zones.means(displacements);
+        common = means(zones, displacements);
     }
     return common;
 }

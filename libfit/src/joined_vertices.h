@@ -11,7 +11,14 @@ class JoinedVertices {
 public:
     explicit JoinedVertices(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-    void join(int a, int b) { parent_[root(a)] = root(b); }
+    /// @return whether they were apart
+    bool join(int a, int b)
+    {
+        a = root(a);
+        b = root(b);
+        parent_[a] = b;
+        return a != b;
+    }
     int root(int v)
     {
         while (parent_[v] != v)
