@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/certificate.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +13,14 @@
 namespace fit {
 namespace {
 
+// At one place is one vertex: seams of UV charts have two.
+bool is_corner(const TriangleMesh& mesh, int triangle, const Eigen::RowVector3d& place)
+{
+    const auto corners = mesh.triangles.row(triangle);
+    return mesh.positions.row(corners[0]) == place || mesh.positions.row(corners[1]) == place
+        || mesh.positions.row(corners[2]) == place;
+}
+
 std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bool same)
 {
     const auto edges = edges_of(a.triangles);
@@ -23,8 +29,7 @@ std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bo
     parallel_for(edges.rows(), [&](Eigen::Index e) {
         const int i = edges(e, 0), j = edges(e, 1);
         const auto is_neighbour = [&](int f) {
-            const auto corners = b.triangles.row(f).array();
-            return same && ((corners == i).any() || (corners == j).any());
+            return same && (is_corner(b, f, a.positions.row(i)) || is_corner(b, f, a.positions.row(j)));
         };
         hits[e] = tree.met_by(a.positions.row(i), a.positions.row(j), is_neighbour);
     });
@@ -35,26 +40,30 @@ std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b, bo
     return result;
 }
 
-// An edge that ends on one side of the triangle's plane and on the other, not on it.
-bool passes_through(const TriangleMesh& mesh, const Contact::Edges& edges, const Crossing& crossing)
+// Well inside both: what only touches there may come out of any rounding as crossing or as not.
+bool surely_crosses(const TriangleMesh& mesh, const Contact::Edges& edges, const Crossing& crossing)
 {
-    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-    const auto point = [&](int v) { return Point(mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2)); };
-    const auto corner = [&](int k) { return point(mesh.triangles(crossing.second, k)); };
-    const auto side
-        = [&](int k) { return CGAL::orientation(corner(0), corner(1), corner(2), point(edges(crossing.first, k))); };
-    return side(0) * side(1) == CGAL::NEGATIVE;
+    constexpr double k_sure = 1e-7;  // in shares of the edge and of the triangle
+    const auto corner = [&](int k) { return Vec3(mesh.positions.row(mesh.triangles(crossing.second, k))); };
+    const Vec3 p = mesh.positions.row(edges(crossing.first, 0)), q = mesh.positions.row(edges(crossing.first, 1));
+    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    const double along = (corner(0) - p).dot(normal) / (q - p).dot(normal);
+    const Vec3 place = p + along * (q - p);
+    const auto share = [&](int k) {
+        const Vec3 from = corner((k + 1) % 3), to = corner((k + 2) % 3);
+        return (to - from).cross(place - from).dot(normal) / normal.squaredNorm();
+    };
+    return along > k_sure && along < 1 - k_sure && std::min({ share(0), share(1), share(2) }) > k_sure;
 }
 
-// Pairs that cross in `now` and did not in `before`, or only touched there.
+// Pairs that cross now and did not before, or only touched there.
 int new_self_crossings(const TriangleMesh& before, const std::vector<Crossing>& crossed_before, const TriangleMesh& now)
 {
     const auto edges = edges_of(now.triangles);
     int count = 0;
-    for (const Crossing& crossing : self_crossings(now)) {
-        const bool known = std::binary_search(crossed_before.begin(), crossed_before.end(), crossing);
-        count += !known || (passes_through(now, edges, crossing) && !passes_through(before, edges, crossing));
-    }
+    for (const Crossing& crossing : self_crossings(now))
+        count += !(std::binary_search(crossed_before.begin(), crossed_before.end(), crossing)
+                   && surely_crosses(before, edges, crossing));
     return count;
 }
 

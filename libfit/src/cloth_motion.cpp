@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "untangle.h"
+
 namespace fit {
 namespace {
 
@@ -47,15 +49,23 @@ GarmentMesh gathered(const std::vector<int>& welded, const GarmentMesh& mesh)
     return result;
 }
 
-// What crosses in the garment as given is held together as it is: it can neither part nor cross further.
-std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossings, const GarmentMesh& mesh)
+// Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
+Positions parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
 {
-    const auto edges = edges_of(mesh.triangles);
+    Positions result = untangled(cloth);
+    return result == cloth.positions || crossing_count({ result, cloth.triangles }, obstacle) > 0 ? cloth.positions
+                                                                                                  : result;
+}
+
+// What still crosses is held together as it is: it can neither part nor cross further.
+std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossings, const Triangles& triangles)
+{
+    const auto edges = edges_of(triangles);
     std::vector<std::pair<int, int>> ties;
     for (const auto& [e, f] : crossings)
         for (int i = 0; i < 2; ++i)
             for (int k = 0; k < 3; ++k)
-                ties.emplace_back(std::minmax(edges(e, i), mesh.triangles(f, k)));
+                ties.emplace_back(std::minmax(edges(e, i), triangles(f, k)));
     std::sort(ties.begin(), ties.end());
     ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
     return ties;
@@ -92,11 +102,12 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
                          const ClothOptions& options) :
     options_(options),
     welded_(weld(rest.positions)), rest_(gathered(welded_, rest)), cloth_vertices_(int(rest_.positions.rows())),
-    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles),
-    energy_(rest_, ties_across(self_crossings({ rest_.positions, rest_.triangles }), rest_), options),
-    x_(cloth_vertices_ + obstacle.positions.rows(), 3), velocity_(Positions::Zero(cloth_vertices_, 3))
+    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles), x_(cloth_vertices_ + obstacle.positions.rows(), 3),
+    velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    x_ << gathered(welded_, start), obstacle.positions;
+    const TriangleMesh cloth { parted({ gathered(welded_, start), rest_.triangles }, obstacle), rest_.triangles };
+    x_ << cloth.positions, obstacle.positions;
+    energy_.emplace(rest_, ties_across(self_crossings(cloth), cloth.triangles), options);
 }
 
 Positions ClothMotion::cloth() const
@@ -216,12 +227,12 @@ double ClothMotion::advance(const MotionStep& step)
 
     Positions wished = x_ + displacements;
     const std::vector<Touch> near = touches(wished);
-    energy_.set_time_step(step.time_step);
+    energy_->set_time_step(step.time_step);
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
     for (int i = 0; i < step.iterations; ++i)
         wished.topRows(cloth_vertices_)
-            = energy_.minimized(wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction));
+            = energy_->minimized(wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction));
     displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
     shorten(displacements, std::vector<double>(x_.rows(), step.largest_move));
     if (const std::vector<double> way = lengths(displacements); !covers(reach, way)) {

@@ -7,6 +7,8 @@
 // every vertex go as far towards its wish as nothing crosses. A vertex that is held back lags, and goes on at the next step;
 // nothing else waits for it.
 
+#include <optional>
+
 #include "cloth_energy.h"
 #include "contact.h"
 #include "fit/progress.h"
@@ -28,7 +30,8 @@ struct MotionStep {
 
 class ClothMotion {
 public:
-    /// The start must be free of crossings between cloth and obstacle; `start` is n x 3, the obstacle m x 3.
+    /// The start must be free of crossings between cloth and obstacle; `start` is n x 3, the obstacle m x 3. Where the
+    /// cloth crosses itself it is parted first, as far as it can be (see untangle.h).
     ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                 const ClothOptions& options);
 
@@ -59,8 +62,8 @@ private:
     GarmentMesh rest_;  // welded
     int cloth_vertices_;
     Contact contact_;
-    ClothEnergy energy_;
     Positions x_;  // cloth, then obstacle
+    std::optional<ClothEnergy> energy_;  // made when it is known what crosses at the start
     Positions velocity_;  // of the cloth, m/s
 };
 

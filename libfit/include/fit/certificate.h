@@ -3,7 +3,8 @@
 
 // What a result is judged by: exact counts of crossings, the smallest gap, the strain.
 //
-// An edge crosses a triangle when it meets the triangle's interior or border; pairs that share a vertex do not count.
+// An edge crosses a triangle when it meets the triangle's interior or border; pairs that share a vertex, or the place
+// of one, do not count.
 // Decided by exact predicates on a CGAL AABB tree: no tolerance, so never a crossing called clean.
 
 #include <utility>

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../libfit/src/untangle.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/certificate.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+/// A square sheet, 20 by 20 cm in vertices 1 cm apart, at height(x, z).
+TriangleMesh sheet(const std::function<double(double, double)>& height)
+{
+    constexpr int n = 21;
+    TriangleMesh mesh { Positions(n * n, 3), Triangles(2 * (n - 1) * (n - 1), 3) };
+    for (int i = 0; i < n * n; ++i) {
+        const double x = 0.01 * (i % n), z = 0.01 * (i / n);
+        mesh.positions.row(i) << x, height(x, z), z;
+    }
+    int f = 0;
+    for (int row = 0; row + 1 < n; ++row)
+        for (int column = 0; column + 1 < n; ++column) {
+            const int v = row * n + column;
+            mesh.triangles.row(f++) << v, v + n, v + 1;
+            mesh.triangles.row(f++) << v + 1, v + n, v + n + 1;
+        }
+    return mesh;
+}
+
+/// A flat sheet, and one above it that dips through it by so much in the middle.
+TriangleMesh dipping(double depth)
+{
+    return joined(sheet([](double, double) { return 0; }), sheet([&](double x, double z) {
+                      const double off = std::hypot(x - 0.103, z - 0.097);
+                      return 0.004 - (0.004 + depth) * std::exp(-off * off / (2 * 0.02 * 0.02));
+                  }));
+}
+
+TEST(Untangle, LeavesClothThatDoesNotCrossItselfAsItIs)
+{
+    const TriangleMesh apart = dipping(-0.002);
+    ASSERT_TRUE(self_crossings(apart).empty());
+    EXPECT_EQ(untangled(apart), apart.positions);
+}
+
+TEST(Untangle, PartsASheetThatDipsThroughAnother)
+{
+    const TriangleMesh tangled = dipping(0.006);
+    ASSERT_FALSE(self_crossings(tangled).empty());
+    EXPECT_TRUE(self_crossings({ untangled(tangled), tangled.triangles }).empty());
+}
+
+TEST(Untangle, PartsACornerThatSticksThroughASheet)
+{
+    TriangleMesh corner = sheet([](double x, double z) { return 0.5 * (x + z) - 0.0111; });
+    corner.positions.col(0).array() += 0.0513;
+    corner.positions.col(2).array() += 0.0537;
+    const TriangleMesh tangled = joined(sheet([](double, double) { return 0; }), corner);
+    ASSERT_FALSE(self_crossings(tangled).empty());
+    EXPECT_TRUE(self_crossings({ untangled(tangled), tangled.triangles }).empty());
+}
+
+TEST(Untangle, MovesNothingFarFromATangle)
+{
+    const TriangleMesh tangled = dipping(0.003);
+    const Positions result = untangled(tangled);
+    for (Eigen::Index v = 0; v < result.rows(); ++v)
+        if (std::hypot(tangled.positions(v, 0) - 0.103, tangled.positions(v, 2) - 0.097) > 0.1)
+            EXPECT_EQ(result.row(v), tangled.positions.row(v));
+    EXPECT_LT((result - tangled.positions).rowwise().norm().maxCoeff(), 0.01);
+}
+
+TEST(Untangle, LeavesWhatDoesNotComeApartAsGivenAndPartsTheRest)
+{
+    const TriangleMesh rings = joined(
+        polygonise([](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.1, p.z()) - 0.06; },
+                   Vec3::Constant(-0.2), Vec3::Constant(0.2), 0.055),
+        polygonise([](const Vec3& p) { return std::hypot(std::hypot(p.x() - 0.03, p.z()) - 0.1, p.y()) - 0.06; },
+                   Vec3::Constant(-0.25), Vec3::Constant(0.25), 0.055));  // linked, and too thick to lie side by side
+    TriangleMesh dip = dipping(0.004);
+    dip.positions.col(1).array() += 1;
+    const TriangleMesh both = joined(rings, dip);
+    const Positions result = untangled(both);
+    const Eigen::Index first = rings.positions.rows();
+    EXPECT_EQ(result.topRows(first), rings.positions);
+    EXPECT_TRUE(self_crossings({ result.bottomRows(result.rows() - first), dip.triangles }).empty());
+}
+
+TEST(Untangle, GoesTheSameWayInAnyFrame)
+{
+    const TriangleMesh tangled = dipping(0.006);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Positions moved = tangled.positions * turn.transpose();
+    EXPECT_LT(
+        (untangled({ moved, tangled.triangles }) - untangled(tangled) * turn.transpose()).rowwise().norm().maxCoeff(),
+        1e-3);
+}
+
+}  // namespace
