@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <string>
 
 namespace fit {
@@ -31,7 +32,8 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
 
 Dressing dressing_of(const DrapeResult& result, const Pose& pose)
 {
-    return { result.garments, result.body, pose, result.size_reached, 1, result.too_tight, result.held_back, result.certified };
+    return { result.garments,  result.body,     pose, result.size_reached, 1, result.too_tight,
+             result.held_back, result.certified };
 }
 
 bool all_clean(const std::vector<WornGarment>& garments)
@@ -48,6 +50,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     Dressing next = from;
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
+    next.too_tight = result.too_tight;
     next.held_back = result.held_back;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
@@ -63,12 +66,14 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
     Dressing dressing;
+    RecoverOptions between_poses = p.recover;
+    between_poses.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // judged where it is to be worn
     const double n = double(scene.garments.size());
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {
         const Progress slice = progress.part(double(i) / n, double(i + 1) / n);
         const Pose& pose = scene.fits[i].pose;
         if (i > 0)
-            dressing = moved(scene, dressing, pose, p.recover, slice.part(0, 0.3));
+            dressing = moved(scene, dressing, pose, between_poses, slice.part(0, 0.3));
         if (i > 0 && !dressing.certified)
             break;
         const DrapeResult result = drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,

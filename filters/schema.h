@@ -69,6 +69,9 @@ void describe(Options& o, Visitor&& visit)
           About { "bend_stiffness", "Bend stiffness", "N m", 0, 1,
                   "Resistance of the cloth to being bent away from its own folds" });
     visit(o.friction, About { "friction", "Friction", "", 0, 2, "Coefficient of friction of cloth on body" });
+    visit(o.largest_stretch,
+          About { "largest_stretch", "Largest stretch", "", 0.01, 2,
+                  "A garment is too small where the body would stretch it by more than this share" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, DrapeOptions>* = nullptr>
@@ -81,9 +84,6 @@ void describe(Options& o, Visitor&& visit)
     visit(o.settling_steps,
           About { "settling_steps", "Settling steps", "", 0, 10000,
                   "Time steps under gravity once the body has its size" });
-    visit(o.largest_stretch,
-          About { "largest_stretch", "Largest stretch", "", 0.01, 2,
-                  "A garment is too small where the body would stretch it by more than this share" });
 }
 
 /// What recovering the pose adds to the cloth, which it shares with draping.

@@ -127,6 +127,22 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
 }
 
+TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
+{
+    const Dressing d = person();
+    GarmentMesh rest = trousers(0.01);
+    const Positions worn = rest.positions;
+    rest.positions *= 0.75;
+    const RecoverResult result = recover_pose(d.rig, d.body, Pose(), Pose(), { { rest, worn, {} } });
+    EXPECT_FALSE(result.certified);
+    ASSERT_FALSE(result.too_tight.empty());
+    EXPECT_EQ(result.too_tight[0].garment, 0);
+    EXPECT_GT(result.too_tight[0].missing_girth, 0.02);
+    EXPECT_EQ(result.pose_reached, 1);
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    EXPECT_EQ(result.garments[0].certificate.body_crossings, 0);
+}
+
 TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
 {
     const Dressing d = person();

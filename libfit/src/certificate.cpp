@@ -8,6 +8,7 @@
 #include "joined_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "stretch.h"
 #include "winding_number.h"
 
 namespace fit {
@@ -120,15 +121,6 @@ double smallest_gap(const TriangleMesh& a, const TriangleMesh& b)
     return bound;
 }
 
-double quantile(std::vector<double> values, double share)
-{
-    if (values.empty())
-        return 0;
-    const auto nth = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-}
-
 }  // namespace
 
 std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b) { return crossings(a, b, false); }
@@ -142,14 +134,9 @@ int crossing_count(const TriangleMesh& a, const TriangleMesh& b)
 
 Strain strain_of(const GarmentMesh& rest, const Positions& positions)
 {
-    const auto edges = edges_of(rest.triangles);
-    std::vector<double> strains;
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        const double l0 = (rest.positions.row(edges(e, 0)) - rest.positions.row(edges(e, 1))).norm();
-        const double l = (positions.row(edges(e, 0)) - positions.row(edges(e, 1))).norm();
-        if (l0 > 0)
-            strains.push_back(std::abs(l / l0 - 1));
-    }
+    std::vector<double> strains = stretches(rest, positions);
+    for (double& strain : strains)
+        strain = std::abs(strain);
     return { quantile(strains, 0.5), quantile(strains, 0.95), quantile(strains, 1) };
 }
 

@@ -87,7 +87,7 @@ double inflate(ClothMotion& motion, const Inflatable& inside, const Tightness& t
         const Positions target = inside.at(size);
         step.obstacle_target = &target;
         motion.advance(step);
-        if (tightness.largest_stretch(motion.cloth()) > options.largest_stretch)
+        if (tightness.largest_stretch(motion.cloth()) > options.cloth.largest_stretch)
             return size < 1 ? size : 1 - 1e-3;
     }
     motion.carry_obstacle(inside.withdrawn);
@@ -107,14 +107,14 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     const Eigen::Index body_vertices = body.surface.positions.rows();
     const SkinWeights follows
         = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
-    const Tightness tightness(garment, follows, posed(rig.skeleton, pose));
+    const Tightness tightness(garment, follows, posed(rig.skeleton, pose), int(worn.size()));
     ClothMotion motion(garment, garment.positions, collapsed, options.cloth);
 
     DrapeResult result;
     result.size_reached = inflate(motion, inside, tightness, options, progress.part(0, 0.7));
     if (result.size_reached < 1)
         result.too_tight
-            = tightness.too_tight(motion.cloth(), k_worth_naming * options.largest_stretch, result.size_reached);
+            = tightness.too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch, result.size_reached);
     else
         settle(motion, inside.full.positions, options.cloth.friction, options.settling_steps, progress.part(0.7, 1));
 

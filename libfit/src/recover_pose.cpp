@@ -10,6 +10,7 @@
 #include "creases.h"
 #include "fit/error.h"
 #include "layers.h"
+#include "tightness.h"
 
 namespace fit {
 namespace {
@@ -88,6 +89,19 @@ SkinWeights smoothed(const SkinWeights& weights, const Triangles& triangles)
     return strongest_four(dense);
 }
 
+/// Which garments are too small for a pose that they were big enough for in another.
+std::vector<TooTight> too_tight(const std::vector<WornGarment>& worn, const Positions& body, const SkinWeights& weights,
+                                const Skeleton& skeleton, double allowed)
+{
+    std::vector<TooTight> result;
+    for (std::size_t i = 0; i < worn.size(); ++i) {
+        const Tightness tightness(worn[i].rest, weights_of_nearest(worn[i].positions, body, weights), skeleton, int(i));
+        const std::vector<TooTight> found = tightness.too_tight_at_rest(worn[i].positions, allowed);
+        result.insert(result.end(), found.begin(), found.end());
+    }
+    return result;
+}
+
 BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 {
     BoneTransforms result;
@@ -149,8 +163,11 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     put_positions(result.garments, motion.cloth());
     result.body = motion.obstacle();
     result.held_back = held_back(result.body, way.at(1), rig.weights);
+    result.too_tight
+        = too_tight(result.garments, result.body, rig.weights, posed(rig.skeleton, to), options.cloth.largest_stretch);
     result.pose_reached = arrived ? 1 : std::min(reached, 1 - 1e-3);
-    result.certified = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived;
+    result.certified
+        = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived && result.too_tight.empty();
     return result;
 }
 

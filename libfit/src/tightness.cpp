@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "body_parts.h"
+#include "stretch.h"
 
 namespace fit {
 namespace {
@@ -14,11 +15,20 @@ namespace {
 constexpr double k_across = 0.5;
 // A part speaks when its edges would go round it this often: a hem that just reaches it does not stretch as a whole.
 constexpr double k_fewest_rounds = 6;
+// Single edges stretch for many reasons; what counts is what all but a twentieth of them stay below.
+constexpr double k_most = 0.95;
+
+std::vector<TooTight> worst_first(std::vector<TooTight> parts)
+{
+    std::sort(parts.begin(), parts.end(),
+              [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });
+    return parts;
+}
 
 }  // namespace
 
-Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton) :
-    garment_(garment), skeleton_(skeleton), bones_(strongest_bones(weights))
+Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton, int index) :
+    garment_(garment), skeleton_(skeleton), index_(index), bones_(strongest_bones(weights))
 {
 }
 
@@ -26,7 +36,7 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
 {
     struct Sums {
         double now = 0, rest = 0, radius = 0;
-        int count = 0;
+        std::vector<double> stretches;
     };
     std::array<Sums, k_body_parts> sums;
     const auto edges = edges_of(garment_.triangles);
@@ -40,16 +50,17 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
             continue;
         const Vec3 out = positions.row(i).transpose() - skeleton_.head(bone);
         Sums& s = sums[part];
+        const double rest = (garment_.positions.row(i) - garment_.positions.row(j)).norm();
         s.now += edge.norm();
-        s.rest += (garment_.positions.row(i) - garment_.positions.row(j)).norm();
+        s.rest += rest;
         s.radius += (out - out.dot(axis) * axis).norm();
-        ++s.count;
+        s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
     }
     std::vector<Round> result;
     for (std::size_t p = 0; p < sums.size(); ++p)
         if (const Sums& s = sums[p]; s.rest > 0)
-            if (const double girth = 2 * M_PI * s.radius / s.count; s.now > k_fewest_rounds * girth)
-                result.push_back({ int(p), s.now / s.rest - 1, girth });
+            if (const double girth = 2 * M_PI * s.radius / double(s.stretches.size()); s.now > k_fewest_rounds * girth)
+                result.push_back({ int(p), s.now / s.rest - 1, quantile(s.stretches, k_most), girth });
     return result;
 }
 
@@ -61,17 +72,30 @@ double Tightness::largest_stretch(const Positions& positions) const
     return largest;
 }
 
+TooTight Tightness::missing(const Round& round, double stretch, double size) const
+{
+    const double needed = round.girth / size, unstretched = round.girth / (1 + stretch);
+    return { index_, part_name(round.part), needed - unstretched };
+}
+
 std::vector<TooTight> Tightness::too_tight(const Positions& positions, double allowed, double size) const
 {
     std::vector<TooTight> result;
     for (const Round& round : rounds(positions))
-        if (round.stretch > allowed) {
-            const double needed = round.girth / size, unstretched = round.girth / (1 + round.stretch);
-            result.push_back({ part_name(round.part), needed - unstretched });
-        }
-    std::sort(result.begin(), result.end(),
-              [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });
-    return result;
+        if (round.stretch > allowed)
+            result.push_back(missing(round, round.stretch, size));
+    return worst_first(result);
+}
+
+std::vector<TooTight> Tightness::too_tight_at_rest(const Positions& positions, double allowed) const
+{
+    if (quantile(stretches(garment_, positions), k_most) < allowed)
+        return too_tight(positions, allowed, 1);
+    std::vector<TooTight> result;
+    for (const Round& round : rounds(positions))
+        if (round.tightest > allowed)
+            result.push_back(missing(round, round.tightest, 1));
+    return worst_first(result);
 }
 
 }  // namespace fit

@@ -14,7 +14,8 @@ class Tightness {
 public:
     /// @param weights   skin weights of the garment's vertices
     /// @param skeleton  in the pose of the garment
-    Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton);
+    /// @param index     of the garment, from the inside out
+    Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton, int index = 0);
 
     /// The largest mean stretch round a part of the body, dimensionless; 0 = nowhere stretched.
     double largest_stretch(const Positions& positions) const;
@@ -22,16 +23,23 @@ public:
     /// Parts stretched beyond `allowed`, worst first, for a body that has reached `size` of its thickness so far.
     std::vector<TooTight> too_tight(const Positions& positions, double allowed, double size) const;
 
+    /// For cloth at rest on a body of full size. When as a whole more than a twentieth of it is stretched beyond `allowed`, the
+    /// parts it is stretched round by that much at their tightest places count, too.
+    std::vector<TooTight> too_tight_at_rest(const Positions& positions, double allowed) const;
+
 private:
     struct Round {
         int part;
         double stretch;  // mean over the edges that run round the part
+        double tightest;  // a twentieth of these edges is stretched more than this
         double girth;  // m, of the cloth as it is now
     };
     std::vector<Round> rounds(const Positions& positions) const;
+    TooTight missing(const Round& round, double stretch, double size) const;
 
     GarmentMesh garment_;
     Skeleton skeleton_;
+    int index_;
     std::vector<int> bones_;  // of each garment vertex, the one it follows most
 };
 

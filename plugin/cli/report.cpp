@@ -68,12 +68,11 @@ void put_certificate(Json& json, const Certificate& c, double metres_per_unit)
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
 }
 
-/// Only the garment that was put on last can have been found too tight.
 Json too_tight_of(const Dressing& dressing, std::size_t garment, double metres_per_unit)
 {
     Json parts = Json::array();
-    if (garment + 1 == dressing.garments.size())
-        for (const TooTight& tight : dressing.too_tight)
+    for (const TooTight& tight : dressing.too_tight)
+        if (tight.garment == int(garment))
             parts.push_back({ { "part", tight.part }, { "missing_girth", tight.missing_girth / metres_per_unit } });
     return parts;
 }

@@ -177,7 +177,8 @@ Outcome outcome_of(const Scene& scene)
     const Dressing* end = final_dressing(scene);
     if (!end || end->certified)
         return Outcome::done;
-    return end->size_reached < 1 ? Outcome::too_small : Outcome::not_certified;
+    const bool too_small = end->size_reached < 1 || (!end->too_tight.empty() && all_clean(*end));
+    return too_small ? Outcome::too_small : Outcome::not_certified;
 }
 
 std::string explain(const Session& session)
@@ -188,8 +189,12 @@ std::string explain(const Session& session)
     std::ostringstream text;
     if (outcome_of(session.scene) == Outcome::too_small) {
         const std::string parts = tight_parts(end);
-        text << garment << " is too small" << (parts.empty() ? "" : " at " + parts) << "; the body fits in at "
-             << percent(end.size_reached) << "% of its size";
+        text << (parts.empty() ? garment : session.garments[end.too_tight.front().garment].name()) << " is too small"
+             << (parts.empty() ? "" : " at " + parts);
+        if (end.size_reached < 1)
+            text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
+        else
+            text << " for the body's own pose";
     } else if (!all_clean(end)) {
         const Certificate& c = end.garments.back().certificate;
         text << garment << " could not be certified: " << c.body_crossings << " crossings with the body, "

@@ -27,18 +27,19 @@ struct ClothOptions {
     double stretch_stiffness = 400;  ///< N/m
     double bend_stiffness = 2e-5;  ///< N m
     double friction = 0.4;  ///< of cloth on body, dimensionless
+    double largest_stretch
+        = 0.15;  ///< a garment is too small where a part of the body stretches it by more, on the mean
 };
 
 struct DrapeOptions {
     ClothOptions cloth;
     int inflation_steps = 24;  ///< from the bones to full size
     int settling_steps = 40;  ///< time steps under gravity
-    double largest_stretch
-        = 0.15;  ///< stop when a body part stretches the cloth round it by more than this, on the mean
 };
 
 /// Where a garment is too small.
 struct TooTight {
+    int garment;  ///< which, from the inside out
     std::string part;  ///< "chest", "waist", "hips", "left thigh", ...
     double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
 };

@@ -17,15 +17,16 @@ struct RecoverOptions {
     ClothOptions cloth;
     int largest_steps = 200;  ///< give up after this many
     double step_length = 0.006;  ///< m; no body vertex moves further in a step, as far as largest_steps permits
-    int settling_steps = 20;  ///< time steps under gravity, at the end
+    int settling_steps = 50;  ///< time steps under gravity, at the end
 };
 
 struct RecoverResult {
     std::vector<WornGarment> garments;
     Positions body;  ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
+    std::vector<TooTight> too_tight;  ///< in the pose `to`, worst first
     std::vector<HeldBack> held_back;  ///< where cloth had no room in the pose `to`; worst first
     double pose_reached = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place
-    bool certified = false;  ///< arrived, and every garment's certificate is clean
+    bool certified = false;  ///< arrived, nothing too tight, every certificate clean
 };
 
 /// @param from, to  poses of the rig; Pose() is the body's own
