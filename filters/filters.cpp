@@ -32,8 +32,16 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
 
 Dressing dressing_of(const DrapeResult& result, const Pose& pose)
 {
-    return { result.garments,  result.body,     pose, result.size_reached, 1, result.too_tight,
-             result.held_back, result.certified };
+    Dressing dressing;
+    dressing.garments = result.garments;
+    dressing.body = result.body;
+    dressing.pose = pose;
+    dressing.size_reached = result.size_reached;
+    dressing.too_tight = result.too_tight;
+    dressing.held_back = result.held_back;
+    dressing.speed = result.speed;
+    dressing.certified = result.certified;
+    return dressing;
 }
 
 bool all_clean(const std::vector<WornGarment>& garments)
@@ -52,6 +60,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.pose_reached = result.pose_reached;
     next.too_tight = result.too_tight;
     next.held_back = result.held_back;
+    next.speed = result.speed;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
         return next;
@@ -60,6 +69,18 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.body = result.body;
     next.pose = slerp(from.pose, to, result.pose_reached);
     return next;
+}
+
+void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
+{
+    const TriangleMesh body { dressing.body, scene.body->surface.triangles };
+    const Skeleton skeleton = posed(scene.rig->skeleton, dressing.pose);
+    dressing.maps.clear();
+    dressing.girths.clear();
+    for (const WornGarment& garment : dressing.garments) {
+        dressing.maps.push_back(fit_map(body, garment, cloth));
+        dressing.girths.push_back(girths(skeleton, scene.rig->weights, body, garment));
+    }
 }
 
 /// From the inside out. The garments already worn go along to the pose of the next one; ends where one cannot be put on.
@@ -82,12 +103,14 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
         if (!dressing.certified)
             break;
     }
+    measure(scene, dressing, p.drape.cloth);
     scene.draped = dressing;
 }
 
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
     scene.recovered = moved(scene, *scene.draped, Pose(), p.recover, progress);
+    measure(scene, *scene.recovered, p.recover.cloth);
 }
 
 // ---- the tables ------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "filters/schema.h"
+#include "fit/fit_map.h"
 
 namespace fit {
 
@@ -42,7 +43,10 @@ struct Dressing {
     double pose_reached = 1;  ///< of the last way between two poses
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
+    double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
+    std::vector<FitMap> maps;  ///< of each garment
+    std::vector<std::vector<Girth>> girths;  ///< of each garment and the body under it
 };
 
 struct Scene {

@@ -54,14 +54,16 @@ void describe(Options& o, Visitor&& visit)
 template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
+    visit(o.fabric,
+          About { "fabric", "Fabric", "", 0, 0,
+                  "Gives density, stiffness and friction, as far as they are left at their defaults",
+                  &fabric_names() });
     visit(o.contact_distance,
           About { "contact_distance", "Contact distance", "m", 5e-4, 0.02,
                   "Cloth is pushed off body and cloth when nearer than this" });
     visit(o.smallest_gap,
           About { "smallest_gap", "Smallest gap", "m", 1e-6, 5e-4, "Motion is cut before a gap falls below this" });
-    visit(
-        o.density,
-        About { "density", "Density", "kg/m^2", 0.01, 5, "Mass of the cloth by area; 0.2 is plain cotton, 0.4 denim" });
+    visit(o.density, About { "density", "Density", "kg/m^2", 0.01, 5, "Mass of the cloth by area" });
     visit(o.stretch_stiffness,
           About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5,
                   "Resistance of the cloth to being stretched" });

@@ -64,7 +64,7 @@ TEST(Certificate, FindsAGarmentThatLiesInsideTheBodyWithoutCrossingIt)
 
 TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)
 {
-    const TriangleMesh two = joined(ball(0.1), ball(0.1, Vec3(0.1, 0, 0)));
+    const TriangleMesh two = joined(ball(0.1), ball(0.1, Vec3(0.103, 0.007, 0.011)));
     const GarmentMesh rest { two.positions, two.triangles };
     const TriangleMesh body = ball(0.05, Vec3(0, 0, 2));
     EXPECT_GT(certify(body, rest, rest.positions).input_self_crossings, 0);
@@ -72,6 +72,19 @@ TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)
 
     const TriangleMesh apart = joined(ball(0.1), ball(0.1, Vec3(0.4, 0, 0)));
     EXPECT_GT(certify(body, { apart.positions, apart.triangles }, two.positions).self_crossings, 0);
+}
+
+TEST(Certificate, KnowsNoCrossingWhereTheInputOnlyTouched)
+{
+    // the spike's edge passes exactly through the border that two triangles share, and then beside it
+    TriangleMesh mesh { Positions(7, 3), Triangles(3, 3) };
+    mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0, 0.5, 0, -1, 0.5, 0, 1, 9, 9, 1;
+    mesh.triangles << 0, 1, 2, 1, 0, 3, 4, 5, 6;
+    const TriangleMesh body = ball(0.05, Vec3(0, 0, 5));
+    EXPECT_GT(certify(body, { mesh.positions, mesh.triangles }, mesh.positions).input_self_crossings, 0);
+    Positions moved = mesh.positions;
+    moved.bottomRows(3).col(1).array() += 0.1;
+    EXPECT_GT(certify(body, { mesh.positions, mesh.triangles }, moved).self_crossings, 0);
 }
 
 TEST(Certificate, MeasuresStrainAgainstTheRestLengths)

@@ -129,12 +129,10 @@ void ClothEnergy::set_time_step(double time_step)
             "cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
 }
 
-// Right side of the global system: where inertia, the projected springs and hinges, and contact pull.
-Positions ClothEnergy::loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
+// Where the springs and hinges, projected to their rest, pull.
+Positions ClothEnergy::projected(const Positions& x) const
 {
-    Positions right(x.rows(), 3);
-    for (Eigen::Index v = 0; v < x.rows(); ++v)
-        right.row(v) = masses_[v] * inertia_ * inertial.row(v);
+    Positions right = Positions::Zero(x.rows(), 3);
     for (const Spring& s : springs_) {
         const Vec3 edge = x.row(s.i) - x.row(s.j);
         const double length = edge.norm();
@@ -149,6 +147,30 @@ Positions ClothEnergy::loads(const Positions& x, const Positions& inertial, cons
         for (int k = 0; k < 4; ++k)
             right.row(h.v[k]) += h.coefficients[k] * target;
     }
+    return right;
+}
+
+Positions ClothEnergy::elastic_forces(const Positions& x) const { return projected(x) - elastic_ * x; }
+
+double ClothEnergy::elastic_energy(const Positions& x) const
+{
+    double sum = 0;
+    for (const Spring& s : springs_) {
+        const double longer = (x.row(s.i) - x.row(s.j)).norm() - s.length;
+        sum += 0.5 * s.stiffness * longer * longer;
+    }
+    for (const Hinge& h : hinges_)
+        sum += 0.5 * h.stiffness
+            * (weighted_sum(x, h.v, h.coefficients) - hinge_frame(x, h.v) * h.curvature).squaredNorm();
+    return sum;
+}
+
+// Right side of the global system: where inertia, the projected springs and hinges, and contact pull.
+Positions ClothEnergy::loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
+{
+    Positions right = projected(x);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        right.row(v) += masses_[v] * inertia_ * inertial.row(v);
     for (const Press& press : presses) {
         const Vec3 pull = press.stiffness_times(press.target);
         for (int k = 0; k < 4; ++k)

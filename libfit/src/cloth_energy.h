@@ -45,6 +45,12 @@ public:
     /// projections, then a few steps of conjugate gradients on the global system, preconditioned by that factorisation.
     Positions minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
 
+    /// Of springs and hinges, J.
+    double elastic_energy(const Positions& x) const;
+    /// What they pull the vertices with, N, n x 3: minus the gradient of that energy, the hinges' frames held.
+    Positions elastic_forces(const Positions& x) const;
+    const std::vector<double>& masses() const { return masses_; }  ///< kg
+
 private:
     struct Spring {
         int i, j;
@@ -56,6 +62,7 @@ private:
         Vec3 curvature;  // that vector at rest, in the hinge's own frame
         double stiffness;
     };
+    Positions projected(const Positions& x) const;
     Positions loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
     Positions applied(const Positions& x, const std::vector<Press>& presses) const;
     void add_hinges(const GarmentMesh& rest, double bend_stiffness);

@@ -2,8 +2,6 @@
 #include "cloth_motion.h"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 #include "untangle.h"
 
@@ -15,39 +13,6 @@ namespace {
 constexpr double k_contact_stiffness = 3;
 // Pairs this much beyond the contact distance may come into contact while a step is solved.
 constexpr double k_lookout = 1.5e-3;
-
-// Vertices at exactly one place are one: seams of UV charts are no cuts.
-std::vector<int> weld(const Positions& rest)
-{
-    std::map<std::array<double, 3>, int> places;
-    std::vector<int> welded(rest.rows());
-    for (Eigen::Index v = 0; v < rest.rows(); ++v)
-        welded[v] = places.try_emplace({ rest(v, 0), rest(v, 1), rest(v, 2) }, int(places.size())).first->second;
-    return welded;
-}
-
-int count(const std::vector<int>& welded) { return 1 + *std::max_element(welded.begin(), welded.end()); }
-
-Positions gathered(const std::vector<int>& welded, const Positions& positions)
-{
-    Positions result(count(welded), 3);
-    for (std::size_t v = 0; v < welded.size(); ++v)
-        result.row(welded[v]) = positions.row(v);
-    return result;
-}
-
-GarmentMesh gathered(const std::vector<int>& welded, const GarmentMesh& mesh)
-{
-    GarmentMesh result { gathered(welded, mesh.positions), Triangles(mesh.triangles.rows(), 3) };
-    Eigen::Index kept = 0;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        const int a = welded[mesh.triangles(f, 0)], b = welded[mesh.triangles(f, 1)], c = welded[mesh.triangles(f, 2)];
-        if (a != b && b != c && c != a)
-            result.triangles.row(kept++) << a, b, c;
-    }
-    result.triangles.conservativeResize(kept, 3);
-    return result;
-}
 
 // Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
 Positions parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
@@ -100,23 +65,19 @@ struct ClothMotion::Touch {
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options) :
-    options_(options),
-    welded_(weld(rest.positions)), rest_(gathered(welded_, rest)), cloth_vertices_(int(rest_.positions.rows())),
+    options_(made_of_fabric(options)),
+    weld_(rest.positions), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
     contact_(rest_.triangles, cloth_vertices_, obstacle.triangles), x_(cloth_vertices_ + obstacle.positions.rows(), 3),
     velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    const TriangleMesh cloth { parted({ gathered(welded_, start), rest_.triangles }, obstacle), rest_.triangles };
+    const TriangleMesh cloth { parted({ weld_.gathered(start), rest_.triangles }, obstacle), rest_.triangles };
     x_ << cloth.positions, obstacle.positions;
-    energy_.emplace(rest_, ties_across(self_crossings(cloth), cloth.triangles), options);
+    energy_.emplace(rest_, ties_across(self_crossings(cloth), cloth.triangles), options_);
 }
 
-Positions ClothMotion::cloth() const
-{
-    Positions result(vertices(), 3);
-    for (int v = 0; v < vertices(); ++v)
-        result.row(v) = x_.row(welded_[v]);
-    return result;
-}
+Positions ClothMotion::cloth() const { return weld_.spread(x_.topRows(cloth_vertices_)); }
+
+double ClothMotion::speed() const { return velocity_.rowwise().norm().maxCoeff(); }
 
 Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth_vertices_); }
 
@@ -145,7 +106,7 @@ void ClothMotion::move(const Positions& displacements, const std::vector<double>
 void ClothMotion::carry(const Positions& cloth, const Positions& obstacle)
 {
     Positions displacements(x_.rows(), 3);
-    displacements << gathered(welded_, cloth), obstacle;
+    displacements << weld_.gathered(cloth), obstacle;
     const std::vector<double> reach = lengths(displacements);
     contact_.detect(x_, reach);
     move(displacements, reach);
@@ -231,8 +192,8 @@ double ClothMotion::advance(const MotionStep& step)
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
     for (int i = 0; i < step.iterations; ++i)
-        wished.topRows(cloth_vertices_)
-            = energy_->minimized(wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction));
+        wished.topRows(cloth_vertices_) = energy_->minimized(
+            wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction_share * options_.friction));
     displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
     shorten(displacements, std::vector<double>(x_.rows(), step.largest_move));
     if (const std::vector<double> way = lengths(displacements); !covers(reach, way)) {
@@ -260,20 +221,20 @@ double ClothMotion::settle_obstacle(const Positions& target)
     return longest_lag;
 }
 
-bool settle(ClothMotion& motion, const Positions& target, double friction, int steps, const Progress& progress)
+Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)
 {
     constexpr int k_patience = 60;
     MotionStep step;
     step.obstacle_target = &target;
     step.gravity = k_gravity;
     step.velocity_kept = 0.9;
-    step.friction = friction;
+    step.friction_share = 1;
     double lag = 1;
     for (int i = 0; i < steps || (lag > 0 && i < steps + k_patience); ++i) {
         progress.at(double(i) / (steps + k_patience));
         lag = motion.advance(step);
     }
-    return lag == 0;
+    return { lag == 0, motion.speed() };
 }
 
 }  // namespace fit

@@ -12,6 +12,7 @@
 #include "cloth_energy.h"
 #include "contact.h"
 #include "fit/progress.h"
+#include "weld.h"
 
 namespace fit {
 
@@ -24,7 +25,7 @@ struct MotionStep {
     double time_step = 0.02;  ///< s
     double velocity_kept = 0;  ///< share of the cloth's velocity kept from the step before
     double gravity = 0;  ///< m/s^2, along -y
-    double friction = 0;
+    double friction_share = 0;  ///< of the cloth's own friction
     int iterations = 8;  ///< local-global iterations
 };
 
@@ -48,7 +49,8 @@ public:
 
     Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
-    int vertices() const { return int(welded_.size()); }  ///< of the garment
+    double speed() const;  ///< m/s, of the fastest vertex of the cloth
+    int vertices() const { return weld_.given(); }  ///< of the garment
 
 private:
     struct Touch;
@@ -58,7 +60,7 @@ private:
     std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const;
 
     ClothOptions options_;
-    std::vector<int> welded_;  // garment vertex -> cloth vertex; vertices at one place are one
+    Weld weld_;
     GarmentMesh rest_;  // welded
     int cloth_vertices_;
     Contact contact_;
@@ -67,8 +69,12 @@ private:
     Positions velocity_;  // of the cloth, m/s
 };
 
+struct Settled {
+    bool arrived;  ///< the whole obstacle at its target
+    double speed;  ///< m/s, of the fastest vertex of the cloth
+};
+
 /// Hangs the cloth on the obstacle under gravity, for so many time steps and some more where parts of it are still held back.
-/// @return whether the whole obstacle has arrived at its target
-bool settle(ClothMotion& motion, const Positions& target, double friction, int steps, const Progress& progress);
+Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress);
 
 }  // namespace fit

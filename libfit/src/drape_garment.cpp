@@ -116,7 +116,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
         result.too_tight
             = tightness.too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch, result.size_reached);
     else
-        settle(motion, inside.full.positions, options.cloth.friction, options.settling_steps, progress.part(0.7, 1));
+        result.speed = settle(motion, inside.full.positions, options.settling_steps, progress.part(0.7, 1)).speed;
 
     const Positions reached = motion.obstacle();
     result.body = reached.topRows(body_vertices);

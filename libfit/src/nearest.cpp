@@ -133,7 +133,8 @@ bool TriangleTree::is_met(const Vec3& from, const Vec3& to) const
     return from != to && tree_->aabb.do_intersect(Kernel::Segment_3(point(from), point(to)));
 }
 
-std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to, const std::function<bool(int)>& passed_over) const
+std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to,
+                                      const std::function<bool(int)>& passed_over) const
 {
     Listing listing { tree_->aabb.traits(), tree_->triangles, tree_->index, passed_over, {} };
     if (from != to && !tree_->triangles.empty())
@@ -145,6 +146,12 @@ std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to, const st
 double TriangleTree::distance(const Vec3& query) const
 {
     return tree_->triangles.empty() ? INFINITY : std::sqrt(tree_->aabb.squared_distance(point(query)));
+}
+
+Vec3 TriangleTree::nearest(const Vec3& query) const
+{
+    const Kernel::Point_3 there = tree_->aabb.closest_point(point(query));
+    return { there.x(), there.y(), there.z() };
 }
 
 std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& direction) const

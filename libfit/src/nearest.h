@@ -48,6 +48,7 @@ public:
     /// at a corner would each cost an exact computation.
     std::vector<int> met_by(const Vec3& from, const Vec3& to, const std::function<bool(int)>& passed_over = {}) const;
     double distance(const Vec3& query) const;  ///< infinite from an empty surface
+    Vec3 nearest(const Vec3& query) const;  ///< point of the surface, which must not be empty
 
     struct Hit {
         double distance;

@@ -117,7 +117,7 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
     const int steps = std::clamp(int(std::ceil(way.length() / options.step_length)), 1, options.largest_steps);
     MotionStep step;
     step.gravity = k_gravity;
-    step.friction = k_moving_friction * options.cloth.friction;
+    step.friction_share = k_moving_friction;
     double reached = 0;
     for (int i = 1; i <= steps; ++i) {
         progress.at(double(i) / steps);
@@ -157,14 +157,14 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     const double reached = go(motion, way, rig.weights, cloth_weights, options, progress.part(0, 0.8));
     motion.carry_obstacle(way.withdrawn());
     motion.carry_obstacle(way.at(1));
-    const bool arrived
-        = settle(motion, way.at(1), options.cloth.friction, options.settling_steps, progress.part(0.8, 1));
+    const auto [arrived, speed] = settle(motion, way.at(1), options.settling_steps, progress.part(0.8, 1));
 
     put_positions(result.garments, motion.cloth());
     result.body = motion.obstacle();
     result.held_back = held_back(result.body, way.at(1), rig.weights);
     result.too_tight
         = too_tight(result.garments, result.body, rig.weights, posed(rig.skeleton, to), options.cloth.largest_stretch);
+    result.speed = speed;
     result.pose_reached = arrived ? 1 : std::min(reached, 1 - 1e-3);
     result.certified
         = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived && result.too_tight.empty();

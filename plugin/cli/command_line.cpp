@@ -81,7 +81,8 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
     command
         .add_option("--front", call.front, "Where the chest faces, roughly: +x, -x, +y, -y, +z, -z of the body's file")
         ->default_str("auto");
-    command.add_flag("--reconstruct", call.reconstruct, "Lay a surface through the body's points where it has no faces");
+    command.add_flag("--reconstruct", call.reconstruct,
+                     "Lay a surface through the body's points where it has no faces");
     command.add_option("--joints", call.joints, "Joints given or corrected, all or some: JSON, see docs/rig.md");
     if (!filter.has(Stage::fit))
         return;
@@ -95,9 +96,10 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
         ->default_str("auto");
     command.add_option("--garment-unit", call.garment_frame.unit, "Unit of the garments' files")->default_str("auto");
     command.add_option("--garment-up", call.garment_frame.up, "Up axis of the garments' files")->default_str("auto");
-    command.add_option("--rig", call.rig,
-                       "Take the skeleton from this rig.json (weights from rigged.ply beside it, where it stands there) or "
-                       "from this skinned GLB of the same vertices");
+    command.add_option(
+        "--rig", call.rig,
+        "Take the skeleton from this rig.json (weights from rigged.ply beside it, where it stands there) or "
+        "from this skinned GLB of the same vertices");
 }
 
 void add_command(CLI::App& app, const CommandText& text, Call& call)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -77,6 +78,21 @@ Json too_tight_of(const Dressing& dressing, std::size_t garment, double metres_p
     return parts;
 }
 
+/// The gap between skin and cloth, and the girths of both.
+void put_ease(Json& json, const Dressing& end, std::size_t i, double metres_per_unit)
+{
+    Eigen::VectorXd ease = end.maps[i].ease / metres_per_unit;
+    std::sort(ease.begin(), ease.end());
+    json["ease"]
+        = { { "smallest", ease[0] }, { "median", ease[ease.size() / 2] }, { "largest", ease[ease.size() - 1] } };
+    json["girths"] = Json::array();
+    for (const Girth& girth : end.girths[i])
+        json["girths"].push_back({ { "place", girth.place },
+                                   { "body", girth.body / metres_per_unit },
+                                   { "garment", girth.garment / metres_per_unit },
+                                   { "ease", girth.ease() / metres_per_unit } });
+}
+
 Json held_back_of(const Dressing& dressing, double metres_per_unit)
 {
     Json parts = Json::array();
@@ -119,6 +135,7 @@ Json garment_of(const Session& session, std::size_t i)
         if (i < end->garments.size()) {
             put_certificate(json, end->garments[i].certificate, metres_per_unit);
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
+            put_ease(json, *end, i, metres_per_unit);
         }
     }
     json["guesses"] = guess_of(session.garments[i].frame);
@@ -132,6 +149,8 @@ Json json_of(const Call& call, const Session& session)
         json["certified"] = end->certified;
         json["size_reached"] = end->size_reached;
         json["pose_reached"] = end->pose_reached;
+        json["settled"] = end->speed < k_at_rest;
+        json["speed"] = end->speed;
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         if (!end->certified)
             json["note"] = explain(session);

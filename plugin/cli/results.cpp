@@ -94,6 +94,24 @@ void certify_as_written(const Session& session, Dressing& dressing, const fs::pa
     dressing.certified = dressing.certified && all_clean(dressing);
 }
 
+/// Ease in the file's own unit, strain, and pressure in pascal at each vertex of a dressed garment.
+void write_maps(const Session& session, const Dressing& dressing, const fs::path& folder)
+{
+    fs::create_directories(folder);
+    const Frame& frame = session.body.frame.frame;
+    const auto values = [](const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i) {
+        const FitMap& map = dressing.maps[i];
+        const std::string name = session.garments[i].name();
+        write_ply((folder / name).replace_extension(".ply"), frame.to_file(dressing.garments[i].positions),
+                  dressing.garments[i].rest.triangles,
+                  { { "ease", values(map.ease / frame.metres_per_unit) },
+                    { "strain", values(map.strain) },
+                    { "pressure", values(map.pressure) } },
+                  { "garmentfit: how " + name + " sits: ease in its unit, strain, pressure in Pa" });
+    }
+}
+
 /// Only certified garments stay.
 void write_last_state(const Session& session, Dressing& dressing, const fs::path& folder)
 {
@@ -101,9 +119,10 @@ void write_last_state(const Session& session, Dressing& dressing, const fs::path
         return;
     write_garments(session, dressing, folder);
     certify_as_written(session, dressing, folder);
-    if (all_clean(dressing))
+    if (all_clean(dressing)) {
         write_body(session, dressing, folder);
-    else
+        write_maps(session, dressing, folder / "maps");
+    } else
         for (std::size_t i = 0; i < dressing.garments.size(); ++i)
             fs::remove(folder / session.garments[i].name());
 }
@@ -218,6 +237,9 @@ void add_doubts(Session& session)
     if (scene.rig && scene.rig->side_margin < k_doubt)
         session.warnings.emplace_back(
             "left and right of the body are hardly more than a guess; look, and give --swap-sides");
+    if (const Dressing* end = final_dressing(scene); end && end->speed >= k_at_rest)
+        session.warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * end->speed))
+                                   + " mm/s); give more settling steps");
     for (std::size_t i = 0; i < session.garments.size(); ++i) {
         const std::string name = session.garments[i].name();
         doubt_frame(session.warnings, name, session.garments[i].frame, "garment-");

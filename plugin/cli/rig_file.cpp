@@ -18,8 +18,8 @@ constexpr const char* k_format = "garmentfit-rig";
 constexpr int k_version = 1;
 /// Of the joints at the bones' tails, in the order of Bone.
 constexpr const char* k_joint_names[bone_count]
-    = { "lhip", "lknee", "lankle", "rhip", "rknee", "rankle", "lower_spine", "upper_spine", "neck",
-        "mid_neck", "skull", "lshoulder", "lelbow", "lwrist", "rshoulder", "relbow", "rwrist" };
+    = { "lhip",     "lknee", "lankle",    "rhip",   "rknee",  "rankle",    "lower_spine", "upper_spine", "neck",
+        "mid_neck", "skull", "lshoulder", "lelbow", "lwrist", "rshoulder", "relbow",      "rwrist" };
 constexpr const char* k_tip_names[extremity_count] = { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip", "rfoot_tip" };
 
 // ---- values in the file's units and axes -----------------------------------------------------------------------

@@ -14,28 +14,21 @@
 #include <vector>
 
 #include "fit/certificate.h"
+#include "fit/cloth.h"
 #include "fit/mesh.h"
 #include "fit/progress.h"
 #include "fit/skeleton.h"
 
 namespace fit {
 
-struct ClothOptions {
-    double contact_distance = 2.5e-3;  ///< m; contact force begins below this gap
-    double smallest_gap = 1e-4;  ///< m; motion is cut before a gap falls below this
-    double density = 0.2;  ///< kg/m^2; plain cotton
-    double stretch_stiffness = 400;  ///< N/m
-    double bend_stiffness = 2e-5;  ///< N m
-    double friction = 0.4;  ///< of cloth on body, dimensionless
-    double largest_stretch
-        = 0.15;  ///< a garment is too small where a part of the body stretches it by more, on the mean
-};
-
 struct DrapeOptions {
     ClothOptions cloth;
     int inflation_steps = 24;  ///< from the bones to full size
     int settling_steps = 40;  ///< time steps under gravity
 };
+
+/// Cloth counts as settled when no vertex is faster than this, m/s.
+constexpr double k_at_rest = 0.02;
 
 /// Where a garment is too small.
 struct TooTight {
@@ -63,6 +56,7 @@ struct DrapeResult {
     double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
+    double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
 };
 

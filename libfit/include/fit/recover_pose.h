@@ -26,6 +26,7 @@ struct RecoverResult {
     std::vector<TooTight> too_tight;  ///< in the pose `to`, worst first
     std::vector<HeldBack> held_back;  ///< where cloth had no room in the pose `to`; worst first
     double pose_reached = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place
+    double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
 };
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a garment is made of.
+
+#include <string_view>
+#include <vector>
+
+#include "fit/export.h"
+
+namespace fit {
+
+/// Fabrics of clothing, each with figures in the middle of what is measured for its kind (docs/drape.md names the sources).
+enum class Fabric { cotton, denim, jersey, silk, wool };
+
+/// "cotton", "denim", ..., in the order of the values.
+FIT_API const std::vector<std::string_view>& fabric_names();
+
+/// Units: metres, kilograms, seconds.
+struct ClothOptions {
+    Fabric fabric = Fabric::cotton;
+    double contact_distance = 2.5e-3;  ///< m; contact force begins below this gap
+    double smallest_gap = 1e-4;  ///< m; motion is cut before a gap falls below this
+    double density = 0.2;  ///< kg/m^2
+    double stretch_stiffness = 400;  ///< N/m
+    double bend_stiffness = 2e-5;  ///< N m
+    double friction = 0.4;  ///< of cloth on body, dimensionless
+    double largest_stretch
+        = 0.15;  ///< a garment is too small where a part of the body stretches it by more, on the mean
+};
+
+/// Density, stiffness and friction that are still the defaults above (cotton's) become those of `options.fabric`; what was
+/// set stays.
+FIT_API ClothOptions made_of_fabric(ClothOptions options);
+
+}  // namespace fit

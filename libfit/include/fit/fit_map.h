@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How a garment sits: vertex by vertex, and by the tape measure.
+
+#include <string>
+#include <vector>
+
+#include "fit/drape_garment.h"
+
+namespace fit {
+
+/// One value for each vertex of the garment.
+struct FitMap {
+    Eigen::VectorXd ease;  ///< m; gap to the skin
+    Eigen::VectorXd strain;  ///< mean of l / l0 - 1 over the edges at the vertex; positive where stretched
+    Eigen::VectorXd pressure;  ///< Pa; what the cloth presses on skin that it touches, by its tension and weight
+};
+
+/// For a garment at rest on a body (both in metres, y up, in one pose). Cost O((n + m) log m). Pressure is the force that
+/// springs, hinges and gravity leave to the skin, so it is as smooth as the cloth is at rest.
+FIT_API FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& cloth = {});
+
+/// Girths in one place, by a tape drawn tight round what is cut by a plane across the bone.
+struct Girth {
+    std::string place;  ///< "neck", "chest", "waist", "hips", "left thigh", "left upper arm", ...
+    double body, garment;  ///< m
+    double ease() const { return garment - body; }
+};
+
+/// Where the garment goes round the body, from the neck down. The chest is measured where the trunk is widest above the
+/// waist, the waist where it is narrowest, the hips where it is widest below; limbs never count into the trunk.
+/// @param skeleton  in the pose of body and garment
+FIT_API std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, const TriangleMesh& body,
+                                  const WornGarment& worn);
+
+}  // namespace fit
