@@ -22,7 +22,7 @@ enum Part : int { head_end, hand_end, foot_end };
 
 // Lengths along the curves between the ends, as shares of stature, in the order of Part: segment lengths of
 // [deleva_1996_segments], to the middle of the fingers and toes, where the curves end.
-constexpr double k_between[k_parts][k_parts] = { { 0, 0.62, 1.07 }, { 0.62, 0.92, 1.34 }, { 1.07, 1.34, 1.24 } };
+constexpr double k_between[k_parts][k_parts] = { { 0, 0.61, 1.05 }, { 0.61, 0.90, 1.31 }, { 1.05, 1.31, 1.215 } };
 
 // The curves of real bodies leave some 0.1 of spread (a child's large head most of all); a shape with another plan leaves far more.
 constexpr double k_largest_spread = 0.30;

@@ -16,21 +16,21 @@ namespace {
 
 // Shares of stature between joint centres [deleva_1996_segments], heights and widths [drillis_1966_segments].
 constexpr double k_leg = 0.485;  // hip to knee to ankle
-constexpr double k_hip_to_crown = 0.48;
 constexpr double k_hand = 0.108;  // wrist to fingertip
 constexpr double k_ankle_height = 0.041;  // above the sole
 constexpr double k_ankle_below_shin = 0.05;  // at most, below where the shin is narrowest
-constexpr double k_skull_base = 0.095;  // below the crown
-constexpr double k_neck_base = 0.145;  // below the crown: the seventh vertebra of the neck
+constexpr double k_skull_base = 0.1;  // below the crown
+constexpr double k_neck_base = 0.152;  // below the crown: the seventh vertebra of the neck
 constexpr double k_stub = 0.25;  // of neck and head is left where the head is missing
 constexpr double k_elbow_ratio = 0.51;  // of the way from shoulder to wrist
 constexpr double k_knee_ratio = 0.49;  // of the way from hip to ankle
-constexpr double k_knee_above_shin = 0.53;  // of the way from hip to where the shin is narrowest
+constexpr double k_knee_above_shin = 0.545;  // of the way from hip to where the shin is narrowest
 
 // Where the joint lies, as shares of stature, from the middle of the first outline that is the limb's own.
-constexpr double k_hip_above_crotch = 0.035;
-constexpr double k_shoulder_above_armpit = 0.03, k_shoulder_beside_armpit = 0.02;
-constexpr double k_shoulder_above_middle = 0.012;  // the outline at the armpit hangs lower than the joint
+constexpr double k_hips_along_thighs = 0.04, k_hips_below_rings = 0.009;  // the middle between them
+constexpr double k_hip_width = 0.123;  // between the joints; flesh says little about it
+constexpr double k_shoulder_up = 0.012, k_shoulder_out = 0.007;  // the outline at the armpit hangs lower than the joint
+constexpr double k_shoulder_inwards = 0.0135, k_shoulder_back = 0.03;  // of a hanging arm, and less of one held out
 
 // How far the bodies of this world stray from these shares, and cuts from straight limbs.
 constexpr double k_ratio_spread = 0.03;
@@ -236,10 +236,12 @@ Limb limb(const Surface& surface, const Slicer& slicer, int curve)
     return result;
 }
 
+Vec3 square_to(const Vec3& axis, const Vec3& v) { return (v - v.dot(axis) * axis).normalized(); }
+
 double length(const LimbJoints& limb) { return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm(); }
 
-/// @param up  of the trunk
-LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, double size)
+/// @param up, out  of the trunk: towards the neck, towards this arm's side
+LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, const Vec3& out, double size)
 {
     const Centreline& line = arm.line;
     const Vec3 along = (arm.tip() - line.at(0.6 * line.length())).normalized();
@@ -253,12 +255,10 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, d
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
     joints.middle = bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size);
-    // seen from the shoulder the armpit is a little below and to the inside, however the arm is held
     const Vec3 inwards = (arm.ring() - joints.middle).normalized();
-    const double rise = inwards.dot(up);
-    const double beyond
-        = k_shoulder_above_armpit * rise - k_shoulder_beside_armpit * std::sqrt(std::max(0.0, 1 - rise * rise));
-    joints.root = arm.ring() + size * (beyond * inwards + k_shoulder_above_middle * (up - rise * inwards));
+    const double held_out = -inwards.dot(out);
+    joints.root = arm.ring()
+        + size * ((k_shoulder_inwards - k_shoulder_back * held_out) * inwards + k_shoulder_up * up + k_shoulder_out * out);
     return joints;
 }
 
@@ -294,7 +294,24 @@ bool has_foot(const Surface& surface, const Limb& leg, double size)
                        [&](const Vec3& p) { return (p - shin).cross(shin_axis).norm() > k_toes_off_shin * size; });
 }
 
-LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
+/// Where the thigh comes from, read off its first hand's breadth.
+Vec3 towards_hip(const Limb& leg, double size)
+{
+    return (leg.ring() - leg.line.at(leg.line.arcs[leg.line.first_free] + 0.12 * size)).normalized();
+}
+
+/// Hips are a pair: flesh shows the middle between them and how the pelvis lies, hardly their width.
+std::array<Vec3, 2> hips(const std::array<Limb, 2>& legs, const Vec3& up, double size)
+{
+    const Vec3 along[] { towards_hip(legs[0], size), towards_hip(legs[1], size) };
+    const Vec3 middle = 0.5 * (legs[0].ring() + legs[1].ring())
+        + size * (0.5 * k_hips_along_thighs * (along[0] + along[1]) - k_hips_below_rings * up);
+    const Vec3 across
+        = (legs[0].ring() - legs[1].ring() + 0.5 * k_hips_along_thighs * size * (along[0] - along[1])).normalized();
+    return { middle + 0.5 * k_hip_width * size * across, middle - 0.5 * k_hip_width * size * across };
+}
+
+LimbJoints leg_joints(const Surface& surface, const Limb& leg, const Vec3& hip, double size)
 {
     const Centreline& line = leg.line;
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
@@ -303,8 +320,7 @@ LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
     joints.whole = narrow.widens || has_foot(surface, leg, size);
     const int shin = joints.whole ? narrow.row : line.size() - 1;
     require(shin > line.first_free + 4, "ankle", leg.tip());
-    const Vec3 along_thigh = (leg.ring() - line.at(line.arcs[line.first_free] + 0.12 * size)).normalized();
-    joints.root = leg.ring() + k_hip_above_crotch * size * along_thigh;
+    joints.root = hip;
     joints.middle
         = bend(line, line.first_free, shin, joints.root, joints.whole ? k_knee_above_shin : k_knee_ratio, size);
     joints.end = joints.whole ? ankle(foot, joints.middle, line.points[shin], size) : line.points[shin];
@@ -312,16 +328,33 @@ LimbJoints leg_joints(const Surface& surface, const Limb& leg, double size)
     return joints;
 }
 
-/// Both thighs (or upper arms) get one length: half of what was measured, half of what the lower bones lead to expect.
-void level_upper_lengths(std::array<LimbJoints, 2>& limbs, double upper_ratio)
+/// The one length that both upper bones should have: half of what was measured, half of what the lower bones lead to expect.
+double upper_length(const std::array<LimbJoints, 2>& limbs, double upper_ratio)
 {
     double measured = 0, expected = 0;
     for (const LimbJoints& limb : limbs) {
         measured += 0.5 * (limb.root - limb.middle).norm();
         expected += 0.5 * (limb.end - limb.middle).norm() * upper_ratio / (1 - upper_ratio);
     }
-    for (LimbJoints& limb : limbs)
-        limb.root = limb.middle + 0.5 * (measured + expected) * (limb.root - limb.middle).normalized();
+    return 0.5 * (measured + expected);
+}
+
+void level_upper_arms(std::array<LimbJoints, 2>& arms)
+{
+    const double upper = upper_length(arms, k_elbow_ratio);
+    for (LimbJoints& arm : arms)
+        arm.root = arm.middle + upper * (arm.root - arm.middle).normalized();
+}
+
+/// Hips move together, or the pelvis would change its width.
+void level_thighs(std::array<LimbJoints, 2>& legs)
+{
+    const double upper = upper_length(legs, k_knee_ratio);
+    Vec3 shift = Vec3::Zero();
+    for (const LimbJoints& leg : legs)
+        shift += 0.5 * (upper - (leg.root - leg.middle).norm()) * (leg.root - leg.middle).normalized();
+    for (LimbJoints& leg : legs)
+        leg.root += shift;
 }
 
 /// From the pelvis through the middle of the trunk to the top of the head's curve. Where the arms leave, cuts say nothing.
@@ -374,23 +407,24 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
                             [&](const Vec3& p) { return p.dot(up); });
     Centreline axis;
     for (int round = 0; round < 2; ++round) {  // curves cut corners: bent legs make the first size too small
+        const std::array<Vec3, 2> roots = hips(legs, up, joints.size);
         for (int i = 0; i < 2; ++i)
-            joints.legs[i] = leg_joints(surface, legs[i], joints.size);
-        level_upper_lengths(joints.legs, k_knee_ratio);
+            joints.legs[i] = leg_joints(surface, legs[i], roots[i], joints.size);
+        level_thighs(joints.legs);
         joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
         axis = spine(surface, slicer, joints.pelvis, up);
         if (graph.headless)  // the curve ends where the arms leave
             axis = extended(axis, joints.crown);
-        const double trunk = axis.length() + (joints.crown - axis.points.back()).norm();
         const double leg = 0.5 * (length(joints.legs[0]) + length(joints.legs[1]));
-        joints.size = graph.headless ? leg / k_leg : 0.5 * (leg / k_leg + trunk / k_hip_to_crown);
+        joints.size = 0.5 * (leg / k_leg + graph.size);
     }
+    const Vec3 across = square_to(up, arms[0].ring() - arms[1].ring());
     for (int i = 0; i < 2; ++i)
-        joints.arms[i] = arm_joints(surface, arms[i], up, joints.size);
+        joints.arms[i] = arm_joints(surface, arms[i], up, i == 0 ? across : Vec3(-across), joints.size);
     const auto none_whole = [](const auto& limbs) { return !limbs[0].whole && !limbs[1].whole; };
     if (graph.headless && (none_whole(joints.arms) || none_whole(joints.legs)))
         throw InvalidInput("body: no head found, and no hands or no feet, as in clothes; give a human body");
-    level_upper_lengths(joints.arms, k_elbow_ratio);
+    level_upper_arms(joints.arms);
 
     const double head = graph.headless ? k_stub : 1;
     joints.neck_base = below(axis, joints.crown, head * k_neck_base * joints.size);
