@@ -8,13 +8,35 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include "fit/error.h"
 #include "fit/skeleton.h"
 #include "fit/types.h"
 
 namespace fit::fixtures {
+
+/// What `run` is refused with, in the user's words; empty, and a failed test, where it is not.
+inline std::string refusal(const std::function<void()>& run)
+{
+    try {
+        run();
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return {};
+}
+
+inline void expect_invalid(const std::function<void()>& run, const std::string& text)
+{
+    const std::string message = refusal(run);
+    EXPECT_NE(message.find(text), std::string::npos) << message;
+}
 
 /// The zero level of `distance` (negative inside) as a closed surface: marching tetrahedra on a grid of cubes, each cut
 /// into six tetrahedra round its diagonal, left and right of x = 0 like mirror images. Watertight and 2-manifold as long

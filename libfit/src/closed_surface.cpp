@@ -20,6 +20,7 @@
 
 #include "cgal_mesh.h"
 #include "fit/error.h"
+#include "surface_measures.h"
 #include "winding_number.h"
 #include "wrapped_surface.h"
 
@@ -170,18 +171,6 @@ bool is_one_piece(const std::vector<int>& across)
                 front.push_back(next);
             }
     return front.size() == reached.size();
-}
-
-/// Enclosed, counted negative where triangles are turned inwards; m^3.
-double volume(const TriangleMesh& surface)
-{
-    const Vec3 origin = surface.positions.row(0);  // near by, to keep digits
-    double sum = 0;
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        const auto corner = [&](int k) { return Vec3(surface.positions.row(surface.triangles(f, k)).transpose() - origin); };
-        sum += corner(0).cross(corner(1)).dot(corner(2)) / 6;
-    }
-    return sum;
 }
 
 /// One piece, closed, a manifold, its faces all turned one way, every vertex used, not all of it shrunk to a point.

@@ -41,14 +41,18 @@ constexpr double k_widening = 1.15;  // of girth: wrist to palm, shin to heel
 
 constexpr int k_wider_in_a_row = 3;  // a single cut may go astray
 
-// From the first outline of its own to its end, an arm that is this short and does not widen has no hand: 0.27 without, 0.34 with.
-constexpr double k_arm_without_hand = 0.325;
-constexpr double k_toes_off_shin = 0.055;  // of stature: toes stick out further from the shin's axis than a stump
+// Fingers end thin, 0.055 of stature round or less, a stump 0.08 or more. A fist or a mitten ends wide too, but close to where it
+// widens, or far from where the arm leaves the trunk: a stump 0.27 to 0.34, a hand 0.34 or more.
+constexpr double k_thin_end = 0.068, k_fist = 0.09, k_arm_without_hand = 0.345;
+constexpr double k_toes = 0.06;  // of stature: the last of the leg's curve
+constexpr double k_foot_turns = 0.8;  // cosine to the shin: below 0.65 with feet, above 0.92 without
 
 // Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
 constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
 constexpr double k_corner_gap = 0.03, k_corner_reach = 0.06, k_outlier = 0.06;  // of stature
 constexpr int k_fewest_cuts = 6;
+
+constexpr int k_fewest_without_head = 2;  // limbs with a hand or foot that is seen
 
 constexpr double k_spacing = 0.01;  // of stature, between cuts
 
@@ -240,6 +244,13 @@ Vec3 square_to(const Vec3& axis, const Vec3& v) { return (v - v.dot(axis) * axis
 
 double length(const LimbJoints& limb) { return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm(); }
 
+bool has_hand(const Centreline& line, const Narrowest& narrow, const Vec3& tip, double size)
+{
+    const double end = std::min(line.girths.back(), line.girths[line.size() - 2]);
+    return end < k_thin_end * size || (narrow.widens && (tip - line.points[narrow.row]).norm() < k_fist * size)
+        || line.length() - line.arcs[line.first_free] > k_arm_without_hand * size;
+}
+
 /// @param up, out  of the trunk: towards the neck, towards this arm's side
 LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, const Vec3& out, double size)
 {
@@ -250,7 +261,8 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, c
     const Narrowest narrow
         = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
     require(narrow.row >= 0, "wrist", arm.tip());
-    joints.whole = narrow.widens || line.length() - line.arcs[line.first_free] > k_arm_without_hand * size;
+    joints.widens = narrow.widens;
+    joints.whole = has_hand(line, narrow, joints.tip, size);
     const int wrist = joints.whole ? narrow.row : line.size() - 1;
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
@@ -283,15 +295,15 @@ Vec3 ankle(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& narrow, 
         + std::min(above_sole, k_ankle_below_shin * size) * shin_axis;  // of a pointed foot, the toes are the sole
 }
 
-bool has_foot(const Surface& surface, const Limb& leg, double size)
+/// A foot turns off the shin; a stump goes on along it.
+bool has_foot(const Limb& leg, double size)
 {
     const Centreline& line = leg.line;
     const double free_length = line.length() - line.arcs[line.first_free];
-    const Vec3 shin = line.at(line.arcs[line.first_free] + 0.55 * free_length);  // with a foot or without
-    const Vec3 shin_axis = (line.at(line.arcs[line.first_free] + 0.75 * free_length) - shin).normalized();
-    const std::vector<Vec3> end = surface.last(leg.curve, 0.1 * size);
-    return std::any_of(end.begin(), end.end(),
-                       [&](const Vec3& p) { return (p - shin).cross(shin_axis).norm() > k_toes_off_shin * size; });
+    const auto at = [&](double share) { return line.at(line.arcs[line.first_free] + share * free_length); };
+    const Vec3 shin = (at(0.75) - at(0.55)).normalized();  // with a foot or without
+    const Vec3 end = (line.points.back() - line.at(line.length() - k_toes * size)).normalized();
+    return shin.dot(end) < k_foot_turns;
 }
 
 /// Where the thigh comes from, read off its first hand's breadth.
@@ -317,7 +329,8 @@ LimbJoints leg_joints(const Surface& surface, const Limb& leg, const Vec3& hip, 
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
     const Narrowest narrow = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.22 * size, 0.04 * size });
     LimbJoints joints;
-    joints.whole = narrow.widens || has_foot(surface, leg, size);
+    joints.widens = narrow.widens;
+    joints.whole = narrow.widens || has_foot(leg, size);
     const int shin = joints.whole ? narrow.row : line.size() - 1;
     require(shin > line.first_free + 4, "ankle", leg.tip());
     joints.root = hip;
@@ -391,6 +404,18 @@ Vec3 below(const Centreline& line, const Vec3& end, double distance)
     return line.points[i];
 }
 
+/// Without a head, clothes that were closed look like a body too; but sleeves and legs of clothes end narrow.
+void require_hands_or_feet(const BodyJoints& joints)
+{
+    int found = 0;
+    for (const LimbJoints& limb : { joints.arms[0], joints.arms[1], joints.legs[0], joints.legs[1] })
+        found += limb.widens;
+    if (found < k_fewest_without_head)
+        throw InvalidInput("body: no head found, and " + std::to_string(found)
+                           + " of 4 limbs widen to a hand or foot (at least " + std::to_string(k_fewest_without_head)
+                           + "), as in clothes with nobody in them; give a human body");
+}
+
 }  // namespace
 
 BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph)
@@ -421,9 +446,8 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     const Vec3 across = square_to(up, arms[0].ring() - arms[1].ring());
     for (int i = 0; i < 2; ++i)
         joints.arms[i] = arm_joints(surface, arms[i], up, i == 0 ? across : Vec3(-across), joints.size);
-    const auto none_whole = [](const auto& limbs) { return !limbs[0].whole && !limbs[1].whole; };
-    if (graph.headless && (none_whole(joints.arms) || none_whole(joints.legs)))
-        throw InvalidInput("body: no head found, and no hands or no feet, as in clothes; give a human body");
+    if (graph.headless)
+        require_hands_or_feet(joints);
     level_upper_arms(joints.arms);
 
     const double head = graph.headless ? k_stub : 1;

@@ -14,6 +14,7 @@ namespace fit {
 struct LimbJoints {
     Vec3 root, middle, end, tip;
     bool whole = true;  ///< with a hand or a foot
+    bool widens = true;  ///< beyond where it is narrowest: then it is surely whole
 };
 
 /// Joints of a body before anybody has asked which side is left.

@@ -196,6 +196,8 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     const BodyMesh at_origin = centred(body, centre);
     RigOptions there = options;
     there.joints = moved(options.joints, -centre);
+    if (!options.joints.complete())
+        check_shape(at_origin.closed);
     Rig rig = first_that_passes(at_origin, there, progress);
     rig.skeleton = moved(rig.skeleton, centre);
     return rig;

@@ -6,13 +6,16 @@
 #include <string>
 
 #include "fit/error.h"
+#include "surface_measures.h"
 #include "winding_number.h"
 
 namespace fit {
 namespace {
 
+constexpr double k_pi = 3.14159265358979323846;
 constexpr int k_samples = 5;             // of each bone, ends included
 constexpr double k_inside_share = 0.85;  // of all samples: mouth, armpit and crotch come close to bones
+constexpr double k_most_compact = 0.3;   // isoperimetric quotient: 1 a ball, 0.52 a cube; humans 0.04, curled up fat ones 0.13
 constexpr double k_side_tolerance = 0.2; // between a left length and its right one; humans stay below 0.05
 
 struct Proportion {
@@ -69,6 +72,14 @@ void check_proportions(const Skeleton& s)
 }
 
 }  // namespace
+
+void check_shape(const TriangleMesh& closed)
+{
+    const double quotient = 36 * k_pi * std::pow(volume(closed), 2) / std::pow(area(closed), 3);
+    if (quotient > k_most_compact)
+        throw InvalidInput("body: it is as compact as a block, with an isoperimetric quotient of " + text(quotient)
+                           + " (a human's is at most " + text(k_most_compact) + "); give a human body");
+}
 
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)
 {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "surface_measures.h"
+
 namespace fit {
 namespace {
 
@@ -133,17 +135,6 @@ private:
     int left_;
     std::vector<int> of_v_, of_u_, common_;  // kept between calls for their memory
 };
-
-double area(const TriangleMesh& mesh)
-{
-    double sum = 0;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
-                   c = mesh.positions.row(mesh.triangles(f, 2));
-        sum += 0.5 * (b - a).cross(c - a).norm();
-    }
-    return sum;
-}
 
 }  // namespace
 
