@@ -11,6 +11,7 @@
 
 #include "../libfit/src/cloth_room.h"
 #include "../libfit/src/nearest.h"
+#include "../libfit/src/paper_climb.h"
 #include "../libfit/src/paper_metric.h"
 #include "../libfit/src/relaxation.h"
 #include "../libfit/src/room_search.h"
@@ -173,6 +174,34 @@ TEST(PaperMetric, CountsDistanceInsideAndAHundredTimesDistanceOutside)
     const Skeleton outside = with_lowerback({ 0.13, 0.2, 0 }, { 0.13, 0.2, 1e-9 });
     EXPECT_NEAR(metric.of_bone(lowerback, outside), -100 * 5 * 0.03, 1e-6);
     EXPECT_EQ(metric.total(inside), metric.of_bone(lowerback, inside));
+}
+
+TEST(PaperClimb, TellsWhatIsAboveAsThePapersMetricDoes)
+{
+    const GarmentMesh garment = tube(0.1);
+    const PaperMetric metric(garment, { lowerback, upperback }, NearestSearch::scan);
+    std::array<bool, bone_count> covered {};
+    covered[lowerback] = covered[upperback] = true;
+    PaperClimb climb({ garment.positions, garment.triangles }, covered);
+    Skeleton present = with_lowerback({ 0, 0.1, 0 }, { 0, 0.3, 0.01 });
+    EXPECT_TRUE(climb.is_above(present, 0));
+    climb.accept();
+    const Positions steps = 0.02 * random_points(4000, 3);
+    int rises = 0;
+    for (Eigen::Index i = 0; i < 2000; ++i) {
+        Skeleton next = present;
+        next.root += Vec3(steps.row(2 * i));
+        next.tails[lowerback] += Vec3(steps.row(2 * i + 1));
+        const bool is_above = metric.total(next) > metric.total(present);
+        ASSERT_EQ(climb.is_above(next, 0), is_above) << i;
+        if (!is_above)
+            continue;
+        present = next;
+        climb.accept();
+        EXPECT_NEAR(climb.total(), metric.total(present), 1e-9);
+        ++rises;
+    }
+    EXPECT_GT(rises, 10);
 }
 
 TEST(PaperMethod, FindsTheSameByScanAndByTree)

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "climb.h"
 #include "parallel.h"
 
 namespace fit {
@@ -21,7 +22,7 @@ constexpr double k_same_heading = 0.25;  // rad
 constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
 constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
 constexpr Reach k_near_limbs { 0.6, 0.15, 8, true };
-constexpr double k_first_step = 0.16, k_last_step = 0.01;  // rad
+constexpr Steps k_rough { 0.16, 0.04 }, k_fine { 0.08, 0.01 };
 
 struct Scored {
     Posture posture;
@@ -115,7 +116,7 @@ Scored with_limbs_found(const SkeletonSearch& search, const Posture& start)
 
 Scored roughly_polished(const SkeletonSearch& search, const Scored& start)
 {
-    const Posture posture = search.polished(start.posture, k_first_step, k_first_step / 4);
+    const Posture posture = polished(search, start.posture, k_rough);
     return { posture, search.total(posture) };
 }
 
@@ -197,7 +198,7 @@ BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progres
 
 Posture refined(const SkeletonSearch& search, const Posture& start)
 {
-    return search.polished(freed(search, limbs_reconsidered(search, start)), k_first_step / 2, k_last_step);
+    return polished(search, freed(search, limbs_reconsidered(search, start)), k_fine);
 }
 
 }  // namespace fit

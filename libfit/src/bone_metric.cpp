@@ -43,6 +43,16 @@ double BoneMetric::worn(int bone, const Vec3& head, const Vec3& tail) const
     return sum;
 }
 
+double BoneMetric::needed(int bone, const Vec3& head, const Vec3& tail) const
+{
+    double sum = 0;
+    for (int i = 0; i < k_samples; ++i) {
+        const Room room = cloth_.at(bone_sample(head, tail, i));
+        sum += room.inside * std::min(room.distance, figure_.radii[bone]);
+    }
+    return sum;
+}
+
 double BoneMetric::bare(int bone, const Vec3& head, const Vec3& tail) const
 {
     if (!is_arm(bone) && !is_leg(bone))

@@ -27,6 +27,8 @@ public:
 
     /// E_B of a covered bone, m: the room at its five samples, as far as the limb needs it.
     double worn(int bone, const Vec3& head, const Vec3& tail) const;
+    /// Of that, what the limb cannot do without, m.
+    double needed(int bone, const Vec3& head, const Vec3& tail) const;
     /// What an arm or leg that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the
     /// garment. 0 for other bones.
     double bare(int bone, const Vec3& head, const Vec3& tail) const;

@@ -13,6 +13,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "best_start.h"
+#include "climb.h"
 #include "error_metric.h"
 #include "fit/error.h"
 #include "garment_type.h"
@@ -22,10 +23,13 @@ namespace fit {
 namespace {
 
 constexpr double k_shortest_tip = 0.02;  // of an extremity; below, it ends at its joint
+constexpr double k_clear_of_cloth = 0.002,
+                 k_clear_step = 0.003;  // m; an extremity keeps so far away, looked at so often
 constexpr int k_partly_inside = 2, k_mostly_inside = 3;  // of a bone's five samples
 constexpr double k_least_room = 0.2;  // share of the room that covered bones need
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
+constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
 constexpr double k_same_way = 0.9;  // cosine; between ways up that are worth trying apart
 
 // Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face front.
@@ -144,8 +148,8 @@ public:
     /// @throws InvalidInput when no body fits into the garment held like this.
     Attempt(const Rig& rig, TriangleMesh outward, GarmentType given, const Progress& progress) :
         rig_(rig), openings_(openings_of(outward)), guess_(resolved_type(given, openings_)),
-        cloth_(outward), cues_ { front_of(openings_), cuffs_of(openings_) }, limits_(rig),
-        metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, openings_))),
+        outward_(std::move(outward)), cloth_(outward_), cues_ { front_of(openings_), cuffs_of(openings_) },
+        limits_(rig), metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, openings_))),
         search_(rig_, limits_, metric_, cues_), start_(best_start(rig_, search_, progress))
     {
         require_fit(search_, start_.posture, sizes(rig_, cloth_));
@@ -162,7 +166,9 @@ public:
         // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
         const BoneMetric metric(cloth_, figure_of(rig_, bones_inside(search_, start_.posture, k_partly_inside)));
         const SkeletonSearch search(rig_, limits_, metric, cues_);
-        const Posture fitted = refined(search, start_.posture);
+        PaperClimb paper(outward_, metric.figure().covered);
+        const Posture together = raised(search, refined(search, start_.posture), paper, k_last_steps);
+        const Posture fitted = raised_alone(search, together, paper, k_nearby_steps);
         require_clear(search, fitted);
 
         FitResult result;
@@ -180,6 +186,7 @@ private:
     const Rig& rig_;
     std::vector<Opening> openings_;
     TypeGuess guess_;
+    TriangleMesh outward_;
     ClothRoom cloth_;
     GarmentCues cues_;
     JointLimits limits_;
@@ -187,6 +194,16 @@ private:
     SkeletonSearch search_;
     BestStart start_;
 };
+
+// Met by no cloth, nor nearly: the body is put over its bones with some thickness.
+bool is_clear(const TriangleTree& cloth, const Vec3& joint, const Vec3& tip)
+{
+    const int steps = int(std::ceil((tip - joint).norm() / k_clear_step));
+    for (int i = 1; i <= steps; ++i)
+        if (cloth.distance(joint + double(i) / steps * (tip - joint)) < k_clear_of_cloth)
+            return false;
+    return !cloth.is_met(joint, tip);
+}
 
 // As given; then with each axis of the room, and each along which the cloth is spread, for the vertical, either way up.
 std::vector<Eigen::Quaterniond> ways_up(const Positions& positions)
@@ -251,7 +268,7 @@ Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment)
     for (int e = 0; e < extremity_count; ++e) {
         const Vec3& joint = joints.tail(bone_before(Extremity(e)));
         double reach = 1;
-        while (reach > k_shortest_tip && cloth.is_met(joint, joint + reach * (joints.tips[e] - joint)))
+        while (reach > k_shortest_tip && !is_clear(cloth, joint, joint + reach * (joints.tips[e] - joint)))
             reach *= 0.8;
         if (reach < 1)  // once more, to keep some distance
             result.tips[e] = joint + (reach > k_shortest_tip ? 0.8 * reach : 0.0) * (joints.tips[e] - joint);

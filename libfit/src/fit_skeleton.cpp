@@ -42,11 +42,12 @@ std::unique_ptr<ErrorMetric> metric_of(const Rig& rig, const TriangleMesh& body,
 FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
                       const Progress& progress)
 {
-    const TypeGuess guess = resolved_type(options.type, openings_of(outward_cloth(garment)));
+    const std::vector<Opening> openings = openings_of(outward_cloth(garment));
+    const TypeGuess guess = resolved_type(options.type, openings);
     FitResult result;
     result.type = guess.type;
     result.type_margin = guess.margin;
-    result.covered = bones_covered_by(guess.type);
+    result.covered = bones_covered_by(guess.type, openings);
     const auto metric = metric_of(rig, body, garment, result.covered, options);
     const Relaxation relaxation = relaxation_of(rig, garment, guess.type, options.iterations);
     const Relaxed found = relaxed(rig, *metric, result.covered, relaxation, progress.part(0, 1, "fit the skeleton"));

@@ -23,9 +23,12 @@ using Aabb = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
 
+constexpr double k_anywhere = 1e150;  // its square is still a number
+
 // Of points equally near, the one with the lowest index, whatever the order in which the tree comes across them.
 class FirstNearest : public flann::ResultSet<double> {
 public:
+    explicit FirstNearest(double known) : squared_(known * known * k_rounding), above_(squared_) { }
     bool full() const override { return true; }
     void addPoint(double squared, std::size_t candidate) override
     {
@@ -40,9 +43,11 @@ public:
     std::pair<int, double> found() const { return { int(index_), std::sqrt(squared_) }; }
 
 private:
+    static constexpr double k_rounding = 1 + 1e-12;  // the point that is known has to be found again
+
     std::size_t index_ = 0;
-    double squared_ = std::numeric_limits<double>::max();
-    double above_ = squared_;  // FLANN passes on what is below: points equally near have to be
+    double squared_;
+    double above_;  // FLANN passes on what is below: points equally near have to be
 };
 
 /// What a traversal of the tree does with the nodes and triangles it comes to.
@@ -76,9 +81,9 @@ struct NearestPoint::Tree {
     {
         index.buildIndex();
     }
-    std::pair<int, double> nearest(const Vec3& query) const
+    std::pair<int, double> nearest(const Vec3& query, double known = INFINITY) const
     {
-        FirstNearest best;
+        FirstNearest best(std::min(known, k_anywhere));
         index.findNeighbors(best, query.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, 0));
         return best.found();
     }
@@ -88,7 +93,7 @@ struct NearestPoint::Tree {
 
 NearestPoint::NearestPoint(const Positions& points) : tree_(std::make_shared<const Tree>(points)) { }
 double NearestPoint::distance(const Vec3& query) const { return tree_->nearest(query).second; }
-int NearestPoint::index(const Vec3& query) const { return tree_->nearest(query).first; }
+int NearestPoint::index(const Vec3& query, double known) const { return tree_->nearest(query, known).first; }
 
 int PointScan::index(const Vec3& query) const
 {

@@ -4,6 +4,7 @@
 // Point, segment and ray queries: the only place that knows FLANN and the CGAL AABB tree. All of them may be asked from several
 // threads at a time.
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -19,7 +20,8 @@ public:
     explicit NearestPoint(const Positions& points);
 
     double distance(const Vec3& query) const;
-    int index(const Vec3& query) const;
+    /// @param known  one of the points is as near as that, which shortens the search
+    int index(const Vec3& query, double known = INFINITY) const;
 
 private:
     struct Tree;

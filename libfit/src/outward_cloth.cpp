@@ -20,6 +20,18 @@ constexpr double k_weld_fraction = 1e-6;  // of the diagonal: what file formats 
 constexpr double k_flat_patch = 0.01;  // volume / area^1.5; a sphere has 0.094, a sleeve 0.03, a pocket 0.002
 constexpr double k_side_step = 0.02;  // m; how far a flat patch looks to either side of itself
 
+// Turned round to begin with their lowest corner: the same face, however it was written.
+Triangles begun_at_lowest(Triangles triangles)
+{
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        Eigen::Index lowest = 0;
+        triangles.row(f).minCoeff(&lowest);
+        triangles.row(f)
+            = Eigen::RowVector3i(triangles(f, lowest), triangles(f, (lowest + 1) % 3), triangles(f, (lowest + 2) % 3));
+    }
+    return triangles;
+}
+
 // Equal vertices become one; vertices without a face are left behind.
 TriangleMesh welded(const GarmentMesh& garment)
 {
@@ -49,7 +61,7 @@ TriangleMesh welded(const GarmentMesh& garment)
             first.push_back(v);
         }
     return { garment.positions(first, Eigen::all),
-             garment.triangles.unaryExpr([&](int v) { return row_of[first_of[v]]; }) };
+             begun_at_lowest(garment.triangles.unaryExpr([&](int v) { return row_of[first_of[v]]; })) };
 }
 
 std::array<int, 3> sorted_corners(const Triangles& triangles, Eigen::Index f)
@@ -224,8 +236,6 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
                 for (const int f : patch->faces)
                     turn(cloth.triangles, f);
     }
-    outward.insert(outward.end(), flat.begin(), flat.end());
-    cloth.triangles = rows_of(cloth.triangles, outward);
     return cloth;
 }
 

@@ -17,6 +17,12 @@ std::function<int(const Vec3&)> nearest_by(NearestSearch search, const Positions
 
 }  // namespace
 
+double paper_delta(const Vec3& sample, const Vec3& nearest, const Vec3& normal)
+{
+    const Vec3 to_cloth = nearest - sample;
+    return (to_cloth.dot(normal) > 0 ? 1 : k_outside) * to_cloth.norm();
+}
+
 PaperMetric::PaperMetric(const GarmentMesh& garment, const std::vector<Bone>& covered, NearestSearch search) :
     positions_(garment.positions), normals_(vertex_normals(garment.positions, garment.triangles)), covered_(covered),
     nearest_vertex_(nearest_by(search, garment.positions))
@@ -27,8 +33,7 @@ PaperMetric::PaperMetric(const GarmentMesh& garment, const std::vector<Bone>& co
 double PaperMetric::delta(const Vec3& p) const
 {
     const int nearest = nearest_vertex_(p);
-    const Vec3 to_cloth = Vec3(positions_.row(nearest)) - p, normal = normals_.row(nearest);
-    return (to_cloth.dot(normal) > 0 ? 1 : k_outside) * to_cloth.norm();
+    return paper_delta(p, positions_.row(nearest), normals_.row(nearest));
 }
 
 // (1)

@@ -12,6 +12,9 @@
 
 namespace fit {
 
+/// Equation (3): the distance to the nearest vertex, and a hundred times that on the wrong side of it.
+double paper_delta(const Vec3& sample, const Vec3& nearest, const Vec3& normal);
+
 class PaperMetric : public ErrorMetric {
 public:
     /// Cost of an evaluation: five nearest vertices a bone, each O(log n) by KD-tree or O(n) by scan; the answers are the same.

@@ -31,13 +31,6 @@ constexpr double k_far_cloth = 0.25;  // m; cloth further away than this is just
 constexpr double k_cover_cells = 8;  // along the garment's longest side
 constexpr double k_better = 1e-9;  // m; below this two poses are equal, and the nearer one wins
 
-constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
-constexpr double k_least_gain = 1e-4;  // m; of a step of the polish
-// All but the hip joints, which are as good as fixed to the pelvis.
-constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
-                                          lclavicle, rclavicle, lhumerus, rhumerus,  lradius,
-                                          rradius,   lfemur,    rfemur,   ltibia,    rtibia };
-
 constexpr std::array<int, 7> k_trunk { lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle };
 
 // What is looked for a place for before limbs are searched; legs stand as they hang, arms may point anywhere.
@@ -259,45 +252,6 @@ Posture SkeletonSearch::turned(const Posture& present, const Vec3& rotation_vect
     for (Vec3& direction : moved.directions)
         direction = turn * direction;
     return moved;
-}
-
-// Degrees of freedom: three of translation, three of rotation, and two of each bone that bends.
-Posture SkeletonSearch::moved(const Posture& present, int freedom, double step) const
-{
-    if (freedom >= 3 && freedom < 6)
-        return turned(present, step * Vec3::Unit(freedom - 3));
-    Posture moved = present;
-    if (freedom < 3) {
-        moved.root[freedom] += k_lever * step;
-    } else {
-        Vec3& direction = moved.directions[k_bending[(freedom - 6) / 2]];
-        const Vec3 across = direction.unitOrthogonal(), axis = freedom % 2 ? across : Vec3(direction.cross(across));
-        direction = turned_by(step * axis) * direction;
-    }
-    return moved;
-}
-
-Posture SkeletonSearch::polished(Posture present, double first_step, double last_step) const
-{
-    constexpr int freedoms = 6 + 2 * int(k_bending.size());
-    double score = total(present);
-    for (double step = first_step; step >= last_step; step *= 0.5)
-        for (bool improves = true; improves;) {
-            improves = false;
-            for (int freedom = 0; freedom < freedoms; ++freedom)
-                for (const double signed_step : { step, -step }) {
-                    const Posture next = moved(present, freedom, signed_step);
-                    if (energy(next) <= score + k_better)  // crossings only cost
-                        continue;
-                    if (const double next_score = total(next); next_score > score + k_least_gain) {
-                        present = next;
-                        score = next_score;
-                        improves = true;
-                        break;
-                    }
-                }
-        }
-    return present;
 }
 
 // A limb fills a tube of its own where the garment covers its lower bone, or is a sleeve; legs in a skirt share theirs.

@@ -69,9 +69,6 @@ public:
     /// The best chain of the limb's two bones; the present posture when all of them pass through cloth.
     Posture limb_moved(const Posture& present, const Limb& limb, const Reach& reach) const;
 
-    /// Ascent over all degrees of freedom together, each in turn by steps that are halved when none of them helps; radians.
-    Posture polished(Posture present, double first_step, double last_step) const;
-
     /// Turned about the middle of the trunk.
     Posture turned(const Posture& present, const Vec3& rotation_vector) const;
 
@@ -92,7 +89,6 @@ private:
     double cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
     double twin_cost(int bone, const Vec3& direction, const Skeleton& joints) const;
     double stance_energy(const Posture& posture) const;
-    Posture moved(const Posture& present, int freedom, double step) const;
     CoverDistances cover_distances(const PlacedBones& bones, const Limb* without) const;
     double emptiness(const CoverDistances& distances) const;
     void lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const;

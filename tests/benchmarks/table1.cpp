@@ -8,7 +8,7 @@
 // paper    found with the KD-tree, all threads; the poses are the same by scan. By scan, the paper's own O(n_G), the time is that
 //          of so many queries as the search made, each as long as the mean of k_timed_queries; --all-of-scan runs them all.
 // tisserand  of so many evaluations as paper made, each as long as the mean of k_timed_surfaces, by scan: O(n_H n_G).
-// E        of both poses by the paper's own metric, over the bones that the garment's type covers.
+// E        of both poses by the paper's own metric, over the bones that the garment covers.
 
 #include <algorithm>
 #include <chrono>
@@ -119,9 +119,9 @@ double surface_seconds(const Rig& rig, const TriangleMesh& body, const GarmentMe
         / k_timed_surfaces;
 }
 
-double energy(const Rig& rig, const Pose& pose, const GarmentMesh& garment, GarmentType type)
+double energy(const Rig& rig, const Pose& pose, const GarmentMesh& garment, const std::vector<Bone>& covered)
 {
-    const auto scores = paper_scores(rig, pose, garment, bones_covered_by(type));
+    const auto scores = paper_scores(rig, pose, garment, covered);
     return std::accumulate(scores.begin(), scores.end(), 0.0);
 }
 
@@ -156,7 +156,8 @@ void print_row(int number, const Row& row, const Rig& rig, const TriangleMesh& b
                 long(body.positions.rows()), long(body.triangles.rows()), fast.one, fast.all, tree, scan.one, scan.all,
                 all_of_scan ? " (all of it)" : "", tisserand.one, tisserand.all, scan.one / fast.one,
                 scan.all / fast.all, tisserand.one / fast.one, tisserand.all / fast.all,
-                energy(rig, fast_result.pose, garment, row.type), energy(rig, paper_result.pose, garment, row.type));
+                energy(rig, fast_result.pose, garment, paper_result.covered),
+                energy(rig, paper_result.pose, garment, paper_result.covered));
     std::fflush(stdout);
 }
 

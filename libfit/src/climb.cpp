@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "climb.h"
+
+#include "search_grids.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
+constexpr double k_least_gain = 1e-4;  // m; of a step
+constexpr double k_furthest_way = 0.03;  // m; that a joint goes for the paper's E alone
+constexpr double k_room_lost = 0.005;  // m, of a bone's five samples: a millimetre each
+constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
+// All but the hip joints, which are as good as fixed to the pelvis. First the trunk.
+constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
+                                          lclavicle, rclavicle, lhumerus, rhumerus,  lradius,
+                                          rradius,   lfemur,    rfemur,   ltibia,    rtibia };
+constexpr int k_freedoms = 6 + 2 * int(k_bending.size()), k_trunk_freedoms = 6 + 2 * 7;
+
+// Degrees of freedom: three of translation, three of rotation, and two of each bone that bends.
+Posture moved(const SkeletonSearch& search, const Posture& present, int freedom, double step)
+{
+    if (freedom >= 3 && freedom < 6)
+        return search.turned(present, step * Vec3::Unit(freedom - 3));
+    Posture moved = present;
+    if (freedom < 3) {
+        moved.root[freedom] += k_lever * step;
+    } else {
+        Vec3& direction = moved.directions[k_bending[(freedom - 6) / 2]];
+        const Vec3 across = direction.unitOrthogonal(), axis = freedom % 2 ? across : Vec3(direction.cross(across));
+        direction = turned_by(step * axis) * direction;
+    }
+    return moved;
+}
+
+// A bare forearm goes along with its upper arm, a bare shin with its thigh.
+Posture with_bare_limbs_along(const SkeletonSearch& search, const Posture& before, Posture after)
+{
+    for (const auto& [bones, end] : k_limbs)
+        if (const auto [upper, lower] = bones; !search.metric().figure().covered[lower])
+            after.directions[lower]
+                = shortest_arc(before.directions[upper], after.directions[upper]) * after.directions[lower];
+    return after;
+}
+
+// Arms and legs stay where they are, as far as they can, while the trunk moves.
+Posture with_limbs_kept(const Skeleton& own, const Posture& before, Posture after)
+{
+    const Skeleton from = placed(own, before).joints;
+    Skeleton to = placed(own, after).joints;
+    for (const Limb& limb : k_limbs)
+        for (const int b : limb.bones)
+            if (limb.end != head_top) {
+                after.directions[b] = (from.tail(b) - to.head(b)).normalized();
+                to.tails[b] = to.head(b) + own.length(b) * after.directions[b];
+            }
+    return after;
+}
+
+// As far again.
+Posture beyond(const Posture& from, const Posture& to)
+{
+    Posture next = to;
+    next.root += to.root - from.root;
+    next.turn = (to.turn * from.turn.conjugate() * to.turn).normalized();
+    for (int b = 0; b < bone_count; ++b)
+        next.directions[b] = shortest_arc(from.directions[b], to.directions[b]) * to.directions[b];
+    return next;
+}
+
+// step_taken(freedom, step) and taken(next) make a better posture the present one.
+template <class StepTaken, class Taken>
+void climb(const Posture& present, const Steps& steps, const StepTaken& step_taken, const Taken& taken)
+{
+    for (double step = steps.first; step >= steps.last; step *= 0.5)
+        for (bool improves = true; improves;) {
+            improves = false;
+            Posture from = present;
+            for (int freedom = 0; freedom < k_freedoms; ++freedom)
+                improves = step_taken(freedom, step) || step_taken(freedom, -step) || improves;
+            for (Posture here = present; improves && taken(beyond(from, here)); here = present)
+                from = here;
+        }
+}
+
+// The trunk moves with its limbs or between them; what is bare goes along with what it hangs on.
+template <class Taken>
+void climb_in_cloth(const SkeletonSearch& search, const Posture& present, const Steps& steps, const Taken& taken)
+{
+    const auto taken_whole = [&](const Posture& next) { return taken(with_bare_limbs_along(search, present, next)); };
+    const auto step_taken = [&](int freedom, double step) {
+        const Posture next = moved(search, present, freedom, step);
+        return taken_whole(next)
+            || (freedom < k_trunk_freedoms && taken_whole(with_limbs_kept(search.own(), present, next)));
+    };
+    climb(present, steps, step_taken, taken_whole);
+}
+
+// What must hold while a posture is raised by the paper's E alone: joints stay near, and bones keep the room they need.
+class RoomKept {
+public:
+    RoomKept(const SkeletonSearch& search, const Posture& start) :
+        search_(search), joints_(placed(search.own(), start).joints), least_energy_(search.total(start) - k_energy_lost)
+    {
+        for (int b = 0; b < bone_count; ++b)
+            least_room_[b] = needed(b, joints_) - k_room_lost;
+    }
+
+    bool holds(const Posture& posture) const
+    {
+        const Skeleton joints = placed(search_.own(), posture).joints;
+        for (int b = 0; b < bone_count; ++b)
+            if (search_.metric().figure().covered[b]
+                && (is_far(joints.head(b), joints_.head(b)) || is_far(joints.tail(b), joints_.tail(b))
+                    || needed(b, joints) < least_room_[b]))
+                return false;
+        return search_.total(posture) >= least_energy_;
+    }
+
+private:
+    static bool is_far(const Vec3& a, const Vec3& b) { return (a - b).norm() > k_furthest_way; }
+    double needed(int bone, const Skeleton& joints) const
+    {
+        return search_.metric().needed(bone, joints.head(bone), joints.tail(bone));
+    }
+
+    const SkeletonSearch& search_;
+    Skeleton joints_;
+    double least_energy_;
+    std::array<double, bone_count> least_room_ {};
+};
+
+}  // namespace
+
+Posture polished(const SkeletonSearch& search, const Posture& start, const Steps& steps)
+{
+    Posture present = start;
+    double score = search.total(present);
+    const auto taken = [&](const Posture& next) {
+        if (search.energy(next) <= score + k_least_gain)  // crossings only cost
+            return false;
+        const double next_score = search.total(next);
+        if (next_score <= score + k_least_gain)
+            return false;
+        present = next;
+        score = next_score;
+        return true;
+    };
+    climb(
+        present, steps, [&](int freedom, double step) { return taken(moved(search, present, freedom, step)); }, taken);
+    return present;
+}
+
+Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& paper, const Steps& steps)
+{
+    Posture present = start;
+    double score = search.total(present);
+    const double least = score - k_energy_lost;
+    paper.is_above(placed(search.own(), start).joints, 0);
+    paper.accept();
+    climb_in_cloth(search, present, steps, [&](const Posture& next) {
+        const Skeleton joints = placed(search.own(), next).joints;
+        const auto is_above = [&](double next_score) {
+            return next_score >= least && paper.is_above(joints, score - next_score + k_least_gain);
+        };
+        if (!is_above(search.energy(next)))  // crossings only cost
+            return false;
+        const double next_score = search.total(next);
+        if (!is_above(next_score))
+            return false;
+        present = next;
+        score = next_score;
+        paper.accept();
+        return true;
+    });
+    return present;
+}
+
+Posture raised_alone(const SkeletonSearch& search, const Posture& start, PaperClimb& paper, const Steps& steps)
+{
+    Posture present = start;
+    const RoomKept room(search, start);
+    climb_in_cloth(search, present, steps, [&](const Posture& next) {
+        if (!paper.is_above(placed(search.own(), next).joints, k_least_gain) || !room.holds(next))
+            return false;
+        present = next;
+        paper.accept();
+        return true;
+    });
+    return present;
+}
+
+}  // namespace fit
