@@ -10,6 +10,7 @@ constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a b
 constexpr double k_least_gain = 1e-4;  // m; of a step
 constexpr double k_furthest_way = 0.03;  // m; that a joint goes for the paper's E alone
 constexpr double k_room_lost = 0.005;  // m, of a bone's five samples: a millimetre each
+constexpr double k_energy_gained = 0.02;  // m; at most by a step of a pose that is polished
 constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
 // All but the hip joints, which are as good as fixed to the pelvis. First the trunk.
 constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
@@ -96,11 +97,30 @@ void climb_in_cloth(const SkeletonSearch& search, const Posture& present, const 
     climb(present, steps, step_taken, taken_whole);
 }
 
+Vec3 on_bone(const Skeleton& joints, int bone, double share)
+{
+    return joints.head(bone) + share * (joints.tail(bone) - joints.head(bone));
+}
+
+// Skin cuts the corner between neck and shoulders, and a neckline may come between.
+int corners_through_cloth(const SkeletonSearch& search, const Posture& posture)
+{
+    const Skeleton joints = placed(search.own(), posture).joints;
+    int count = 0;
+    for (const int clavicle : { lclavicle, rclavicle })
+        for (const double out : { 0.3, 0.5, 0.7 })
+            for (const double up : { 0.3, 0.5, 0.7 })
+                count
+                    += search.metric().cloth().crosses(on_bone(joints, clavicle, out), on_bone(joints, lowerneck, up));
+    return count;
+}
+
 // What must hold while a posture is raised by the paper's E alone: joints stay near, and bones keep the room they need.
 class RoomKept {
 public:
     RoomKept(const SkeletonSearch& search, const Posture& start) :
-        search_(search), joints_(placed(search.own(), start).joints), least_energy_(search.total(start) - k_energy_lost)
+        search_(search), joints_(placed(search.own(), start).joints),
+        least_energy_(search.total(start) - k_energy_lost), corners_(corners_through_cloth(search, start))
     {
         for (int b = 0; b < bone_count; ++b)
             least_room_[b] = needed(b, joints_) - k_room_lost;
@@ -114,11 +134,11 @@ public:
                 && (is_far(joints.head(b), joints_.head(b)) || is_far(joints.tail(b), joints_.tail(b))
                     || needed(b, joints) < least_room_[b]))
                 return false;
-        return search_.total(posture) >= least_energy_;
+        return search_.total(posture) >= least_energy_ && corners_through_cloth(search_, posture) <= corners_;
     }
 
 private:
-    static bool is_far(const Vec3& a, const Vec3& b) { return (a - b).norm() > k_furthest_way; }
+    bool is_far(const Vec3& a, const Vec3& b) const { return (a - b).norm() > k_furthest_way; }
     double needed(int bone, const Skeleton& joints) const
     {
         return search_.metric().needed(bone, joints.head(bone), joints.tail(bone));
@@ -127,6 +147,7 @@ private:
     const SkeletonSearch& search_;
     Skeleton joints_;
     double least_energy_;
+    int corners_;
     std::array<double, bone_count> least_room_ {};
 };
 
@@ -156,17 +177,19 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
     Posture present = start;
     double score = search.total(present);
     const double least = score - k_energy_lost;
+    const int corners = corners_through_cloth(search, start);
     paper.is_above(placed(search.own(), start).joints, 0);
     paper.accept();
     climb_in_cloth(search, present, steps, [&](const Posture& next) {
-        const Skeleton joints = placed(search.own(), next).joints;
-        const auto is_above = [&](double next_score) {
-            return next_score >= least && paper.is_above(joints, score - next_score + k_least_gain);
+        if (!paper.is_above(placed(search.own(), next).joints, k_least_gain - k_energy_gained))
+            return false;
+        const auto is_better = [&](double next_score) {
+            return next_score >= least && paper.gain() + next_score > score + k_least_gain;
         };
-        if (!is_above(search.energy(next)))  // crossings only cost
+        if (!is_better(search.energy(next)))  // crossings only cost
             return false;
         const double next_score = search.total(next);
-        if (!is_above(next_score))
+        if (!is_better(next_score) || corners_through_cloth(search, next) > corners)
             return false;
         present = next;
         score = next_score;

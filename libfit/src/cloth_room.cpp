@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -14,9 +18,25 @@ constexpr double k_largest_grid = 4e6;  // nodes; a garment far too large gets a
 
 }  // namespace
 
-ClothRoom::ClothRoom(const TriangleMesh& outward) :
+ClothRoom::Parts ClothRoom::parts_of(const TriangleMesh& outward)
+{
+    std::optional<ClothTree> tree;
+    std::optional<TriangleTree> triangles;
+    parallel_for<int>(2, [&](int part) {
+        if (part == 0)
+            triangles.emplace(outward);
+        else
+            tree.emplace(cloth_patches(outward, k_patch));
+    });
+    return { *std::move(tree), *std::move(triangles) };
+}
+
+ClothRoom::ClothRoom(const TriangleMesh& outward) : ClothRoom(outward, parts_of(outward)) { }
+
+ClothRoom::ClothRoom(const TriangleMesh& outward, Parts parts) :
     low_(outward.positions.colwise().minCoeff()), high_(outward.positions.colwise().maxCoeff()),
-    barycentre_(outward.positions.colwise().mean()), tree_(cloth_patches(outward, k_patch)), triangles_(outward)
+    barycentre_(outward.positions.colwise().mean()), tree_(std::move(parts.tree)),
+    triangles_(std::move(parts.triangles))
 {
     const Vec3 extent = high_ - low_ + Vec3::Constant(2 * k_border);
     spacing_ = std::max(k_grid_spacing, std::cbrt(extent.prod() / k_largest_grid));
@@ -24,19 +44,40 @@ ClothRoom::ClothRoom(const TriangleMesh& outward) :
     size_ = (extent / spacing_).array().ceil().cast<int>() + 2;
     blocks_ = (size_.array() + ClothTree::k - 1) / ClothTree::k;
     block_ = std::vector<Block>(std::size_t(blocks_.x()) * blocks_.y() * blocks_.z());
+    nodes_.resize(std::size_t(size_.x()) * size_.y() * size_.z());
 }
 
-Eigen::Vector2f ClothRoom::node(int x, int y, int z) const
+void ClothRoom::fill(const Eigen::Vector3i& block) const
 {
     constexpr int k = ClothTree::k;
-    Block& block = block_[(std::size_t(z / k) * blocks_.y() + y / k) * blocks_.x() + x / k];
-    std::call_once(block.filled, [&] {
-        block.values = tree_.block(origin_ + spacing_ * k * Vec3(x / k, y / k, z / k), spacing_);
-        block.values.windings
-            = block.values.windings.unaryExpr([](float winding) { return float(inside_of(winding)); });
-    });
-    const int i = (z % k * k + y % k) * k + x % k;
-    return { block.values.distances[i], block.values.windings[i] };
+    const Eigen::Vector3i first = k * block, end = (first.array() + k).min(size_.array());
+    const ClothTree::Block values = tree_.block(origin_ + spacing_ * first.cast<double>(), spacing_);
+    for (int z = first.z(); z < end.z(); ++z)
+        for (int y = first.y(); y < end.y(); ++y)
+            for (int x = first.x(); x < end.x(); ++x) {
+                const int i = ((z - first.z()) * k + y - first.y()) * k + x - first.x();
+                nodes_[index({ x, y, z })] = { values.distances[i], float(inside_of(values.windings[i])) };
+            }
+}
+
+void ClothRoom::require(const Eigen::Vector3i& node) const
+{
+    const Eigen::Vector3i at = node / ClothTree::k;
+    Block& block = block_[(std::size_t(at.z()) * blocks_.y() + at.y()) * blocks_.x() + at.x()];
+    if (block.is_filled.load(std::memory_order_acquire))
+        return;
+    std::call_once(block.once, [&] { fill(at); });
+    block.is_filled.store(true, std::memory_order_release);
+}
+
+// The cell's eight nodes lie in one block, or in those of its corners.
+void ClothRoom::require_cell(const Eigen::Vector3i& cell) const
+{
+    constexpr int k = ClothTree::k;
+    const bool x = cell.x() % k == k - 1, y = cell.y() % k == k - 1, z = cell.z() % k == k - 1;
+    for (int corner = 0; corner < 8; ++corner)
+        if ((x || !(corner & 1)) && (y || !(corner & 2)) && (z || !(corner & 4)))
+            require(cell + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2));
 }
 
 bool ClothRoom::crosses(const Vec3& from, const Vec3& to) const { return triangles_.is_met(from, to); }
@@ -48,12 +89,15 @@ Room ClothRoom::at(const Vec3& point) const
     const Vec3 cell = wanted.cwiseMax(0).cwiseMin(last);
     const Eigen::Vector3i c = cell.cast<int>().cwiseMin(size_.array().matrix() - Eigen::Vector3i::Constant(2));
     const Eigen::Vector3f t = (cell - c.cast<double>()).cast<float>();
-    Eigen::Vector2f value = Eigen::Vector2f::Zero();
-    for (int corner = 0; corner < 8; ++corner) {
-        const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
-        const float weight = (dx ? t.x() : 1 - t.x()) * (dy ? t.y() : 1 - t.y()) * (dz ? t.z() : 1 - t.z());
-        value += weight * node(c.x() + dx, c.y() + dy, c.z() + dz);
-    }
+    require_cell(c);
+    const std::size_t up = std::size_t(size_.x()) * size_.y(), back = std::size_t(size_.x());
+    const Eigen::Vector2f* const node = &nodes_[index(c)];
+    const auto along_x = [&](const Eigen::Vector2f* n) { return Eigen::Vector2f(n[0] + t.x() * (n[1] - n[0])); };
+    const auto across = [&](const Eigen::Vector2f* n) {
+        const Eigen::Vector2f near = along_x(n);
+        return Eigen::Vector2f(near + t.y() * (along_x(n + back) - near));
+    };
+    const Eigen::Vector2f low = across(node), value = low + t.z() * (across(node + up) - low);
     const double beyond = spacing_ * (wanted - cell).norm();  // outside of the grid
     return { value.x() + beyond, beyond > 0 ? 0.0 : double(value.y()) };
 }

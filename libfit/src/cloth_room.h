@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <vector>
 
@@ -27,20 +28,35 @@ public:
     const std::vector<ClothPatch>& patches() const { return tree_.patches(); }
 
 private:
-    struct Block {
-        std::once_flag filled;
-        ClothTree::Block values;
+    struct Parts {
+        ClothTree tree;
+        TriangleTree triangles;
     };
-    Eigen::Vector2f node(int x, int y, int z) const;
+    ClothRoom(const TriangleMesh& outward, Parts parts);
+    static Parts parts_of(const TriangleMesh& outward);
+
+    /// Nodes are worked out ClothTree::k along each axis at a time.
+    struct Block {
+        std::once_flag once;
+        std::atomic<bool> is_filled = false;
+    };
+    void require_cell(const Eigen::Vector3i& cell) const;
+    void require(const Eigen::Vector3i& node) const;
+    void fill(const Eigen::Vector3i& block) const;
+    std::size_t index(const Eigen::Vector3i& c) const
+    {
+        return (std::size_t(c.z()) * size_.y() + c.y()) * size_.x() + c.x();
+    }
 
     Vec3 low_, high_, barycentre_;
     ClothTree tree_;
     TriangleTree triangles_;
     Vec3 origin_ = Vec3::Zero();
     double spacing_ = 0;
-    Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
-    Eigen::Vector3i blocks_ = Eigen::Vector3i::Zero();
-    mutable std::vector<Block> block_;  // ClothTree::k nodes along each axis
+    Eigen::Vector3i size_ = Eigen::Vector3i::Zero(),
+                    blocks_ = Eigen::Vector3i::Zero();  // nodes along each axis, blocks
+    mutable std::vector<Block> block_;
+    mutable std::vector<Eigen::Vector2f> nodes_;  // distance, and how surely inside
 };
 
 }  // namespace fit

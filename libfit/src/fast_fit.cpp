@@ -27,6 +27,7 @@ constexpr double k_clear_of_cloth = 0.002,
                  k_clear_step = 0.003;  // m; an extremity keeps so far away, looked at so often
 constexpr int k_partly_inside = 2, k_mostly_inside = 3;  // of a bone's five samples
 constexpr double k_least_room = 0.2;  // share of the room that covered bones need
+constexpr double k_tight = 0.7, k_wide = 0.95;  // of the same
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
 constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
@@ -127,6 +128,16 @@ Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
     return search.at_ease(middle, upright(rig, 0));
 }
 
+// Cloth that is tight leaves no choice; where it is wide, the paper's E has a say, and where there is all the room needed, the last.
+Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, const TriangleMesh& outward)
+{
+    if (share_of_room(search, posture) < k_tight)
+        return posture;
+    PaperClimb paper(outward, search.metric().figure().covered);
+    const Posture together = raised(search, posture, paper, k_last_steps);
+    return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
+}
+
 TriangleMesh turned(TriangleMesh mesh, const Eigen::Quaterniond& turn)
 {
     mesh.positions = (mesh.positions * turn.toRotationMatrix().transpose()).eval();
@@ -166,9 +177,7 @@ public:
         // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
         const BoneMetric metric(cloth_, figure_of(rig_, bones_inside(search_, start_.posture, k_partly_inside)));
         const SkeletonSearch search(rig_, limits_, metric, cues_);
-        PaperClimb paper(outward_, metric.figure().covered);
-        const Posture together = raised(search, refined(search, start_.posture), paper, k_last_steps);
-        const Posture fitted = raised_alone(search, together, paper, k_nearby_steps);
+        const Posture fitted = raised_where_wide(search, refined(search, start_.posture), outward_);
         require_clear(search, fitted);
 
         FitResult result;

@@ -36,12 +36,18 @@ Ring border_edges(const TriangleMesh& mesh)
     for (int e = 0; e < int(first.size()); ++e)
         first[e] = from(e);
     const Buckets edges_from(int(mesh.positions.rows()), first);
+    std::vector<char> is_border(first.size());
+    parallel_for<int>(
+        int(first.size()),
+        [&](int e) {
+            const auto back = edges_from[to(e)];
+            is_border[e] = std::none_of(back.begin(), back.end(), [&](int other) { return to(other) == from(e); });
+        },
+        4096);
     Ring border;
-    for (int e = 0; e < int(first.size()); ++e) {
-        const auto back = edges_from[to(e)];
-        if (std::none_of(back.begin(), back.end(), [&](int other) { return to(other) == from(e); }))
+    for (int e = 0; e < int(first.size()); ++e)
+        if (is_border[e])
             border.emplace_back(from(e), to(e));
-    }
     return border;
 }
 
@@ -108,10 +114,11 @@ public:
                 lengths_.push_back(
                     (mesh.positions.row(mesh.triangles(f, k)) - mesh.positions.row(mesh.triangles(f, (k + 1) % 3)))
                         .norm());
+        longest_edge_ = lengths_.empty() ? 0 : *std::max_element(lengths_.begin(), lengths_.end());
     }
 
-    // m along edges
-    std::vector<double> distances_from(const Ring& ring) const
+    // m along edges; to what is no further than the nearest of `others` and the faces there, else infinite
+    std::vector<double> distances_from(const Ring& ring, const std::vector<char>& is_other) const
     {
         std::vector<double> distance(mesh_.positions.rows(), std::numeric_limits<double>::infinity());
         std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
@@ -123,11 +130,14 @@ public:
         };
         for (const auto& [a, b] : ring)
             reach(a, 0);
-        while (!queue.empty()) {
+        double last = std::numeric_limits<double>::infinity();
+        while (!queue.empty() && queue.top().first <= last) {
             const auto [d, v] = queue.top();
             queue.pop();
             if (d > distance[v])
                 continue;
+            if (is_other[v])
+                last = std::min(last, d + 2 * longest_edge_);
             for (const int corner : edges_at_[v]) {
                 const int f = corner / 3, k = corner % 3;
                 reach(mesh_.triangles(f, (k + 1) % 3), d + lengths_[corner]);
@@ -149,6 +159,7 @@ private:
     const TriangleMesh& mesh_;
     Buckets edges_at_;  // corners, 3 f + k, of each vertex
     std::vector<double> lengths_;  // of edge k of face f
+    double longest_edge_ = 0;  // m
 };
 
 // The area between two distances from the opening is the girth there times their difference.
@@ -167,6 +178,17 @@ std::vector<double> girths_along(const TriangleMesh& mesh, const std::vector<dou
         girths[bin] += 0.5 * u.cross(v).norm() / slice;
     }
     return girths;
+}
+
+// At vertices: does another of the openings pass there?
+std::vector<char> others_at(const std::vector<Ring>& rings, std::size_t own, Eigen::Index vertices)
+{
+    std::vector<char> result(std::size_t(vertices), 0);
+    for (std::size_t r = 0; r < rings.size(); ++r)
+        if (r != own)
+            for (const auto& [a, b] : rings[r])
+                result[a] = 1;
+    return result;
 }
 
 // How far it is to the nearest other opening: there, slices begin to lack a part.
@@ -242,7 +264,8 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
         opening.piece = pieces[rings[r][0].first];
         opening.piece_low = ranges[opening.piece].low;
         opening.piece_height = ranges[opening.piece].high - opening.piece_low;
-        const std::vector<double> distance = paths.distances_from(rings[r]);
+        const std::vector<double> distance
+            = paths.distances_from(rings[r], others_at(rings, r, outward.positions.rows()));
         std::vector<double> girths = girths_along(outward, distance, slice);
         const double slices = std::clamp(reach_of(distance, rings, r) / slice, 1.0, double(girths.size()));
         girths.resize(std::size_t(slices));
@@ -253,12 +276,10 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
 
 bool is_sealed(const TriangleMesh& outward)
 {
-    if (!border_edges(outward).empty())
-        return false;
     const std::vector<int> pieces = pieces_of(outward);
     const auto spheres = Eigen::Index(std::set<int>(pieces.begin(), pieces.end()).size());
-    const Eigen::Index edges = 3 * outward.triangles.rows() / 2;
-    return outward.positions.rows() - edges + outward.triangles.rows() == 2 * spheres;
+    const Eigen::Index edges = 3 * outward.triangles.rows() / 2;  // if none is open
+    return outward.positions.rows() - edges + outward.triangles.rows() == 2 * spheres && border_edges(outward).empty();
 }
 
 }  // namespace fit

@@ -20,6 +20,8 @@ public:
 
     /// Is E there by more than `gain` above the present one? The first pose asked for is above any. O(log n) a sample.
     bool is_above(const Skeleton& joints, double gain);
+    /// By how much, m, where it was.
+    double gain() const { return next_.total - present_.total; }
     /// What was asked for last becomes the present pose.
     void accept() { present_ = next_; }
 

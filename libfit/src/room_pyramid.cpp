@@ -90,12 +90,16 @@ RoomRange RoomPyramid::within(const Vec3& centre, const Vec3& half_size) const
                wanted_high = (centre + half_size - origin_) / spacing_;
     const Eigen::Vector3i low = wanted_low.cwiseMax(0).cwiseMin(last).array().floor().cast<int>();
     const Eigen::Vector3i high = wanted_high.cwiseMax(0).cwiseMin(last).array().ceil().cast<int>();
-    std::size_t level = 0;  // on which no more than two nodes along each axis cover the box
-    while (level + 1 < levels_.size() && ((high / (1 << level)) - (low / (1 << level))).maxCoeff() > 1)
+    const auto above = [](const Eigen::Vector3i& c, int level) {
+        return Eigen::Vector3i(c.x() >> level, c.y() >> level, c.z() >> level);
+    };
+    int level = 0;  // on which no more than two nodes along each axis cover the box
+    while (level + 1 < int(levels_.size()) && (above(high, level) - above(low, level)).maxCoeff() > 1)
         ++level;
-    const Eigen::Vector3i first = low / (1 << level), end = high / (1 << level);
-    RoomRange range = levels_[level].at(first);
-    for_each_corner(first, end, [&](const Eigen::Vector3i& c) { range = joined(range, levels_[level].at(c)); });
+    const Eigen::Vector3i first = above(low, level), end = above(high, level);
+    const Level& nodes = levels_[std::size_t(level)];
+    RoomRange range = nodes.at(first);
+    for_each_corner(first, end, [&](const Eigen::Vector3i& c) { range = joined(range, nodes.at(c)); });
     const Vec3 beyond = (-wanted_low).cwiseMax(wanted_high - last).cwiseMax(0);
     range.furthest += spacing_ * beyond.norm();
     return range;
