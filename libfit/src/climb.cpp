@@ -10,7 +10,6 @@ constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a b
 constexpr double k_least_gain = 1e-4;  // m; of a step
 constexpr double k_furthest_way = 0.03;  // m; that a joint goes for the paper's E alone
 constexpr double k_room_lost = 0.005;  // m, of a bone's five samples: a millimetre each
-constexpr double k_energy_gained = 0.02;  // m; at most by a step of a pose that is polished
 constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
 // All but the hip joints, which are as good as fixed to the pelvis. First the trunk.
 constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
@@ -181,15 +180,12 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
     paper.is_above(placed(search.own(), start).joints, 0);
     paper.accept();
     climb_in_cloth(search, present, steps, [&](const Posture& next) {
-        if (!paper.is_above(placed(search.own(), next).joints, k_least_gain - k_energy_gained))
-            return false;
-        const auto is_better = [&](double next_score) {
-            return next_score >= least && paper.gain() + next_score > score + k_least_gain;
-        };
-        if (!is_better(search.energy(next)))  // crossings only cost
+        const double bound = search.energy(next);  // crossings only cost
+        if (bound < least || !paper.is_above(placed(search.own(), next).joints, score - bound + k_least_gain))
             return false;
         const double next_score = search.total(next);
-        if (!is_better(next_score) || corners_through_cloth(search, next) > corners)
+        if (next_score < least || paper.gain() + next_score <= score + k_least_gain
+            || corners_through_cloth(search, next) > corners)
             return false;
         present = next;
         score = next_score;

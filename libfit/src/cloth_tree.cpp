@@ -188,21 +188,23 @@ struct ClothTree::Nodes {
     float radius;
 };
 
-// A patch further from the block's centre than the nearest and twice the block's radius is nearest to none of its nodes.
-void ClothTree::add_nearest(int b, const Nodes& nodes, float nearest, Values& squared) const
+// A patch further than `reach` from the block's centre is nearest to none of its nodes: the furthest node has cloth that is nearer.
+void ClothTree::add_nearest(int b, const Nodes& nodes, float& reach, Values& squared) const
 {
     const Ball& ball = balls_[b];
-    const float reach = nearest + 2 * nodes.radius;
-    if ((ball.centre - nodes.centre).norm() > reach + ball.radius)
+    const auto distance = [&](const Ball& other) { return (other.centre - nodes.centre).norm(); };
+    if (distance(ball) > reach + ball.radius)
         return;
     if (ball.right != 0) {
-        add_nearest(b + 1, nodes, nearest, squared);
-        add_nearest(ball.right, nodes, nearest, squared);
+        const bool left_first = distance(balls_[b + 1]) < distance(balls_[ball.right]);
+        add_nearest(left_first ? b + 1 : ball.right, nodes, reach, squared);
+        add_nearest(left_first ? ball.right : b + 1, nodes, reach, squared);
         return;
     }
     for (int i = ball.begin; i < ball.end; ++i)
         if ((patches_[i].centre - nodes.centre).squaredNorm() <= reach * reach)
             squared = squared.min(nodes.squared_distances(patches_[i].centre));
+    reach = std::min(reach, std::sqrt(squared.maxCoeff()) + nodes.radius);
 }
 
 void ClothTree::add_windings(int b, const Nodes& nodes, Values& angles) const
@@ -224,7 +226,8 @@ ClothTree::Block ClothTree::block(const Vec3& first_node, double spacing) const
 {
     const Nodes nodes(first_node, spacing);
     Block result { Values::Constant(std::numeric_limits<float>::max()), Values::Zero() };
-    add_nearest(0, nodes, distance(nodes.centre.cast<double>()), result.distances);
+    float reach = distance(nodes.centre.cast<double>()) + 2 * nodes.radius;
+    add_nearest(0, nodes, reach, result.distances);
     add_windings(0, nodes, result.windings);
     result.distances = result.distances.sqrt();
     result.windings /= 4 * k_pi;

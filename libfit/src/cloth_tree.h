@@ -52,7 +52,7 @@ private:
     };
     int build(int begin, int end);
     struct Nodes;
-    void add_nearest(int ball, const Nodes& nodes, float nearest, Values& squared) const;
+    void add_nearest(int b, const Nodes& nodes, float& reach, Values& squared) const;
     void add_windings(int ball, const Nodes& nodes, Values& angles) const;
     void look_into(int ball, const Eigen::Vector3f& query, float& nearest) const;
 
