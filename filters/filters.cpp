@@ -61,6 +61,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.too_tight = result.too_tight;
     next.held_back = result.held_back;
     next.speed = result.speed;
+    next.frames = result.frames;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
         return next;
@@ -88,6 +89,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
     Dressing dressing;
     RecoverOptions between_poses = p.recover;
+    between_poses.frames = 0;
     between_poses.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // judged where it is to be worn
     const double n = double(scene.garments.size());
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {

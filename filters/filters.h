@@ -45,6 +45,7 @@ struct Dressing {
     std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
+    std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
     std::vector<FitMap> maps;  ///< of each garment
     std::vector<std::vector<Girth>> girths;  ///< of each garment and the body under it
 };

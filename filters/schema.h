@@ -101,6 +101,9 @@ void describe_motion(Options& o, Visitor&& visit)
     visit(o.settling_steps,
           About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
                   "Time steps under gravity once the pose is recovered" });
+    visit(o.frames,
+          About { "frames", "Frames", "", 0, 1000,
+                  "States on the way back to the body's own pose to hand out, evenly spread; 0 for none" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>

@@ -116,13 +116,23 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     ASSERT_TRUE(draped.certified);
     std::vector<double> fractions;
     const Progress progress([&](double fraction, std::string_view) { return fractions.push_back(fraction), true; });
-    const RecoverResult result = recover_pose(d.rig, d.body, standing, Pose(), draped.garments, {}, progress);
+    RecoverOptions options;
+    options.frames = 5;
+    const RecoverResult result = recover_pose(d.rig, d.body, standing, Pose(), draped.garments, options, progress);
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.pose_reached, 1);
     EXPECT_EQ(result.body, d.body.surface.positions);
     EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
     EXPECT_LT(result.garments[0].certificate.strain.p95, 0.15);
     EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    ASSERT_EQ(result.frames.size(), 5u);
+    EXPECT_EQ(result.frames.front().garments[0], draped.garments[0].positions);
+    EXPECT_EQ(result.frames.back().garments[0], result.garments[0].positions);
+    EXPECT_EQ(result.frames.back().body, result.body);
+    for (const RecoverFrame& frame : result.frames)
+        EXPECT_EQ(crossing_count({ frame.garments[0], draped.garments[0].rest.triangles },
+                                 { frame.body, d.body.surface.triangles }),
+                  0);
     // the thighs, and with them the cloth at the knees, came forward
     EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
 }

@@ -42,8 +42,8 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     EXPECT_EQ(count_of(ClothOptions()), 8u);
     [[maybe_unused]] const auto [drape_cloth, inflation, settling] = DrapeOptions();
     EXPECT_EQ(count_of(DrapeOptions()), 8u + 2u);
-    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling] = RecoverOptions();
-    EXPECT_EQ(count_of(RecoverOptions()), 8u + 3u);
+    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, frames] = RecoverOptions();
+    EXPECT_EQ(count_of(RecoverOptions()), 8u + 4u);
 }
 
 TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)

@@ -68,8 +68,9 @@ TEST(Untangle, MovesNothingFarFromATangle)
     const TriangleMesh tangled = dipping(0.003);
     const Positions result = untangled(tangled);
     for (Eigen::Index v = 0; v < result.rows(); ++v)
-        if (std::hypot(tangled.positions(v, 0) - 0.103, tangled.positions(v, 2) - 0.097) > 0.1)
+        if (std::hypot(tangled.positions(v, 0) - 0.103, tangled.positions(v, 2) - 0.097) > 0.1) {
             EXPECT_EQ(result.row(v), tangled.positions.row(v));
+        }
     EXPECT_LT((result - tangled.positions).rowwise().norm().maxCoeff(), 0.01);
 }
 

@@ -110,9 +110,40 @@ BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
     return result;
 }
 
+/// Keeps states on the way, evenly spread.
+class Recording {
+public:
+    Recording(const std::vector<WornGarment>& worn, const Triangles& body, int frames) :
+        worn_(worn), body_(body), frames_(frames)
+    {
+    }
+
+    /// Keeps the state when its turn has come, and only if it is certified: a frame that is shown is a state handed out.
+    void see(const ClothMotion& motion, double share)
+    {
+        if (frames_ == 0 || share * std::max(1, frames_ - 1) < double(seen_) - 1e-9)
+            return;
+        ++seen_;
+        put_positions(worn_, motion.cloth());
+        if (!certify_all(worn_, { motion.obstacle(), body_ }))
+            return;
+        kept_.push_back({ share, motion.obstacle(), {} });
+        for (const WornGarment& garment : worn_)
+            kept_.back().garments.push_back(garment.positions);
+    }
+
+    std::vector<RecoverFrame> take() && { return std::move(kept_); }
+
+private:
+    std::vector<WornGarment> worn_;
+    const Triangles& body_;
+    int frames_, seen_ = 0;
+    std::vector<RecoverFrame> kept_;
+};
+
 /// Moves body and cloth along the way. @return the last share of it at which the whole body was in place
 double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, const SkinWeights& cloth_weights,
-          const RecoverOptions& options, const Progress& progress)
+          const RecoverOptions& options, Recording& recording, const Progress& progress)
 {
     const int steps = std::clamp(int(std::ceil(way.length() / options.step_length)), 1, options.largest_steps);
     MotionStep step;
@@ -128,6 +159,8 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
         step.obstacle_target = &target;
         if (motion.advance(step) < k_in_place)
             reached = t;
+        if (i < steps)
+            recording.see(motion, t);
     }
     return reached;
 }
@@ -154,10 +187,15 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     const SkinWeights cloth_weights
         = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
     ClothMotion motion({ rest.positions, rest.triangles }, cloth.positions, start, options.cloth);
-    const double reached = go(motion, way, rig.weights, cloth_weights, options, progress.part(0, 0.8));
+    Recording recording(worn, body.surface.triangles, options.frames);
+    recording.see(motion, 0);
+    const double reached = go(motion, way, rig.weights, cloth_weights, options, recording, progress.part(0, 0.8));
     motion.carry_obstacle(way.withdrawn());
     motion.carry_obstacle(way.at(1));
     const auto [arrived, speed] = settle(motion, way.at(1), options.settling_steps, progress.part(0.8, 1));
+
+    recording.see(motion, 1);
+    result.frames = std::move(recording).take();
 
     put_positions(result.garments, motion.cloth());
     result.body = motion.obstacle();

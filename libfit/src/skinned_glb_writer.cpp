@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "fit/io.h"
 #include "fit/mesh.h"
 #include "fit/skinned_gltf.h"
-#include "gltf_container.h"
+#include "glb_buffer.h"
 
 namespace fit {
 namespace {
 
 using nlohmann::ordered_json;
+using namespace gltf;
 
-constexpr std::uint32_t k_binary_chunk = 0x004E4942;
-constexpr int k_unsigned_byte = 5121, k_unsigned_int = 5125, k_float = 5126;  // glTF component types
-constexpr int k_array_buffer = 34962, k_element_array_buffer = 34963;  // glTF targets
 constexpr std::array<const char*, extremity_count> k_last_joints { "head", "lhand", "rhand", "lfoot", "rfoot" };
 constexpr std::array<const char*, extremity_count> k_tips { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip",
                                                             "rfoot_tip" };
@@ -39,57 +36,6 @@ std::vector<Joint> joints_of(const Skeleton& skeleton)
         joints.push_back({ k_tips[e], 1 + bone_count + e, skeleton.tips[e] });
     return joints;
 }
-
-/// The binary buffer and the JSON that tells what lies where in it.
-class Buffer {
-public:
-    template <class Number, class Matrix>
-    int add(const Matrix& rows, int component, const char* type, int target)
-    {
-        const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values
-            = rows.template cast<Number>();
-        const std::size_t begin = bytes_.size(), size = std::size_t(values.size()) * sizeof(Number);
-        bytes_.resize(begin + size);
-        std::memcpy(bytes_.data() + begin, values.data(), size);
-        ordered_json view { { "buffer", 0 }, { "byteOffset", begin }, { "byteLength", size } };
-        if (target)
-            view["target"] = target;
-        views_.push_back(view);
-        const std::size_t count
-            = std::string(type) == "SCALAR" ? std::size_t(values.size()) : std::size_t(values.rows());
-        accessors_.push_back({ { "bufferView", views_.size() - 1 },
-                               { "componentType", component },
-                               { "count", count },
-                               { "type", type } });
-        bytes_.resize((bytes_.size() + 3) / 4 * 4);
-        return int(accessors_.size()) - 1;
-    }
-
-    /// The format wants them for positions.
-    void set_bounds(int accessor, const Positions& positions)
-    {
-        const Eigen::RowVector3f least = positions.cast<float>().colwise().minCoeff(),
-                                 most = positions.cast<float>().colwise().maxCoeff();
-        accessors_[accessor]["min"] = { least.x(), least.y(), least.z() };
-        accessors_[accessor]["max"] = { most.x(), most.y(), most.z() };
-    }
-
-    std::string file(ordered_json json) &&
-    {
-        json["buffers"] = { { { "byteLength", bytes_.size() } } };
-        json["bufferViews"] = views_;
-        json["accessors"] = accessors_;
-        GltfContainer container;
-        container.is_binary = true;
-        container.json = std::move(json);
-        container.chunks.push_back({ k_binary_chunk, std::move(bytes_) });
-        return bytes_of(container);
-    }
-
-private:
-    std::string bytes_;
-    ordered_json views_ = ordered_json::array(), accessors_ = ordered_json::array();
-};
 
 /// Column by column as the format has them: to the joint's own axes, which are the world's.
 Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const std::vector<Joint>& joints)
@@ -122,7 +68,7 @@ ordered_json nodes_of(const std::vector<Joint>& joints)
 void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig)
 {
     const std::vector<Joint> joints = joints_of(rig.skeleton);
-    Buffer buffer;
+    GlbBuffer buffer;
     const int positions = buffer.add<float>(surface.positions, k_float, "VEC3", k_array_buffer);
     buffer.set_bounds(positions, surface.positions);
     const int normals

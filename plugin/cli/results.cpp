@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "fit/animated_gltf.h"
 #include "fit/certificate.h"
 #include "fit/io.h"
 #include "fit/skinned_gltf.h"
@@ -112,6 +113,36 @@ void write_maps(const Session& session, const Dressing& dressing, const fs::path
     }
 }
 
+std::string numbered(const std::string& stem, std::size_t frame)
+{
+    std::ostringstream name;
+    name << stem << '_' << std::setw(3) << std::setfill('0') << frame << ".ply";
+    return name.str();
+}
+
+/// A series of PLY files for each mesh, and all of them as one animation.
+void write_frames(const Session& session, const Dressing& dressing, const fs::path& folder)
+{
+    constexpr double k_seconds = 3;  // that the way takes in the animation
+    if (dressing.frames.empty())
+        return;
+    fs::create_directories(folder);
+    const Frame& frame = session.body.frame.frame;
+    std::vector<MovingMesh> meshes { { "body", session.body.triangles, {}, { 0.55, 0.35, 0.25 } } };
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        meshes.push_back({ session.garments[i].path.stem().string(),
+                           dressing.garments[i].rest.triangles,
+                           {},
+                           { 0.1, 0.3 / double(i + 1), 0.5 } });
+    for (const RecoverFrame& state : dressing.frames)
+        for (std::size_t m = 0; m < meshes.size(); ++m) {
+            meshes[m].frames.push_back(m == 0 ? state.body : state.garments[m - 1]);
+            write_ply(folder / numbered(meshes[m].name, meshes[m].frames.size() - 1),
+                      frame.to_file(meshes[m].frames.back()), meshes[m].triangles);
+        }
+    write_animated_glb(folder / "animation.glb", meshes, k_seconds / double(dressing.frames.size()));
+}
+
 /// Only certified garments stay.
 void write_last_state(const Session& session, Dressing& dressing, const fs::path& folder)
 {
@@ -122,6 +153,7 @@ void write_last_state(const Session& session, Dressing& dressing, const fs::path
     if (all_clean(dressing)) {
         write_body(session, dressing, folder);
         write_maps(session, dressing, folder / "maps");
+        write_frames(session, dressing, folder / "frames");
     } else
         for (std::size_t i = 0; i < dressing.garments.size(); ++i)
             fs::remove(folder / session.garments[i].name());

@@ -18,6 +18,14 @@ struct RecoverOptions {
     int largest_steps = 200;  ///< give up after this many
     double step_length = 0.006;  ///< m; no body vertex moves further in a step, as far as largest_steps permits
     int settling_steps = 50;  ///< time steps under gravity, at the end
+    int frames = 0;  ///< states on the way to hand out, evenly spread, both ends included; 0: none
+};
+
+/// A state on the way, in which nothing crosses either.
+struct RecoverFrame {
+    double share;  ///< of the way, 0 = the pose `from`, 1 = the pose `to` with the cloth settled
+    Positions body;
+    std::vector<Positions> garments;  ///< from the inside out
 };
 
 struct RecoverResult {
@@ -25,6 +33,7 @@ struct RecoverResult {
     Positions body;  ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
     std::vector<TooTight> too_tight;  ///< in the pose `to`, worst first
     std::vector<HeldBack> held_back;  ///< where cloth had no room in the pose `to`; worst first
+    std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
     double pose_reached = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
