@@ -290,6 +290,19 @@ TEST_F(CommandLine, WritesTheSkeletonInTheUnitsAndAxesOfTheBody)
             << name << ", mm";  // units and axes, not digits
 }
 
+TEST_F(CommandLine, TakesTheUsersRigFromRigJsonOrFromASkinnedGlb)
+{
+    ASSERT_EQ(run({ "rig", k_body, "-o", folder / "rigged" }).code, 0);
+    const auto given = joints_in(folder / "rigged/rig.json");
+    for (const char* rig : { "rig.json", "rigged.glb" }) {
+        const fs::path fitted = folder / rig / "fitted";
+        ASSERT_EQ(run({ "fit", k_body, k_skirt, "--type", "skirt", "--rig", folder / "rigged" / rig, "-o", fitted }).code, 0);
+        const auto taken = joints_in(fitted / "rig.json");
+        for (const auto& [name, p] : given)
+            EXPECT_LT((taken.at(name) - p).norm(), 1e-5) << rig << ": " << name;  // a GLB has floats
+    }
+}
+
 class Slow : public CommandLine { };
 
 TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)

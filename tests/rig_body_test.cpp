@@ -162,10 +162,23 @@ TEST(RigBody, OfAMirroredBodyIsTheMirroredRig)
             << bone_name(bone);
 }
 
+TEST(RigBody, OfAScaledBodyIsTheScaledRig)
+{
+    const TriangleMesh person = capsule_person().mesh;
+    const Rig rig = rig_body(body_of(person));
+    for (const double scale : { 0.4, 3.0 }) {
+        const Rig scaled = rig_body(body_of({ scale * person.positions, person.triangles }));
+        for (int bone = 0; bone < bone_count; ++bone)
+            EXPECT_LT((scaled.skeleton.tail(bone) / scale - rig.skeleton.tail(bone)).norm(), 0.02 * k_stature)
+                << bone_name(bone) << " at scale " << scale;
+    }
+}
+
 TEST(RigBody, ExchangesSidesWhenAsked)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
-    const Rig rig = rig_body(body, k_coarse), swapped = rig_body(body, { .proxy_vertices = k_coarse.proxy_vertices, .swap_sides = true });
+    const Rig rig = rig_body(body, k_coarse),
+              swapped = rig_body(body, { .proxy_vertices = k_coarse.proxy_vertices, .swap_sides = true });
     for (int bone = 0; bone < bone_count; ++bone)
         EXPECT_EQ(rig.skeleton.tail(bone), swapped.skeleton.tail(mirror_of(bone))) << bone_name(bone);
     EXPECT_EQ(rig.front, -swapped.front);
@@ -271,7 +284,8 @@ TEST(RigBody, StaysWhereItWasOnFinerAndCoarserTrianglesAndInAnyOrderOfVertices)
     TriangleMesh turned = person.mesh;  // vertices in reverse order
     turned.positions = person.mesh.positions.colwise().reverse().eval();
     turned.triangles = int(person.mesh.positions.rows()) - 1 - person.mesh.triangles.array();
-    const TriangleMesh finer = capsule_person({ .spacing = 0.025 }).mesh, coarser = capsule_person({ .spacing = 0.06 }).mesh;
+    const TriangleMesh finer = capsule_person({ .spacing = 0.025 }).mesh,
+                       coarser = capsule_person({ .spacing = 0.06 }).mesh;
     for (const TriangleMesh& mesh : { turned, finer, coarser }) {
         const Rig other = rig_body(body_of(mesh));
         for (int b = 0; b < bone_count; ++b)
@@ -292,8 +306,9 @@ TEST(RigBody, CanBeStoppedAndRunAgain)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
     for (const double when : { 0.1, 0.3, 0.75 })
-        EXPECT_THROW(rig_body(body, k_coarse, Progress([&](double fraction, std::string_view) { return fraction < when; })),
-                     Cancelled);
+        EXPECT_THROW(
+            rig_body(body, k_coarse, Progress([&](double fraction, std::string_view) { return fraction < when; })),
+            Cancelled);
     EXPECT_NO_THROW(rig_body(body, k_coarse));
 }
 
@@ -327,7 +342,9 @@ TEST(RigBody, RefusesBallsAndCubesAsBlocks)
 
 TEST(RigBody, SaysHowManyEndsItMissed)
 {
-    const TriangleMesh rod = shape([](const Vec3& p) { return segment_distance(p, { 0, -0.9, 0 }, { 0, 0.9, 0 }) - 0.1; });
+    const TriangleMesh rod = shape([](const Vec3& p) {
+        return segment_distance(p, { 0, -0.9, 0 }, { 0, 0.9, 0 }) - 0.1;
+    });
     expect_invalid([&] { rig_body(body_of(rod)); }, "2 ends found, a human has 5");
 }
 
@@ -351,7 +368,8 @@ TEST(RigBody, RefusesClothesThatWereClosed)
     const fixtures::Person person = capsule_person({ .spacing = 0.03 });
     const auto worn = [&](const Vec3& p) {  // no head, hands or feet
         for (const int limb : { lradius, rradius, ltibia, rtibia, thorax })
-            if ((p - person.skeleton.tail(limb)).dot(limb == thorax ? Vec3::UnitY() : person.skeleton.direction(limb)) > -0.02
+            if ((p - person.skeleton.tail(limb)).dot(limb == thorax ? Vec3::UnitY() : person.skeleton.direction(limb))
+                    > -0.02
                 && (p - person.skeleton.tail(limb)).norm() < 0.4)
                 return false;
         return true;

@@ -21,6 +21,8 @@ constexpr double k_ankle_height = 0.041;  // above the sole
 constexpr double k_ankle_below_shin = 0.05;  // at most, below where the shin is narrowest
 constexpr double k_skull_base = 0.1;  // below the crown
 constexpr double k_neck_base = 0.152;  // below the crown: the seventh vertebra of the neck
+constexpr double k_head = 0.09, k_jaw = 0.13,
+                 k_neck = 0.2;  // below the end of the spine's line: head to 0.09, neck from 0.13
 constexpr double k_stub = 0.25;  // of neck and head is left where the head is missing
 constexpr double k_elbow_ratio = 0.51;  // of the way from shoulder to wrist
 constexpr double k_knee_ratio = 0.49;  // of the way from hip to ankle
@@ -270,7 +272,8 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, c
     const Vec3 inwards = (arm.ring() - joints.middle).normalized();
     const double held_out = -inwards.dot(out);
     joints.root = arm.ring()
-        + size * ((k_shoulder_inwards - k_shoulder_back * held_out) * inwards + k_shoulder_up * up + k_shoulder_out * out);
+        + size
+            * ((k_shoulder_inwards - k_shoulder_back * held_out) * inwards + k_shoulder_up * up + k_shoulder_out * out);
     return joints;
 }
 
@@ -404,6 +407,16 @@ Vec3 below(const Centreline& line, const Vec3& end, double distance)
     return line.points[i];
 }
 
+/// Of the points of a line between two distances from its end, m.
+Vec3 middle(const Centreline& line, double from, double to)
+{
+    Vec3 sum = Vec3::Zero();
+    const int steps = 10;
+    for (int i = 0; i < steps; ++i)
+        sum += line.at(line.length() - from + (from - to) * (i + 0.5) / steps) / steps;
+    return sum;
+}
+
 /// Without a head, clothes that were closed look like a body too; but sleeves and legs of clothes end narrow.
 void require_hands_or_feet(const BodyJoints& joints)
 {
@@ -454,6 +467,9 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     joints.neck_base = below(axis, joints.crown, head * k_neck_base * joints.size);
     joints.skull_base
         = joints.crown + head * k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
+    if (!graph.headless)
+        joints.head_off_neck
+            = middle(axis, k_head * joints.size, 0) - middle(axis, k_neck * joints.size, k_jaw * joints.size);
     joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
     const double neck = axis.arcs[axis.nearest_row(joints.neck_base)];
     joints.lower_spine = axis.at(neck / 3);

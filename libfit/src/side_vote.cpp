@@ -8,7 +8,8 @@
 namespace fit {
 namespace {
 
-constexpr double k_stump = 0.03;  // of stature: no further do the ends of legs without feet stick out, toes twice as far
+constexpr double k_stump
+    = 0.03;  // of stature: no further do the ends of legs without feet stick out, toes twice as far
 
 /// One piece of evidence: a vector that should point forward, in the trunk's axes. Its weight is how far it can be trusted.
 struct Cue {
@@ -19,7 +20,10 @@ struct Cue {
 Vec3 without(const Vec3& v, const Vec3& axis) { return v - v.dot(axis) * axis; }
 
 /// Turns a vector that sits on a bone along `from` to where it sits when that bone is turned along `to`, without twist.
-Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to) { return Eigen::Quaterniond::FromTwoVectors(from, to) * v; }
+Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to)
+{
+    return Eigen::Quaterniond::FromTwoVectors(from, to) * v;
+}
 
 /// How far the middle joint stands off the line from root to end, towards where it stands off; 0 for a straight limb.
 Vec3 flexion(const LimbJoints& limb)
@@ -61,8 +65,8 @@ std::vector<Cue> cues_of(const BodyJoints& joints, const Vec3& up)
         add_leg_cues(joints.legs[i], up, joints.size, cues);
         add_arm_cues(joints.arms[i], up, cues);
     }
-    cues.push_back({ without(joints.crown - joints.skull_base, up).normalized(),
-                     std::min(0.5, 2 * without(joints.crown - joints.skull_base, up).norm() / joints.size) });
+    const Vec3 face = without(joints.head_off_neck, up);
+    cues.push_back({ face.normalized(), std::min(0.5, 25 * face.norm() / joints.size) });
     return cues;
 }
 
@@ -76,7 +80,7 @@ Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front
     const Vec3 shoulders = without(joints.arms[0].root - joints.arms[1].root, sides.up).normalized();
     const bool same_order = hips.dot(shoulders) > 0;
     const Vec3 across = (hips + (same_order ? 1 : -1) * shoulders).normalized();  // from leg 1 to leg 0
-    const Vec3 front = across.cross(sides.up).normalized();                       // if leg 0 is the left one
+    const Vec3 front = across.cross(sides.up).normalized();  // if leg 0 is the left one
 
     const std::vector<Cue> cues
         = known_front ? std::vector<Cue> { { known_front->normalized(), 1 } } : cues_of(joints, sides.up);

@@ -21,7 +21,8 @@ double volume(const TriangleMesh& closed)
     const Vec3 origin = closed.positions.row(0);  // near by, to keep digits
     double sum = 0;
     for (Eigen::Index f = 0; f < closed.triangles.rows(); ++f) {
-        const auto corner = [&](int k) { return Vec3(closed.positions.row(closed.triangles(f, k)).transpose() - origin); };
+        const auto corner
+            = [&](int k) { return Vec3(closed.positions.row(closed.triangles(f, k)).transpose() - origin); };
         sum += corner(0).cross(corner(1)).dot(corner(2)) / 6;
     }
     return sum;

@@ -30,4 +30,6 @@ plt.title("Closing and rigging a body; numbers are exponents of growth")
 plt.grid(True, which="both", alpha=0.3)
 plt.tight_layout()
 plt.savefig(sys.argv[2], dpi=120)
+slope = np.polyfit(np.log(vertices), np.log(seconds), 1)[0]
+print(f"exponent over all sizes: {slope:.2f}")
 print(*(f"{int(v)}: {s:.2f} s" for v, s in zip(vertices, seconds)), sep="\n")
