@@ -110,7 +110,59 @@ std::vector<ShownBone> bones_of(const Json& rig, const Frame& frame)
     return bones;
 }
 
+std::vector<double> column_of(const fs::path& path, const std::string& name)
+{
+    for (VertexProperty& property : read_ply_properties(path))
+        if (property.name == name)
+            return std::move(property.values);
+    throw InvalidInput(path.string() + " has no property \"" + name + "\"; there are ease, strain and pressure");
+}
+
+struct Shown {
+    std::string title;
+    double factor;  // from the file's numbers
+    bool both_ways;  // has values below zero
+};
+
+Shown shown_as(const std::string& map, double metres_per_unit)
+{
+    if (map == "ease")
+        return { "ease, cm", 100 * metres_per_unit, false };
+    if (map == "strain")
+        return { "strain, %", 100, true };
+    return { map + ", Pa", 1, false };
+}
+
+/// Up to what all but a twentieth of the values stay below, so that a few do not wash out the rest.
+Scale scale_of(const std::vector<Eigen::VectorXd>& values, const Shown& shown)
+{
+    std::vector<double> all;
+    for (const Eigen::VectorXd& of_garment : values)
+        for (const double value : of_garment)
+            all.push_back(std::abs(value));
+    std::sort(all.begin(), all.end());
+    const double high = all.empty() ? 1 : std::max(all[all.size() * 19 / 20], 1e-9);
+    return { shown.title, shown.both_ways ? -high : 0, high };
+}
+
 }  // namespace
+
+State read_map(const fs::path& folder, const std::string& map)
+{
+    const Json rig = read_json(folder / "rig.json");
+    const Frame frame = frame_of(rig);
+    const Shown shown = shown_as(map, frame.metres_per_unit);
+    State state { read_mesh(folder / "body.ply", frame), {}, frame.rotation() * vector_of(rig.at("front")) };
+    for (const Json& garment : rig.at("garments")) {
+        const fs::path path = (folder / "maps" / garment.at("file").get<std::string>()).replace_extension(".ply");
+        state.garments.push_back(read_mesh(path, frame));
+        const std::vector<double> column = column_of(path, map);
+        state.values.push_back(shown.factor
+                               * Eigen::Map<const Eigen::VectorXd>(column.data(), Eigen::Index(column.size())));
+    }
+    state.scale = scale_of(state.values, shown);
+    return state;
+}
 
 bool is_rig_folder(const fs::path& folder) { return !read_json(folder / "rig.json").contains("garments"); }
 

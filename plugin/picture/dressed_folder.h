@@ -16,6 +16,12 @@ struct ShownBone {
     int side = 0;  ///< 0 the middle, 1 left, 2 right
 };
 
+/// How numbers become colours.
+struct Scale {
+    std::string title;  ///< "ease, cm"
+    double low = 0, high = 1;
+};
+
 /// One moment of dressing, in metres with +y up.
 struct State {
     TriangleMesh body;  ///< no faces: none shown
@@ -23,6 +29,8 @@ struct State {
     Vec3 front = Vec3::UnitZ();  ///< where the body's chest faces
     std::vector<ShownBone> bones {};  ///< where there are some, the body is shown transparent
     Positions colours {};  ///< of the body's vertices, red, green, blue from 0 to 1; none: skin
+    std::vector<Eigen::VectorXd> values {};  ///< of each garment's vertices, shown by colour; none: plain cloth
+    Scale scale {};
 };
 
 struct DressedFolder {
@@ -37,6 +45,9 @@ struct DressedFolder {
 bool is_rig_folder(const std::filesystem::path& folder);
 /// The body with its bones, each vertex in the colours of the bones that it hangs on. @throws InvalidInput.
 State read_rig_folder(const std::filesystem::path& folder);
+
+/// The dressed body, its garments coloured by "ease", "strain" or "pressure". @throws InvalidInput.
+State read_map(const std::filesystem::path& folder, const std::string& map);
 
 /// @throws InvalidInput.
 DressedFolder read_dressed_folder(const std::filesystem::path& folder);

@@ -28,14 +28,17 @@ std::vector<Panel> panels_of(const DressedFolder& folder)
     return panels;
 }
 
-std::vector<Panel> panels_of(const State& rigged)
+std::vector<Panel> panels_of(const State& state)
 {
-    return { { &rigged, "front", 0 }, { &rigged, "from the left", k_part_turn }, { &rigged, "back", k_half_turn } };
+    return { { &state, "front", 0 }, { &state, "from the left", k_part_turn }, { &state, "back", k_half_turn } };
 }
 
-void draw_folder(const std::string& folder, int height, const std::string& output)
+void draw_folder(const std::string& folder, const std::string& map, int height, const std::string& output)
 {
-    if (is_rig_folder(folder)) {
+    if (!map.empty()) {
+        const State coloured = read_map(folder, map);
+        draw(panels_of(coloured), "how it sits: " + coloured.scale.title, height, output);
+    } else if (is_rig_folder(folder)) {
         const State rigged = read_rig_folder(folder);
         draw(panels_of(rigged), "bones: left blue, right red; skin in the colours of its bones", height, output);
     } else {
@@ -48,7 +51,7 @@ void draw_folder(const std::string& folder, int height, const std::string& outpu
 
 int main(int argc, char** argv)
 {
-    std::string folder, output;
+    std::string folder, output, map;
     int height = 800;
     CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result; or what "
                  "garmentfit rig wrote: "
@@ -57,15 +60,19 @@ int main(int argc, char** argv)
     app.set_version_flag("--version", "garmentfit-picture " FIT_VERSION);
     app.add_option("DIR", folder, "Folder that garmentfit dress or rig wrote")->required();
     app.add_option("-o,--output", output, "PNG file")->required();
+    app.add_option("--map", map, "Colours the garments by ease, strain or pressure instead, with a legend")
+        ->check(CLI::IsMember({ "ease", "strain", "pressure" }));
     app.add_option("--height", height, "Height of the picture in pixels")
         ->check(CLI::Range(100, 10000))
         ->default_str("800");
-    app.footer("Example:\n  xvfb-run -a garmentfit-picture dressed -o dressed.png\n");
+    app.footer("Examples:\n"
+               "  xvfb-run -a garmentfit-picture dressed -o dressed.png\n"
+               "  xvfb-run -a garmentfit-picture dressed --map ease -o ease.png\n");
     CLI11_PARSE(app, argc, argv);
     try {
         if (!std::getenv("DISPLAY"))  // VTK would end the process without a word on what to do
             throw fit::InvalidInput("no display; run it under xvfb-run -a");
-        draw_folder(folder, height, output);
+        draw_folder(folder, map, height, output);
     } catch (const std::exception& error) {
         std::cerr << "garmentfit-picture: " << error.what() << '\n';
         return 2;

@@ -10,6 +10,8 @@
 #include <vtkActor2D.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDoubleArray.h>
 #include <vtkLight.h>
 #include <vtkLineSource.h>
 #include <vtkNew.h>
@@ -22,6 +24,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 #include <vtkTextMapper.h>
 #include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
@@ -40,6 +43,7 @@ constexpr Colour k_bones[] = { { 0.25, 0.25, 0.3 }, { 0.1, 0.35, 0.85 }, { 0.85,
 constexpr double k_see_through = 0.45, k_bone_thickness = 0.012;  // opacity; of half the picture's height
 constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
 constexpr double k_narrowest = 0.42, k_widest = 1;  // width / height of a panel; a caption has to stand under it
+constexpr double k_legend_aspect = 0.22;  // width / height of the strip at the right
 constexpr double k_margin = 1.06;  // room around the largest figure
 constexpr double k_text_height = 0.075;  // of the picture, above and below the figures
 
@@ -84,6 +88,49 @@ vtkNew<vtkActor> cloth_of(const TriangleMesh& mesh, std::size_t layer)
     lining->SetColor(k_lining[0], k_lining[1], k_lining[2]);
     actor->SetBackfaceProperty(lining);
     return actor;
+}
+
+/// From blue by white (the middle of the scale, or its low end) to red.
+vtkNew<vtkColorTransferFunction> colours_of(const Scale& scale)
+{
+    vtkNew<vtkColorTransferFunction> colours;
+    colours->SetColorSpaceToDiverging();
+    colours->AddRGBPoint(scale.low, 0.23, 0.30, 0.75);
+    colours->AddRGBPoint(scale.high, 0.71, 0.02, 0.15);
+    return colours;
+}
+
+vtkNew<vtkActor> coloured_cloth(const TriangleMesh& mesh, const Eigen::VectorXd& values, const Scale& scale)
+{
+    vtkNew<vtkActor> actor = actor_of(mesh, k_cloth[0]);
+    vtkNew<vtkDoubleArray> scalars;
+    for (const double value : values)
+        scalars->InsertNextValue(value);
+    auto* normals = vtkPolyDataNormals::SafeDownCast(actor->GetMapper()->GetInputAlgorithm());
+    vtkPolyData::SafeDownCast(normals->GetInput())->GetPointData()->SetScalars(scalars);
+    actor->GetMapper()->SetLookupTable(colours_of(scale));
+    actor->GetMapper()->UseLookupTableScalarRangeOn();
+    actor->GetMapper()->ScalarVisibilityOn();
+    return actor;
+}
+
+vtkNew<vtkScalarBarActor> legend_of(const Scale& scale, int font)
+{
+    vtkNew<vtkScalarBarActor> bar;
+    bar->SetLookupTable(colours_of(scale));
+    bar->SetTitle(scale.title.c_str());
+    bar->SetNumberOfLabels(5);
+    bar->SetLabelFormat("%-#.3g");
+    bar->UnconstrainedFontSizeOn();
+    for (vtkTextProperty* text : { bar->GetTitleTextProperty(), bar->GetLabelTextProperty() }) {
+        text->SetColor(k_ink[0], k_ink[1], k_ink[2]);
+        text->SetFontSize(font);
+        text->ShadowOff();
+        text->ItalicOff();
+        text->BoldOff();
+    }
+    bar->GetPositionCoordinate()->SetCoordinateSystemToNormalizedDisplay();
+    return bar;
 }
 
 /// See-through, in the colours of the bones that each vertex hangs on.
@@ -218,7 +265,9 @@ vtkNew<vtkRenderer> renderer_of(const Panel& panel, double scale)
     for (const ShownBone& bone : panel.state->bones)
         renderer->AddActor(bone_actor(bone, k_bone_thickness * scale));
     for (std::size_t i = 0; i < panel.state->garments.size(); ++i)
-        renderer->AddActor(cloth_of(panel.state->garments[i], i));
+        renderer->AddActor(panel.state->values.empty()
+                               ? cloth_of(panel.state->garments[i], i)
+                               : coloured_cloth(panel.state->garments[i], panel.state->values[i], panel.state->scale));
     light(renderer);
     const Extent extent = extent_of(panel);
     const Vec3 eye = extent.centre + 10 * towards_viewer(panel);  // parallel projection: any distance beyond the figure
@@ -249,7 +298,9 @@ void draw(const std::vector<Panel>& panels, const std::string& headline, int hei
 {
     const double scale = common_scale(panels), figure_height = 1 - 2 * k_text_height;
     const std::vector<double> aspects = aspects_of(panels, scale);
-    const double all_aspects = std::accumulate(aspects.begin(), aspects.end(), 0.0);
+    const bool has_legend = !panels.empty() && !panels.front().state->values.empty();
+    const double all_aspects
+        = std::accumulate(aspects.begin(), aspects.end(), 0.0) + (has_legend ? k_legend_aspect : 0);
     const int font = std::max(8, height / 40);
     vtkNew<vtkRenderWindow> window;
     window->SetOffScreenRendering(1);
@@ -269,6 +320,12 @@ void draw(const std::vector<Panel>& panels, const std::string& headline, int hei
         renderer->SetViewport(left, k_text_height, right, 1 - k_text_height);
         window->AddRenderer(renderer);
         left = right;
+    }
+    if (has_legend) {
+        const vtkNew<vtkScalarBarActor> legend = legend_of(panels.front().state->scale, font);
+        legend->SetPosition(left + 0.2 * (1 - left), 0.2);
+        legend->SetPosition2(0.6 * (1 - left), 0.6);
+        page->AddActor2D(legend);
     }
     window->Render();
     write_png(window, png);
