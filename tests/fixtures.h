@@ -134,6 +134,25 @@ inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b)
     return result;
 }
 
+/// A square sheet of n by n vertices, the first at the origin, at height(x, z) over the plane y = 0.
+inline TriangleMesh sheet(int n, double spacing, const std::function<double(double, double)>& height)
+{
+    TriangleMesh mesh;
+    mesh.positions.resize(n * n, 3);
+    mesh.triangles.resize(2 * (n - 1) * (n - 1), 3);
+    for (int v = 0; v < n * n; ++v) {
+        const double x = spacing * (v % n), z = spacing * (v / n);
+        mesh.positions.row(v) << x, height(x, z), z;
+    }
+    int f = 0;
+    for (int v = 0; v < n * (n - 1); ++v)
+        if (v % n + 1 < n) {
+            mesh.triangles.row(f++) << v, v + n, v + 1;
+            mesh.triangles.row(f++) << v + 1, v + n, v + n + 1;
+        }
+    return mesh;
+}
+
 struct PersonOptions {
     double arm_angle = 45;   ///< degrees below the horizontal: 0 = T-pose, 70 = arms down, -70 = arms up
     double elbow_angle = 15; ///< degrees that the elbows flex, forearms forward

@@ -11,24 +11,8 @@ namespace {
 using namespace fit;
 using namespace fit::fixtures;
 
-/// A square sheet, 20 by 20 cm in vertices 1 cm apart, at height(x, z).
-TriangleMesh sheet(const std::function<double(double, double)>& height)
-{
-    constexpr int n = 21;
-    TriangleMesh mesh { Positions(n * n, 3), Triangles(2 * (n - 1) * (n - 1), 3) };
-    for (int i = 0; i < n * n; ++i) {
-        const double x = 0.01 * (i % n), z = 0.01 * (i / n);
-        mesh.positions.row(i) << x, height(x, z), z;
-    }
-    int f = 0;
-    for (int row = 0; row + 1 < n; ++row)
-        for (int column = 0; column + 1 < n; ++column) {
-            const int v = row * n + column;
-            mesh.triangles.row(f++) << v, v + n, v + 1;
-            mesh.triangles.row(f++) << v + 1, v + n, v + n + 1;
-        }
-    return mesh;
-}
+/// 20 by 20 cm, vertices 1 cm apart.
+TriangleMesh sheet(const std::function<double(double, double)>& height) { return fixtures::sheet(21, 0.01, height); }
 
 /// A flat sheet, and one above it that dips through it by so much in the middle.
 TriangleMesh dipping(double depth)

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../libfit/src/cloth_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+GarmentMesh flat_sheet()
+{
+    const TriangleMesh mesh = sheet(6, 0.02, [](double, double) { return 0; });
+    return { mesh.positions, mesh.triangles };
+}
+
+Positions shaken(Positions x, double by)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shake(-by, by);
+    for (double& value : x.reshaped())
+        value += shake(random);
+    return x;
+}
+
+TEST(ClothEnergy, IsNothingAtRestAndNothingPullsThere)
+{
+    const GarmentMesh rest = flat_sheet();
+    const ClothEnergy energy(rest, {}, {});
+    EXPECT_NEAR(energy.elastic_energy(rest.positions), 0, 1e-15);
+    EXPECT_LT(energy.elastic_forces(rest.positions).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(ClothEnergy, ForcesAreMinusItsGradient)
+{
+    const GarmentMesh rest = flat_sheet();
+    ClothOptions cloth;
+    cloth.bend_stiffness = 1e-2;  // so that bending shows beside stretch
+    const ClothEnergy energy(rest, {}, cloth);
+    Positions x = shaken(rest.positions, 4e-3);
+    const Positions forces = energy.elastic_forces(x);
+    constexpr double h = 1e-7;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        for (int k = 0; k < 3; ++k) {
+            const double here = x(v, k);
+            x(v, k) = here + h;
+            const double after = energy.elastic_energy(x);
+            x(v, k) = here - h;
+            const double before = energy.elastic_energy(x);
+            x(v, k) = here;
+            EXPECT_NEAR(forces(v, k), -(after - before) / (2 * h), 1e-5 * forces.cwiseAbs().maxCoeff())
+                << v << ' ' << k;
+        }
+}
+
+TEST(ClothEnergy, DoesNotChangeWhenTheClothIsMovedAsAWhole)
+{
+    GarmentMesh rest = flat_sheet();
+    rest.positions.col(1) = 0.05 * (20 * rest.positions.col(0)).array().sin();  // with folds of its own
+    const ClothEnergy energy(rest, {}, {});
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(3, 1, 2).normalized()).toRotationMatrix();
+    EXPECT_NEAR(energy.elastic_energy((rest.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(1, 2, 3)), 0,
+                1e-15);
+    const Positions x = shaken(rest.positions, 2e-3);
+    EXPECT_NEAR(energy.elastic_energy(x * turn.transpose()) / energy.elastic_energy(x), 1, 1e-9);
+}
+
+TEST(ClothEnergy, FreeFallIsThatOfImplicitEuler)
+{
+    const GarmentMesh rest = flat_sheet();
+    ClothEnergy energy(rest, {}, {});
+    constexpr double h = 0.01, g = 9.81;
+    energy.set_time_step(h);
+    Positions x = rest.positions, velocity = Positions::Zero(x.rows(), 3);
+    constexpr int steps = 20;
+    for (int i = 0; i < steps; ++i) {
+        Positions inertial = x + h * velocity;
+        inertial.col(1).array() -= g * h * h;
+        Positions next = x;
+        for (int k = 0; k < 4; ++k)
+            next = energy.minimized(next, inertial, {});
+        velocity = (next - x) / h;
+        x = next;
+    }
+    const double fallen = g * h * h * steps * (steps + 1) / 2;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        EXPECT_NEAR(rest.positions(v, 1) - x(v, 1), fallen, 1e-3 * fallen);
+}
+
+}  // namespace
