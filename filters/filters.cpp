@@ -58,7 +58,6 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     Dressing next = from;
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
-    next.too_tight = result.too_tight;
     next.held_back = result.held_back;
     next.speed = result.speed;
     next.frames = result.frames;
@@ -66,6 +65,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
         next.pose_reached = 0;
         return next;
     }
+    next.too_tight = result.too_tight;
     next.garments = result.garments;
     next.body = result.body;
     next.pose = slerp(from.pose, to, result.pose_reached);

@@ -157,14 +157,6 @@ Posture freed(const SkeletonSearch& search, Posture present)
     return present;
 }
 
-}  // namespace
-
-Eigen::Quaterniond upright(const Rig& rig, double heading)
-{
-    return Eigen::Quaterniond(Eigen::AngleAxisd(heading, Vec3::UnitY()))
-        * shortest_arc(rig.up.normalized(), Vec3::UnitY());
-}
-
 // The best start, the best that faces the other way, and the best turned half round: most garments have as much room like that.
 std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& sorted)
 {
@@ -175,6 +167,14 @@ std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search
         result.push_back(*other);
     result.push_back(with_limbs_found(search, search.turned(sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
     return result;
+}
+
+}  // namespace
+
+Eigen::Quaterniond upright(const Rig& rig, double heading)
+{
+    return Eigen::Quaterniond(Eigen::AngleAxisd(heading, Vec3::UnitY()))
+        * shortest_arc(rig.up.normalized(), Vec3::UnitY());
 }
 
 BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progress& progress)

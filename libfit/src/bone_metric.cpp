@@ -5,6 +5,7 @@
 
 #include "error_metric.h"
 #include "room_search.h"
+#include "segment.h"
 
 namespace fit {
 namespace {

@@ -15,11 +15,12 @@ constexpr double k_contact_stiffness = 3;
 constexpr double k_lookout = 1.5e-3;
 
 // Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
-Positions parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
+Untangled parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
 {
-    Positions result = untangled(cloth);
-    return result == cloth.positions || crossing_count({ result, cloth.triangles }, obstacle) > 0 ? cloth.positions
-                                                                                                  : result;
+    Untangled result = untangled(cloth);
+    if (result.positions != cloth.positions && crossing_count({ result.positions, cloth.triangles }, obstacle) > 0)
+        return { cloth.positions, self_crossings(cloth) };
+    return result;
 }
 
 // What still crosses is held together as it is: it can neither part nor cross further.
@@ -70,9 +71,9 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
     contact_(rest_.triangles, cloth_vertices_, obstacle.triangles), x_(cloth_vertices_ + obstacle.positions.rows(), 3),
     velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    const TriangleMesh cloth { parted({ weld_.gathered(start), rest_.triangles }, obstacle), rest_.triangles };
+    const Untangled cloth = parted({ weld_.gathered(start), rest_.triangles }, obstacle);
     x_ << cloth.positions, obstacle.positions;
-    energy_.emplace(rest_, ties_across(self_crossings(cloth), cloth.triangles), options_);
+    energy_.emplace(rest_, ties_across(cloth.left, rest_.triangles), options_);
 }
 
 Positions ClothMotion::cloth() const { return weld_.spread(x_.topRows(cloth_vertices_)); }

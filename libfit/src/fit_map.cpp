@@ -126,19 +126,21 @@ std::vector<Place> places(const Skeleton& s)
     };
 }
 
-/// The plane of a place on this body.
-std::optional<Plane> plane_of(const Place& place, const Measured& body)
+/// Where on the body a place turned out to be, and its girth there.
+struct Found {
+    Plane plane;
+    double girth;  // m
+};
+
+std::optional<Found> found_on(const Measured& body, const Place& place)
 {
     constexpr int k_tries = 9;
-    std::optional<Plane> best;
-    double best_girth = 0;
+    std::optional<Found> best;
     for (int i = 0; i < (place.choice == 0 ? 1 : k_tries); ++i) {
         const Plane plane { place.from + double(i) / (k_tries - 1) * (place.to - place.from), place.axis };
         const auto girth = tape(cut(body, place.bones, plane), plane);
-        if (girth && (!best || place.choice * (*girth - best_girth) > 0)) {
-            best = plane;
-            best_girth = *girth;
-        }
+        if (girth && (!best || place.choice * (*girth - best->girth) > 0))
+            best = Found { plane, *girth };
     }
     return best;
 }
@@ -177,9 +179,9 @@ std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, 
                            strongest_bones(weights_of_nearest(worn.positions, body.positions, weights)) };
     std::vector<Girth> result;
     for (const Place& place : places(skeleton))
-        if (const auto plane = plane_of(place, skin))
-            if (const auto garment = tape(cut(cloth, place.bones, *plane), *plane))
-                result.push_back({ place.name, *tape(cut(skin, place.bones, *plane), *plane), *garment });
+        if (const auto body_there = found_on(skin, place))
+            if (const auto garment = tape(cut(cloth, place.bones, body_there->plane), body_there->plane))
+                result.push_back({ place.name, body_there->girth, *garment });
     return result;
 }
 

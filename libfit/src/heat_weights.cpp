@@ -11,6 +11,7 @@
 #include "fit/error.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "segment.h"
 
 namespace fit {
 namespace {
@@ -20,13 +21,6 @@ constexpr double k_heat = 3;                     // c of the paper; larger keeps
 constexpr double k_normal_weight = 0.015;        // of the diagonal: half of how far a point that faces away seems
 constexpr int k_neighbours = 4;                  // that a transferred weight is blended from
 constexpr int k_block = 4096;                    // vertices, of which one core finds the neighbours at a time
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
-{
-    const Vec3 axis = b - a;
-    const double t = std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0);
-    return (a + t * axis - p).squaredNorm();
-}
 
 /// Hands, feet and head hang on the bones before them.
 double squared_distance_to_bone(const Vec3& p, const Skeleton& skeleton, int bone)

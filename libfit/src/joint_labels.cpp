@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "fit/error.h"
+#include "segment.h"
 
 namespace fit {
 namespace {
@@ -105,13 +106,6 @@ Vec3 farthest(const std::vector<Vec3>& points, const std::function<double(const 
 {
     return *std::max_element(points.begin(), points.end(),
                              [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); });
-}
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
-{
-    const Vec3 axis = b - a;
-    const double t = std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0);
-    return (a + t * axis - p).squaredNorm();
 }
 
 /// Row between `from` and `to` where two straight bones explain the line best, weighed against the usual ratio.

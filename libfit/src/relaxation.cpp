@@ -10,6 +10,7 @@
 #include "joint_limits.h"
 #include "parallel.h"
 #include "search_grids.h"
+#include "segment.h"
 
 namespace fit {
 namespace {

@@ -6,7 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "fit/certificate.h"
 #include "joined_vertices.h"
 #include "nearest.h"
 
@@ -198,17 +197,19 @@ private:
 
 }  // namespace
 
-Positions untangled(const TriangleMesh& cloth)
+Untangled untangled(const TriangleMesh& cloth)
 {
     const std::vector<Crossing> tangles = self_crossings(cloth);
     if (tangles.empty())
-        return cloth.positions;
+        return { cloth.positions, {} };
     Untangling untangling(region_about(tangles, cloth));
     const Region& parted = untangling.run();
     TriangleMesh result = cloth;
     result.positions(parted.vertices, Eigen::all) = parted.mesh.positions;
     const std::vector<Crossing> left = self_crossings(result);
-    return std::includes(tangles.begin(), tangles.end(), left.begin(), left.end()) ? result.positions : cloth.positions;
+    if (!std::includes(tangles.begin(), tangles.end(), left.begin(), left.end()))
+        return { cloth.positions, tangles };
+    return { result.positions, left };
 }
 
 }  // namespace fit
