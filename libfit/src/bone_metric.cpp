@@ -17,9 +17,6 @@ constexpr std::array<double, bone_count> k_radii { 0.10,  0.085, 0.06, 0.10,  0.
 // of the distance from the last joint to the tip; in the order of Extremity
 constexpr std::array<double, extremity_count> k_tip_radii { 0.4, 0.2, 0.2, 0.2, 0.2 };
 
-bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
-bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bone == rfemur || bone == rtibia; }
-
 }  // namespace
 
 Figure figure_of(const Rig& rig, const std::vector<Bone>& covered)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/SparseCholesky>
@@ -16,11 +17,12 @@
 namespace fit {
 namespace {
 
-constexpr double k_smallest_cotangent = 1e-3;    // keeps the matrix positive definite on obtuse triangles
-constexpr double k_heat = 3;                     // c of the paper; larger keeps skin stiffer between joints
-constexpr double k_normal_weight = 0.015;        // of the diagonal: half of how far a point that faces away seems
-constexpr int k_neighbours = 4;                  // that a transferred weight is blended from
-constexpr int k_block = 4096;                    // vertices, of which one core finds the neighbours at a time
+constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive definite on obtuse triangles
+constexpr double k_heat = 3;  // c of the paper; larger keeps skin stiffer between joints
+constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
+constexpr int k_flesh_rounds = 3;  // after two, hardly a vertex changes its bone
+constexpr int k_neighbours = 4;  // that a transferred weight is blended from
+constexpr int k_block = 4096;  // vertices, of which one core finds the neighbours at a time
 
 /// Hands, feet and head hang on the bones before them.
 double squared_distance_to_bone(const Vec3& p, const Skeleton& skeleton, int bone)
@@ -37,13 +39,54 @@ struct NearestBone {
     double squared_distance = 0;
 };
 
-NearestBone nearest_visible(const Vec3& p, const Skeleton& skeleton, const std::array<bool, bone_count>& visible)
+double median(std::vector<double>& values)
+{
+    if (values.empty())
+        return 0;
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+}
+
+/// How deep the bones lie under the skin of arms and trunk. A flank is nearer to the thin arm that hangs beside it than to the
+/// spine, and yet lies far outside the arm's flesh: distances are compared from there.
+struct Flesh {
+    double of_arms = 0, of_trunk = 0;
+
+    double over(int bone) const { return is_arm(bone) ? of_arms : of_trunk; }
+};
+
+NearestBone nearest_visible(const Vec3& p, const Skeleton& skeleton, const std::array<bool, bone_count>& visible,
+                            const Flesh& flesh)
 {
     NearestBone nearest;
+    double least = std::numeric_limits<double>::max();
     for (int b = 0; b < bone_count; ++b) {
-        const double d = visible[b] ? squared_distance_to_bone(p, skeleton, b) : 0;
-        if (visible[b] && (nearest.bone < 0 || d < nearest.squared_distance))
-            nearest = { b, d };
+        if (!visible[b])
+            continue;
+        const double squared = squared_distance_to_bone(p, skeleton, b);
+        const double above_flesh = std::sqrt(squared) - flesh.over(b);
+        if (above_flesh < least) {
+            least = above_flesh;
+            nearest = { b, squared };
+        }
+    }
+    return nearest;
+}
+
+/// The bone that warms each vertex: what flesh belongs to and how thick it is follow from each other in a few rounds.
+std::vector<NearestBone> nearest_bones(const Positions& positions, const Skeleton& skeleton,
+                                       const VisibleBones& visible)
+{
+    std::vector<NearestBone> nearest(visible.size());
+    Flesh flesh;
+    for (int round = 0; round < k_flesh_rounds; ++round) {
+        std::vector<double> arms, trunk;
+        for (std::size_t v = 0; v < nearest.size(); ++v) {
+            nearest[v] = nearest_visible(positions.row(Eigen::Index(v)), skeleton, visible[v], flesh);
+            if (!is_leg(nearest[v].bone))
+                (is_arm(nearest[v].bone) ? arms : trunk).push_back(std::sqrt(nearest[v].squared_distance));
+        }
+        flesh = { median(arms), median(trunk) };
     }
     return nearest;
 }
@@ -56,7 +99,8 @@ Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd&
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) {
             const int i = mesh.triangles(f, k), j = mesh.triangles(f, (k + 1) % 3), o = mesh.triangles(f, (k + 2) % 3);
-            const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o), b = mesh.positions.row(j) - mesh.positions.row(o);
+            const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o),
+                       b = mesh.positions.row(j) - mesh.positions.row(o);
             const double twice_area = a.cross(b).norm();
             const double half_cotangent = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, 1e-300));
             areas[o] += twice_area / 6;
@@ -119,12 +163,12 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     const Eigen::Index n = closed.positions.rows();
     Eigen::VectorXd areas;
     Eigen::SparseMatrix<double> system = stiffness(closed, areas);
+    const std::vector<NearestBone> nearest = nearest_bones(closed.positions, skeleton, visible);
     Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
     for (Eigen::Index v = 0; v < n; ++v) {
-        const NearestBone nearest = nearest_visible(closed.positions.row(v), skeleton, visible[v]);
-        const double source = k_heat * areas[v] / std::max(nearest.squared_distance, 1e-8);  // H of the paper
+        const double source = k_heat * areas[v] / std::max(nearest[v].squared_distance, 1e-8);  // H of the paper
         system.coeffRef(v, v) += source;
-        heat(v, nearest.bone) = source;
+        heat(v, nearest[v].bone) = source;
     }
     const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(system);
     if (solver.info() != Eigen::Success)
@@ -141,7 +185,8 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     const double diagonal = (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
     std::vector<double> points
         = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), k_normal_weight * diagonal);
-    std::vector<double> queries = oriented_points(to.surface.positions, outward_normals(to), k_normal_weight * diagonal);
+    std::vector<double> queries
+        = oriented_points(to.surface.positions, outward_normals(to), k_normal_weight * diagonal);
     const std::size_t n = to.surface.positions.rows();
     flann::Index<flann::L2<double>> tree(flann::Matrix<double>(points.data(), from.positions.rows(), 6),
                                          flann::KDTreeSingleIndexParams());
@@ -162,7 +207,8 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     for (std::size_t v = 0; v < n; ++v) {
         Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
         for (int k = 0; k < k_neighbours; ++k)
-            row += weights.row(rows[v * k_neighbours + k]) / (squared[v * k_neighbours + k] + 1e-12 * diagonal * diagonal);
+            row += weights.row(rows[v * k_neighbours + k])
+                / (squared[v * k_neighbours + k] + 1e-12 * diagonal * diagonal);
         keep_four(row, v, result);
     }
     return result;

@@ -46,6 +46,10 @@ FIT_API int bone_of(std::string_view name);
 FIT_API int parent_of(int bone);
 /// lfemur <-> rfemur ...; bones of the spine are their own mirror.
 FIT_API int mirror_of(int bone);
+/// Of the humerus and radius of either side.
+constexpr bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
+/// Of the femur and tibia of either side.
+constexpr bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bone == rfemur || bone == rtibia; }
 
 /// What lies beyond the last joints: not bones (they never bend), but the body reaches there.
 enum Extremity : int { head_top, lhand_tip, rhand_tip, lfoot_tip, rfoot_tip, extremity_count };
