@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "filters/outcome.h"
+
 namespace fit {
 namespace {
 
@@ -42,11 +44,6 @@ Dressing dressing_of(const DrapeResult& result, const Pose& pose)
     dressing.speed = result.speed;
     dressing.certified = result.certified;
     return dressing;
-}
-
-bool all_clean(const std::vector<WornGarment>& garments)
-{
-    return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });
 }
 
 /// Moves a dressed body to another pose. Where that ends in a state that is not clean, the start is the answer.

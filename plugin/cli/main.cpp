@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "command_line.h"
+#include "filters/outcome.h"
 #include "fit/error.h"
 #include "interruption.h"
 #include "output_folder.h"
@@ -119,10 +120,11 @@ int run(int argc, char** argv)
     compute(*call, session);
     add_doubts(session);
     write(*call, session, folder);
-    const Outcome outcome = outcome_of(session.scene);
-    if (outcome != Outcome::done)
-        std::cerr << "garmentfit: " << explain(session) << '\n';
-    return static_cast<int>(outcome);
+    const Dressing* end = final_dressing(session.scene);
+    if (!end || end->certified)
+        return 0;
+    std::cerr << "garmentfit: " << explain(*end, session.garment_names()) << '\n';
+    return static_cast<int>(outcome_of(*end));
 }
 
 int fail(int code, const std::string& message)

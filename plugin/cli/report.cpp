@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/global_control.h>
 
-#include "results.h"
+#include "filters/outcome.h"
 
 namespace fit::cli {
 namespace {
@@ -153,7 +153,7 @@ Json json_of(const Call& call, const Session& session)
         json["speed"] = end->speed;
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         if (!end->certified)
-            json["note"] = explain(session);
+            json["note"] = explain(*end, session.garment_names());
     }
     json["stages"] = stages_of(session);
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "filters/outcome.h"
 #include "fit/animated_gltf.h"
 #include "fit/certificate.h"
 #include "fit/io.h"
@@ -18,9 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a warning
-
-/// Rounded down: a run that stopped on its way never says 100%.
-int percent(double share) { return static_cast<int>(std::floor(100 * share)); }
 
 // ---- writing ---------------------------------------------------------------------------------------------------
 
@@ -92,7 +90,7 @@ void certify_as_written(const Session& session, Dressing& dressing, const fs::pa
         garment.certificate = certify(body, garment.rest, garment.positions, under);
         under.push_back({ garment.positions, garment.rest.triangles });
     }
-    dressing.certified = dressing.certified && all_clean(dressing);
+    dressing.certified = dressing.certified && all_clean(dressing.garments);
 }
 
 /// Ease in the file's own unit, strain, and pressure in pascal at each vertex of a dressed garment.
@@ -146,11 +144,11 @@ void write_frames(const Session& session, const Dressing& dressing, const fs::pa
 /// Only certified garments stay.
 void write_last_state(const Session& session, Dressing& dressing, const fs::path& folder)
 {
-    if (!all_clean(dressing))
+    if (!all_clean(dressing.garments))
         return;
     write_garments(session, dressing, folder);
     certify_as_written(session, dressing, folder);
-    if (all_clean(dressing)) {
+    if (all_clean(dressing.garments)) {
         write_body(session, dressing, folder);
         write_maps(session, dressing, folder / "maps");
         write_frames(session, dressing, folder / "frames");
@@ -189,78 +187,7 @@ void doubt_frame(std::vector<std::string>& warnings, const std::string& file, co
                            + flags + "up");
 }
 
-// ---- judging ---------------------------------------------------------------------------------------------------
-
-std::string tight_parts(const Dressing& dressing)
-{
-    std::ostringstream text;
-    for (const TooTight& tight : dressing.too_tight)
-        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth)
-             << " mm";
-    return text.str();
-}
-
-std::string held_parts(const Dressing& dressing)
-{
-    constexpr std::size_t k_named = 3;
-    std::ostringstream text;
-    for (std::size_t i = 0; i < std::min(k_named, dressing.held_back.size()); ++i)
-        text << (i > 0 ? ", " : "; no room for cloth at ") << dressing.held_back[i].part << " (held back by "
-             << std::setprecision(2) << 1000 * dressing.held_back[i].distance << " mm)";
-    return text.str();
-}
-
 }  // namespace
-
-const Dressing* final_dressing(const Scene& scene)
-{
-    return scene.recovered ? &*scene.recovered : scene.draped ? &*scene.draped : nullptr;
-}
-
-bool all_clean(const Dressing& dressing)
-{
-    return std::all_of(dressing.garments.begin(), dressing.garments.end(),
-                       [](const WornGarment& garment) { return garment.certificate.clean(); });
-}
-
-Outcome outcome_of(const Scene& scene)
-{
-    const Dressing* end = final_dressing(scene);
-    if (!end || end->certified)
-        return Outcome::done;
-    const bool too_small = end->size_reached < 1 || (!end->too_tight.empty() && all_clean(*end));
-    return too_small ? Outcome::too_small : Outcome::not_certified;
-}
-
-std::string explain(const Session& session)
-{
-    const Dressing& end = *final_dressing(session.scene);
-    const std::string garment
-        = end.garments.empty() ? session.garments.front().name() : session.garments[end.garments.size() - 1].name();
-    std::ostringstream text;
-    if (outcome_of(session.scene) == Outcome::too_small) {
-        const std::string parts = tight_parts(end);
-        text << (parts.empty() ? garment : session.garments[end.too_tight.front().garment].name()) << " is too small"
-             << (parts.empty() ? "" : " at " + parts);
-        if (end.size_reached < 1)
-            text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
-        else
-            text << " for the body's own pose";
-    } else if (!all_clean(end)) {
-        const Certificate& c = end.garments.back().certificate;
-        text << garment << " could not be certified: " << c.body_crossings << " crossings with the body, "
-             << c.self_crossings << " with itself, " << c.layer_crossings << " with layers, " << c.vertices_inside
-             << " vertices inside";
-    } else {
-        text << garment << " could not be certified: ";
-        if (end.pose_reached < 1)
-            text << "stopped at " << percent(end.pose_reached) << "% of the way between two poses";
-        else
-            text << "the body is not in its place everywhere";
-        text << held_parts(end);
-    }
-    return text.str();
-}
 
 void add_doubts(Session& session)
 {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "filters/joint_names.h"
 #include "fit/error.h"
 
 namespace fit::cli {
@@ -16,11 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* k_format = "garmentfit-rig";
 constexpr int k_version = 1;
-/// Of the joints at the bones' tails, in the order of Bone.
-constexpr const char* k_joint_names[bone_count]
-    = { "lhip",     "lknee", "lankle",    "rhip",   "rknee",  "rankle",    "lower_spine", "upper_spine", "neck",
-        "mid_neck", "skull", "lshoulder", "lelbow", "lwrist", "rshoulder", "relbow",      "rwrist" };
-constexpr const char* k_tip_names[extremity_count] = { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip", "rfoot_tip" };
 
 // ---- values in the file's units and axes -----------------------------------------------------------------------
 
@@ -104,7 +99,7 @@ Json tips_of(const Frame& frame, const Skeleton& skeleton)
 {
     Json tips;
     for (int e = 0; e < extremity_count; ++e)
-        tips[k_tip_names[e]] = point(frame, skeleton.tips[e]);
+        tips[std::string(joint_name(Extremity(e)))] = point(frame, skeleton.tips[e]);
     return tips;
 }
 
@@ -186,7 +181,7 @@ Skeleton skeleton_of(const Frame& frame, const Json& json)
     if (json.at("bones").size() != bone_count)
         throw InvalidInput(std::to_string(json.at("bones").size()) + " bones instead of " + std::to_string(bone_count));
     for (int e = 0; e < extremity_count; ++e)
-        skeleton.tips[e] = point(frame, json.at("tips").at(k_tip_names[e]));
+        skeleton.tips[e] = point(frame, json.at("tips").at(std::string(joint_name(Extremity(e)))));
     return skeleton;
 }
 
@@ -213,21 +208,6 @@ GivenJoints all_joints(const Skeleton& skeleton)
     for (int e = 0; e < extremity_count; ++e)
         joints.tips[e] = skeleton.tips[e];
     return joints;
-}
-
-/// Where a joint of that name is kept. @throws InvalidInput listing the names.
-std::optional<Vec3>& joint_of(GivenJoints& joints, const std::string& name)
-{
-    std::string names = "root";
-    for (int b = 0; b < bone_count; names += ", " + std::string(k_joint_names[b++]))
-        if (name == k_joint_names[b])
-            return joints.tails[b];
-    for (int e = 0; e < extremity_count; names += ", " + std::string(k_tip_names[e++]))
-        if (name == k_tip_names[e])
-            return joints.tips[e];
-    if (name != "root")
-        throw InvalidInput("no joint is called \"" + name + "\"; there are " + names);
-    return joints.root;
 }
 
 GivenJoints joints_of(const Frame& frame, const Json& json)

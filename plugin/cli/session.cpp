@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <chrono>
 
+#include "filters/outcome.h"
 #include "fit/certificate.h"
 #include "fit/error.h"
 #include "fit/reconstruct.h"
 #include "fit/skinned_gltf.h"
-#include "results.h"
 #include "rig_file.h"
 
 namespace fit::cli {
@@ -32,20 +32,6 @@ private:
 };
 
 // ---- reading ---------------------------------------------------------------------------------------------------
-
-/// The user's word goes before the guess.
-FrameGuess chosen(FrameGuess guess, const FrameChoice& choice)
-{
-    if (choice.unit != "auto") {
-        guess.frame.metres_per_unit = metres_per(choice.unit);
-        guess.unit_margin = 1;
-    }
-    if (choice.up != "auto") {
-        guess.frame.up = axis_of(choice.up);
-        guess.up_margin = 1;
-    }
-    return guess;
-}
 
 FrameGuess known(const Frame& frame) { return { frame, 1, 1, "as written in rig.json" }; }
 
@@ -191,6 +177,14 @@ WornGarment worn_garment(const Session& session, std::size_t i, const fs::path& 
 
 }  // namespace
 
+std::vector<std::string> Session::garment_names() const
+{
+    std::vector<std::string> names;
+    for (const GarmentFile& garment : garments)
+        names.push_back(garment.name());
+    return names;
+}
+
 void read_body(Session& session, const fs::path& path, const FrameChoice& choice, bool reconstruct)
 {
     const Stopwatch watch(session.read_seconds);
@@ -201,7 +195,7 @@ void read_body(Session& session, const fs::path& path, const FrameChoice& choice
         session.warnings.push_back(path.filename().string() + " is a point cloud; a surface was laid through "
                                    + std::to_string(body.file.positions().rows()) + " points");
     }
-    body.frame = chosen(guess_body_frame(body.file.positions(), body.triangles), choice);
+    body.frame = body_frame(body.file.positions(), body.triangles, choice);
     session.body = std::move(body);
     make_scene_body(session);
 }
@@ -210,8 +204,7 @@ void add_garment(Session& session, const fs::path& path, GarmentType type, const
 {
     const Stopwatch watch(session.read_seconds);
     GarmentFile garment { path, MeshFile::read(path), {} };
-    garment.frame = chosen(
-        guess_garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame), choice);
+    garment.frame = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame, choice);
     add_garment_file(session, std::move(garment), type);
 }
 
@@ -256,7 +249,7 @@ void read_draped(Session& session, const fs::path& folder)
         draped.garments.push_back(worn_garment(session, i, folder, body, under));
         under.push_back({ draped.garments[i].positions, draped.garments[i].rest.triangles });
     }
-    draped.certified = all_clean(draped);
+    draped.certified = all_clean(draped.garments);
     session.scene.draped = std::move(draped);
 }
 

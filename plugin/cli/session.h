@@ -9,15 +9,10 @@
 #include <vector>
 
 #include "filters/filters.h"
+#include "filters/frame_choice.h"
 #include "fit/io.h"
-#include "fit/units.h"
 
 namespace fit::cli {
-
-/// What the user says about units and axes; "auto" leaves it to a guess.
-struct FrameChoice {
-    std::string unit = "auto", up = "auto";
-};
 
 struct BodyFile {
     std::filesystem::path path;
@@ -40,6 +35,8 @@ struct Session {
     Scene scene;
     std::vector<std::string> warnings;
     double read_seconds = 0, write_seconds = 0;
+
+    std::vector<std::string> garment_names() const;
 };
 
 /// @param reconstruct  lays a surface through a file's points where it has no faces

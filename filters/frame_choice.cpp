@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/frame_choice.h"
+
+namespace fit {
+namespace {
+
+FrameGuess chosen(FrameGuess guess, const FrameChoice& choice)
+{
+    if (choice.unit != "auto") {
+        guess.frame.metres_per_unit = metres_per(choice.unit);
+        guess.unit_margin = 1;
+    }
+    if (choice.up != "auto") {
+        guess.frame.up = axis_of(choice.up);
+        guess.up_margin = 1;
+    }
+    return guess;
+}
+
+}  // namespace
+
+FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice)
+{
+    return chosen(guess_body_frame(positions, triangles), choice);
+}
+
+FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
+                         const FrameChoice& choice)
+{
+    return chosen(guess_garment_frame(positions, triangles, body), choice);
+}
+
+}  // namespace fit

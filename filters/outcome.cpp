@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/outcome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace fit {
+namespace {
+
+std::string tight_parts(const Dressing& dressing)
+{
+    std::ostringstream text;
+    for (const TooTight& tight : dressing.too_tight)
+        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth)
+             << " mm";
+    return text.str();
+}
+
+std::string held_parts(const Dressing& dressing)
+{
+    constexpr std::size_t k_named = 3;
+    std::ostringstream text;
+    for (std::size_t i = 0; i < std::min(k_named, dressing.held_back.size()); ++i)
+        text << (i > 0 ? ", " : "; no room for cloth at ") << dressing.held_back[i].part << " (held back by "
+             << std::setprecision(2) << 1000 * dressing.held_back[i].distance << " mm)";
+    return text.str();
+}
+
+std::string why_too_small(const Dressing& end, const std::string& last, const std::vector<std::string>& names)
+{
+    const std::string parts = tight_parts(end);
+    std::ostringstream text;
+    text << (parts.empty() ? last : names[end.too_tight.front().garment]) << " is too small"
+         << (parts.empty() ? "" : " at " + parts);
+    if (end.size_reached < 1)
+        text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
+    else
+        text << " for the body's own pose";
+    return text.str();
+}
+
+std::string why_not_certified(const Dressing& end, const std::string& last)
+{
+    std::ostringstream text;
+    text << last << " could not be certified: ";
+    if (!all_clean(end.garments)) {
+        const Certificate& c = end.garments.back().certificate;
+        text << c.body_crossings << " crossings with the body, " << c.self_crossings << " with itself, "
+             << c.layer_crossings << " with layers, " << c.vertices_inside << " vertices inside";
+        return text.str();
+    }
+    if (end.pose_reached < 1)
+        text << "stopped at " << percent(end.pose_reached) << "% of the way between two poses";
+    else
+        text << "the body is not in its place everywhere";
+    text << held_parts(end);
+    return text.str();
+}
+
+}  // namespace
+
+const Dressing* final_dressing(const Scene& scene)
+{
+    return scene.recovered ? &*scene.recovered : scene.draped ? &*scene.draped : nullptr;
+}
+
+bool all_clean(const std::vector<WornGarment>& garments)
+{
+    return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });
+}
+
+Outcome outcome_of(const Dressing& end)
+{
+    if (end.certified)
+        return Outcome::done;
+    const bool too_small = end.size_reached < 1 || (!end.too_tight.empty() && all_clean(end.garments));
+    return too_small ? Outcome::too_small : Outcome::not_certified;
+}
+
+std::string explain(const Dressing& end, const std::vector<std::string>& names)
+{
+    const std::string& last = end.garments.empty() ? names.front() : names[end.garments.size() - 1];
+    return outcome_of(end) == Outcome::too_small ? why_too_small(end, last, names) : why_not_certified(end, last);
+}
+
+int percent(double share) { return static_cast<int>(std::floor(100 * share)); }
+
+}  // namespace fit
