@@ -6,6 +6,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "fit/certificate.h"
+
 namespace fit {
 namespace {
 
@@ -83,6 +85,29 @@ std::string explain(const Dressing& end, const std::vector<std::string>& names)
 {
     const std::string& last = end.garments.empty() ? names.front() : names[end.garments.size() - 1];
     return outcome_of(end) == Outcome::too_small ? why_too_small(end, last, names) : why_not_certified(end, last);
+}
+
+std::string in_one_line(const std::string& name, GarmentType type, const WornGarment& garment)
+{
+    const Certificate& c = garment.certificate;
+    std::ostringstream text;
+    text << std::setprecision(3) << name << " (" << name_of(type)
+         << "): " << c.body_crossings + c.self_crossings + c.layer_crossings << " crossings, smallest gap "
+         << 1000 * c.smallest_gap << " mm, strain " << 100 * c.strain.p95 << "% at the 95th percentile";
+    return text.str();
+}
+
+void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vector<Positions>& kept)
+{
+    const TriangleMesh skin { dressing.body, body };
+    std::vector<TriangleMesh> under;
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i) {
+        WornGarment& garment = dressing.garments[i];
+        garment.positions = kept[i];
+        garment.certificate = certify(skin, garment.rest, garment.positions, under);
+        under.push_back({ garment.positions, garment.rest.triangles });
+    }
+    dressing.certified = dressing.certified && all_clean(dressing.garments);
 }
 
 int percent(double share) { return static_cast<int>(std::floor(100 * share)); }

@@ -19,6 +19,11 @@ bool all_clean(const std::vector<WornGarment>& garments);
 Outcome outcome_of(const Dressing& dressing);
 /// One line on how it went wrong; only for what is not done. Garments are called by their `names`, from the inside out.
 std::string explain(const Dressing& dressing, const std::vector<std::string>& names);
+/// "coat.ply (coat): 0 crossings, smallest gap 0.9 mm, strain 4.1% at the 95th percentile".
+std::string in_one_line(const std::string& name, GarmentType type, const WornGarment& garment);
+/// Judges the garments as a host keeps them, maybe with fewer digits than they were computed with.
+/// @param kept  positions of each garment of the dressing, metres; they become the dressing's
+void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vector<Positions>& kept);
 /// Rounded down: what stopped on its way never says 100%.
 int percent(double share);
 

@@ -16,13 +16,13 @@
 
 #include "command_line.h"
 #include "filters/outcome.h"
+#include "filters/rig_file.h"
 #include "fit/error.h"
 #include "interruption.h"
 #include "output_folder.h"
 #include "progress_bar.h"
 #include "report.h"
 #include "results.h"
-#include "rig_file.h"
 #include "session.h"
 
 namespace {

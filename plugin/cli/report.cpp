@@ -2,7 +2,6 @@
 #include "report.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <sstream>
 
 #include <sys/resource.h>
@@ -167,16 +166,6 @@ Json json_of(const Call& call, const Session& session)
     return json;
 }
 
-std::string worn_line(const Session& session, const Dressing& end, std::size_t i)
-{
-    const Certificate& c = end.garments[i].certificate;
-    std::ostringstream text;
-    text << std::setprecision(3) << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type)
-         << "): " << c.body_crossings + c.self_crossings + c.layer_crossings << " crossings, smallest gap "
-         << 1000 * c.smallest_gap << " mm, strain " << 100 * c.strain.p95 << "% at the 95th percentile\n";
-    return text.str();
-}
-
 }  // namespace
 
 std::string report_json(const Call& call, const Session& session)
@@ -192,7 +181,7 @@ std::string summary(const Call& call, const Session& session)
     text << body.path.filename().string() << ": " << body.frame.why << '\n';
     if (const Dressing* end = final_dressing(session.scene))
         for (std::size_t i = 0; i < end->garments.size(); ++i)
-            text << worn_line(session, *end, i);
+            text << in_one_line(session.garments[i].name(), session.scene.fits[i].type, end->garments[i]) << '\n';
     else
         for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
             text << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type) << "): fitted\n";

@@ -7,11 +7,10 @@
 #include <sstream>
 
 #include "filters/outcome.h"
+#include "filters/rig_file.h"
 #include "fit/animated_gltf.h"
-#include "fit/certificate.h"
 #include "fit/io.h"
 #include "fit/skinned_gltf.h"
-#include "rig_file.h"
 
 namespace fit::cli {
 namespace {
@@ -38,6 +37,7 @@ void write_rigged(const Session& session, const fs::path& path)
 RigFile rig_file_of(const Session& session)
 {
     RigFile contents { session.body.frame.frame, *session.scene.rig, {} };
+    contents.rig.weights = {};  // they are in rigged.ply
     for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
         contents.garments.push_back(
             { session.garments[i].name(), session.garments[i].frame.frame, session.scene.fits[i] });
@@ -81,16 +81,11 @@ void write_body(const Session& session, const Dressing& dressing, const fs::path
 /// A file may hold fewer digits than we computed with, so what stands in it is what is judged.
 void certify_as_written(const Session& session, Dressing& dressing, const fs::path& folder)
 {
-    const TriangleMesh body { dressing.body, session.scene.body->surface.triangles };
-    std::vector<TriangleMesh> under;
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i) {
-        WornGarment& garment = dressing.garments[i];
-        const MeshFile written = MeshFile::read(folder / session.garments[i].name());
-        garment.positions = session.body.frame.frame.to_metres(written.positions());
-        garment.certificate = certify(body, garment.rest, garment.positions, under);
-        under.push_back({ garment.positions, garment.rest.triangles });
-    }
-    dressing.certified = dressing.certified && all_clean(dressing.garments);
+    std::vector<Positions> written;
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        written.push_back(
+            session.body.frame.frame.to_metres(MeshFile::read(folder / session.garments[i].name()).positions()));
+    certify_as_kept(dressing, session.scene.body->surface.triangles, written);
 }
 
 /// Ease in the file's own unit, strain, and pressure in pascal at each vertex of a dressed garment.

@@ -5,11 +5,11 @@
 #include <chrono>
 
 #include "filters/outcome.h"
+#include "filters/rig_file.h"
 #include "fit/certificate.h"
 #include "fit/error.h"
 #include "fit/reconstruct.h"
 #include "fit/skinned_gltf.h"
-#include "rig_file.h"
 
 namespace fit::cli {
 namespace {
@@ -69,42 +69,6 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     session.garments.push_back(std::move(garment));
 }
 
-SkinWeights read_weights(const fs::path& rigged)
-{
-    const std::vector<VertexProperty> properties = read_ply_properties(rigged);
-    const auto column = [&](const std::string& name) -> const std::vector<double>& {
-        for (const VertexProperty& property : properties)
-            if (property.name == name)
-                return property.values;
-        throw InvalidInput(rigged.string() + " has no vertex property " + name
-                           + "; write it again with garmentfit rig");
-    };
-    const std::size_t n = column("weight0").size();
-    SkinWeights weights;
-    weights.bones.resize(n, 4);
-    weights.weights.resize(n, 4);
-    for (int k = 0; k < 4; ++k) {
-        const auto& bone = column("joint" + std::to_string(k));
-        const auto& weight = column("weight" + std::to_string(k));
-        for (std::size_t v = 0; v < n; ++v) {
-            if (!(bone[v] >= 0 && bone[v] < int(bone_count) && weight[v] >= 0 && weight[v] <= 1))
-                throw InvalidInput(rigged.string() + ": vertex " + std::to_string(v)
-                                   + " has a bone or weight out of range; write it again with garmentfit rig");
-            weights.bones(v, k) = static_cast<int>(bone[v]);
-            weights.weights(v, k) = weight[v];
-        }
-    }
-    return weights;
-}
-
-RigFile read_rig_with_weights(Session& session, const fs::path& rig_json)
-{
-    RigFile contents = read_rig_file(rig_json);
-    session.scene.rig = contents.rig;
-    session.scene.rig->weights = read_weights(rig_json.parent_path() / "rigged.ply");
-    return contents;
-}
-
 void require_same_count(const Session& session, const fs::path& rig)
 {
     const auto rigged = session.scene.rig->weights.weights.rows(), given = session.body.file.positions().rows();
@@ -147,7 +111,8 @@ void read_skinned(Session& session, const fs::path& glb)
 /// Body, rig and fits as `fit` and `drape` leave them; the garments as given lie in `rest`.
 void read_continued(Session& session, const fs::path& folder, const fs::path& rest)
 {
-    const RigFile contents = read_rig_with_weights(session, folder / "rig.json");
+    const RigFile contents = read_whole_rig(folder / "rig.json");
+    session.scene.rig = contents.rig;
     session.body.path = folder / "rigged.ply";
     session.body.file = MeshFile::read(session.body.path);
     session.body.triangles = session.body.file.triangles();
@@ -215,9 +180,10 @@ bool read_rig(Session& session, const fs::path& rig)
         read_skinned(session, rig);
         return true;
     }
-    if (!fs::exists(rig.parent_path() / "rigged.ply"))
+    if (!fs::exists(rig.parent_path() / "rigged.ply") && !read_rig_file(rig).has_weights())
         return false;
-    const RigFile contents = read_rig_with_weights(session, rig);
+    const RigFile contents = read_whole_rig(rig);
+    session.scene.rig = contents.rig;
     require_same_count(session, rig);
     if (!same(contents.frame, session.body.frame.frame))
         throw InvalidInput(rig.string() + " has other units or axes than were found for " + session.body.path.string()

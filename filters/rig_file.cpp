@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig_file.h"
+#include "filters/rig_file.h"
 
 #include <cmath>
 #include <fstream>
@@ -8,8 +8,9 @@
 
 #include "filters/joint_names.h"
 #include "fit/error.h"
+#include "fit/io.h"
 
-namespace fit::cli {
+namespace fit {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -185,6 +186,32 @@ Skeleton skeleton_of(const Frame& frame, const Json& json)
     return skeleton;
 }
 
+/// n x 4 bones and weights, row after row.
+Json weights_of(const SkinWeights& skin)
+{
+    return { { "bones", std::vector<int>(skin.bones.data(), skin.bones.data() + skin.bones.size()) },
+             { "values", std::vector<double>(skin.weights.data(), skin.weights.data() + skin.weights.size()) } };
+}
+
+SkinWeights weights_of(const Json& json)
+{
+    const auto bones = json.at("bones").get<std::vector<int>>();
+    const auto values = json.at("values").get<std::vector<double>>();
+    if (bones.size() != values.size() || bones.size() % 4 != 0)
+        throw InvalidInput(std::to_string(bones.size()) + " bones for " + std::to_string(values.size())
+                           + " weights, four of each belong to a vertex");
+    SkinWeights skin;
+    skin.bones.resize(Eigen::Index(bones.size() / 4), 4);
+    skin.weights.resize(skin.bones.rows(), 4);
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+        if (!(bones[i] >= 0 && bones[i] < bone_count && values[i] >= 0 && values[i] <= 1))
+            throw InvalidInput("vertex " + std::to_string(i / 4) + " has a bone or weight out of range");
+        skin.bones.data()[i] = bones[i];
+        skin.weights.data()[i] = values[i];
+    }
+    return skin;
+}
+
 RigFile rig_file_of(const Json& json)
 {
     if (json.at("format") != k_format || json.at("version") != k_version)
@@ -195,6 +222,8 @@ RigFile rig_file_of(const Json& json)
     contents.rig.up = direction(contents.frame, json.at("trunk_up"));
     contents.rig.front = direction(contents.frame, json.at("front"));
     contents.rig.side_margin = json.at("side_margin").get<double>();
+    if (json.contains("weights"))
+        contents.rig.weights = weights_of(json.at("weights"));
     for (const Json& garment : json.value("garments", Json::array()))
         contents.garments.push_back(garment_of(contents.frame, garment));
     return contents;
@@ -236,6 +265,34 @@ auto read_json(const std::filesystem::path& path, const char* remedy, const Read
     }
 }
 
+SkinWeights read_weights(const std::filesystem::path& rigged)
+{
+    const std::vector<VertexProperty> properties = read_ply_properties(rigged);
+    const auto column = [&](const std::string& name) -> const std::vector<double>& {
+        for (const VertexProperty& property : properties)
+            if (property.name == name)
+                return property.values;
+        throw InvalidInput(rigged.string() + " has no vertex property " + name
+                           + "; write it again with garmentfit rig");
+    };
+    const std::size_t n = column("weight0").size();
+    SkinWeights weights;
+    weights.bones.resize(n, 4);
+    weights.weights.resize(n, 4);
+    for (int k = 0; k < 4; ++k) {
+        const auto& bone = column("joint" + std::to_string(k));
+        const auto& weight = column("weight" + std::to_string(k));
+        for (std::size_t v = 0; v < n; ++v) {
+            if (!(bone[v] >= 0 && bone[v] < int(bone_count) && weight[v] >= 0 && weight[v] <= 1))
+                throw InvalidInput(rigged.string() + ": vertex " + std::to_string(v)
+                                   + " has a bone or weight out of range; write it again with garmentfit rig");
+            weights.bones(v, k) = static_cast<int>(bone[v]);
+            weights.weights(v, k) = weight[v];
+        }
+    }
+    return weights;
+}
+
 }  // namespace
 
 void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
@@ -253,9 +310,10 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
         json["fitted"] = fitted_joints(contents.frame, posed(skeleton, contents.garments.back().fit.pose));
     for (const FittedGarment& garment : contents.garments)
         json["garments"].push_back(garment_of(contents.frame, garment));
-    std::ofstream file(path);
-    if (!(file << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush))
-        throw InvalidInput("cannot write " + path.string() + "; is the disk full?");
+    if (contents.has_weights())
+        json["weights"] = weights_of(contents.rig.weights);
+    const int indent = contents.has_weights() ? -1 : 1;  // ten thousands of numbers, each in a line, help nobody
+    write_file(path, json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 GivenJoints read_joints(const std::filesystem::path& path, const Frame& frame)
@@ -269,4 +327,12 @@ RigFile read_rig_file(const std::filesystem::path& path)
     return read_json(path, "give what garmentfit wrote", rig_file_of);
 }
 
-}  // namespace fit::cli
+RigFile read_whole_rig(const std::filesystem::path& path)
+{
+    RigFile contents = read_rig_file(path);
+    if (!contents.has_weights())
+        contents.rig.weights = read_weights(path.parent_path() / "rigged.ply");
+    return contents;
+}
+
+}  // namespace fit

@@ -12,7 +12,7 @@
 #include "fit/skeleton.h"
 #include "fit/units.h"
 
-namespace fit::cli {
+namespace fit {
 
 struct FittedGarment {
     std::string file;
@@ -22,15 +22,20 @@ struct FittedGarment {
 
 struct RigFile {
     Frame frame;  ///< of the body
-    Rig rig;  ///< without weights: those are in rigged.ply
+    Rig rig;  ///< where it has no weights, those are in rigged.ply
     std::vector<FittedGarment> garments;
+
+    bool has_weights() const { return rig.weights.weights.rows() > 0; }
 };
 
+/// One file for all where the rig has weights, else for the skeleton alone.
 void write_rig_file(const std::filesystem::path& path, const RigFile& contents);
 /// Joints given by hand, {"joints": {"lelbow": [x, y, z], ...}}, or those of a whole rig.json; in metres.
 /// @throws InvalidInput naming the file and what is wrong in it, or all names of joints.
 GivenJoints read_joints(const std::filesystem::path& path, const Frame& frame);
 /// @throws InvalidInput naming the file and what is wrong in it.
 RigFile read_rig_file(const std::filesystem::path& path);
+/// With weights: its own, or those of rigged.ply beside it. @throws InvalidInput.
+RigFile read_whole_rig(const std::filesystem::path& path);
 
-}  // namespace fit::cli
+}  // namespace fit
