@@ -18,10 +18,25 @@ void rig(Scene& scene, const Parameters& p, const Progress& progress)
     scene.rig = rig_body(*scene.body, p.rig, progress);
 }
 
+/// One pose for all garments where there is one, else each keeps its own.
+void fit_together(Scene& scene, const Progress& progress)
+{
+    std::vector<GarmentMesh> garments;
+    for (const GarmentInput& garment : scene.garments)
+        garments.push_back(garment.mesh);
+    const CommonFit common = common_fit(*scene.rig, garments, scene.fits, progress);
+    scene.fits = common.fits;
+    scene.one_pose = common.one_pose;
+    scene.conflicts = common.conflicts;
+}
+
 void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
     scene.fits.clear();
-    const double n = double(scene.garments.size());
+    scene.one_pose.reset();
+    scene.conflicts.clear();
+    const bool together = scene.garments.size() > 1 && p.fit.method == FitMethod::fast;
+    const double n = double(scene.garments.size()) + (together ? 1 : 0);
     for (const GarmentInput& garment : scene.garments) {
         FitOptions options = p.fit;
         if (garment.type != GarmentType::automatic)
@@ -30,6 +45,8 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
         scene.fits.push_back(
             fit_skeleton(*scene.rig, scene.body->surface, garment.mesh, options, progress.part(i / n, (i + 1) / n)));
     }
+    if (together)
+        fit_together(scene, progress.part(1 - 1 / n, 1));
 }
 
 Dressing dressing_of(const DrapeResult& result, const Pose& pose)
@@ -81,6 +98,14 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     }
 }
 
+bool is_same(const Pose& a, const Pose& b)
+{
+    for (int bone = 0; bone < bone_count; ++bone)
+        if (a.rotations[bone].coeffs() != b.rotations[bone].coeffs())
+            return false;
+    return a.root_translation == b.root_translation && a.root_rotation.coeffs() == b.root_rotation.coeffs();
+}
+
 /// From the inside out. The garments already worn go along to the pose of the next one; ends where one cannot be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
@@ -92,7 +117,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {
         const Progress slice = progress.part(double(i) / n, double(i + 1) / n);
         const Pose& pose = scene.fits[i].pose;
-        if (i > 0)
+        if (i > 0 && !is_same(dressing.pose, pose))
             dressing = moved(scene, dressing, pose, between_poses, slice.part(0, 0.3));
         if (i > 0 && !dressing.certified)
             break;

@@ -55,6 +55,8 @@ struct Scene {
     std::vector<GarmentInput> garments;  ///< from the inside out
     std::optional<Rig> rig;
     std::vector<FitResult> fits;  ///< one for each garment
+    std::optional<bool> one_pose;  ///< of several garments: whether all fits turn the bones alike; by the fast method
+    std::vector<FitConflict> conflicts;  ///< why they do not
     std::optional<Dressing> draped;  ///< in the pose of the last garment's fit
     std::optional<Dressing> recovered;  ///< in the body's own pose
     std::array<double, k_stage_count> seconds {};  ///< wall clock spent in each stage

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
+#include <utility>
 
 #include "fit/certificate.h"
+#include "fit/units.h"
 
 namespace fit {
 namespace {
@@ -108,6 +111,21 @@ void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vecto
         under.push_back({ garment.positions, garment.rest.triangles });
     }
     dressing.certified = dressing.certified && all_clean(dressing.garments);
+}
+
+std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, const std::vector<std::string>& names)
+{
+    std::map<std::pair<int, int>, std::string> bones_of;
+    for (const FitConflict& conflict : conflicts) {
+        std::string& bones = bones_of[std::minmax(conflict.garments[0], conflict.garments[1])];
+        bones += (bones.empty() ? "" : ", ") + std::string(bone_name(conflict.bone)) + " by "
+            + std::to_string(std::lround(k_degrees_per_radian * conflict.angle));
+    }
+    std::vector<std::string> lines;
+    for (const auto& [garments, bones] : bones_of)
+        lines.push_back("no one pose serves " + names[garments.first] + " and " + names[garments.second]
+                        + ", which hold bones apart (degrees: " + bones + "); the body goes from one pose to the next");
+    return lines;
 }
 
 int percent(double share) { return static_cast<int>(std::floor(100 * share)); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How dressing ended, in a word and in a sentence.
+// How fitting and dressing ended, in a word and in a sentence.
 
 #include <string>
 #include <vector>
@@ -24,6 +24,8 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
 /// Judges the garments as a host keeps them, maybe with fewer digits than they were computed with.
 /// @param kept  positions of each garment of the dressing, metres; they become the dressing's
 void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vector<Positions>& kept);
+/// Why no one pose serves the garments, one line for each two of them.
+std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, const std::vector<std::string>& names);
 /// Rounded down: what stopped on its way never says 100%.
 int percent(double share);
 

@@ -124,9 +124,9 @@ Json pose_of(const Frame& frame, const Pose& pose)
 /// For people, and not read back: how far each bone turns from the body's own pose, degrees.
 Json angles_of(const Pose& pose)
 {
-    constexpr double degrees = 180 / 3.14159265358979323846;
-    const auto angle
-        = [](const Eigen::Quaterniond& q) { return degrees * q.angularDistance(Eigen::Quaterniond::Identity()); };
+    const auto angle = [](const Eigen::Quaterniond& q) {
+        return k_degrees_per_radian * q.angularDistance(Eigen::Quaterniond::Identity());
+    };
     Json json { { "root", angle(pose.root_rotation) } };
     for (int b = 0; b < bone_count; ++b)
         json[std::string(bone_name(b))] = angle(pose.rotations[b]);
@@ -143,7 +143,7 @@ Pose pose_of(const Frame& frame, const Json& json)
     return pose;
 }
 
-Json garment_of(const Frame& body_frame, const FittedGarment& garment)
+Json garment_of(const Frame& body_frame, const Skeleton& own, const FittedGarment& garment)
 {
     Json json { { "file", garment.file },
                 { "type", name_of(garment.fit.type) },
@@ -154,6 +154,7 @@ Json garment_of(const Frame& body_frame, const FittedGarment& garment)
         json["covered"].push_back(bone_name(bone));
     json["pose"] = pose_of(body_frame, garment.fit.pose);
     json["angles"] = angles_of(garment.fit.pose);
+    json["fitted"] = fitted_joints(body_frame, posed(own, garment.fit.pose));
     return json;
 }
 
@@ -309,7 +310,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
     if (!contents.garments.empty())
         json["fitted"] = fitted_joints(contents.frame, posed(skeleton, contents.garments.back().fit.pose));
     for (const FittedGarment& garment : contents.garments)
-        json["garments"].push_back(garment_of(contents.frame, garment));
+        json["garments"].push_back(garment_of(contents.frame, skeleton, garment));
     if (contents.has_weights())
         json["weights"] = weights_of(contents.rig.weights);
     const int indent = contents.has_weights() ? -1 : 1;  // ten thousands of numbers, each in a line, help nobody

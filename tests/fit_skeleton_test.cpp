@@ -335,6 +335,80 @@ TEST(FitSkeleton, ScrapsAreRefusedInWords)
     expect_refused(buttons, "a thousand loose buttons");
 }
 
+CommonFit fit_together(const Rig& rig, const std::vector<GarmentMesh>& garments)
+{
+    std::vector<FitResult> fits;
+    for (const GarmentMesh& garment : garments)
+        fits.push_back(fit_skeleton(rig, garment));
+    return common_fit(rig, garments, fits);
+}
+
+void expect_bones_turned_alike(const Pose& a, const Pose& b)
+{
+    for (int j = 0; j < bone_count; ++j)
+        EXPECT_EQ(a.rotations[j].coeffs(), b.rotations[j].coeffs()) << bone_name(j);
+}
+
+TEST(CommonFit, OnePoseServesAShirtAndTrousers)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 75, .knee_angle = 70, .hip_angle = 70 });
+    const std::vector<GarmentMesh> garments { shirt(made_on, 1.9), trousers(made_on) };
+    const CommonFit common = fit_together(rig, garments);
+    ASSERT_TRUE(common.one_pose);
+    EXPECT_TRUE(common.conflicts.empty());
+    expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
+    for (std::size_t i = 0; i < garments.size(); ++i) {
+        const Skeleton joints = posed(rig.skeleton, common.fits[i].pose);
+        expect_directions(joints, person_skeleton(made_on),
+                          { lhumerus, lradius, rhumerus, rradius, lfemur, ltibia, rfemur, rtibia }, 15);
+        expect_clear(joints, garments[i]);
+    }
+}
+
+TEST(CommonFit, AGarmentThatLiesElsewhereIsOnlyMoved)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 75 });
+    std::vector<GarmentMesh> garments { shirt(made_on, 1.9), trousers(made_on) };
+    garments[1].positions.rowwise() += Vec3(2, 0.5, -1).transpose();
+    const CommonFit common = fit_together(rig, garments);
+    ASSERT_TRUE(common.one_pose);
+    expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
+    const Vec3 apart = common.fits[1].pose.root_translation - common.fits[0].pose.root_translation;
+    EXPECT_LT((apart - Vec3(2, 0.5, -1)).norm(), 0.15);
+    for (std::size_t i = 0; i < garments.size(); ++i)
+        expect_clear(posed(rig.skeleton, common.fits[i].pose), garments[i]);
+}
+
+TEST(CommonFit, SleevesTooFarApartAreReportedAndEachGarmentKeepsItsFit)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const std::vector<GarmentMesh> garments { shirt({ .arm_angle = 5 }, 1.9), trousers(),
+                                              shirt({ .arm_angle = 65 }, 1.9) };
+    const CommonFit common = fit_together(rig, garments);
+    EXPECT_FALSE(common.one_pose);
+    ASSERT_FALSE(common.conflicts.empty());
+    const FitConflict& widest = common.conflicts.front();
+    EXPECT_TRUE(is_arm(widest.bone)) << bone_name(widest.bone);
+    EXPECT_EQ(widest.garments[0] + widest.garments[1], 0 + 2) << "the trousers have nothing to do with it";
+    EXPECT_NEAR(widest.angle / k_degree, 60, 15);
+    for (std::size_t i = 0; i < garments.size(); ++i)
+        expect_bones_turned_alike(common.fits[i].pose, fit_skeleton(rig, garments[i]).pose);
+}
+
+TEST(CommonFit, OneGarmentIsLeftAsItIs)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const std::vector<GarmentMesh> garments { trousers() };
+    const FitResult own = fit_skeleton(rig, garments[0]);
+    const CommonFit common = common_fit(rig, garments, { own });
+    EXPECT_TRUE(common.one_pose);
+    expect_bones_turned_alike(common.fits[0].pose, own.pose);
+    EXPECT_EQ(common.fits[0].pose.root_translation, own.pose.root_translation);
+    EXPECT_THROW(common_fit(rig, garments, {}), InvalidInput);
+}
+
 TEST(FitSkeleton, StopsWhenTold)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });

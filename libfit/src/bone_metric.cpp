@@ -51,6 +51,15 @@ double BoneMetric::needed(int bone, const Vec3& head, const Vec3& tail) const
     return sum;
 }
 
+std::array<double, bone_count> BoneMetric::shares_of_room(const Skeleton& joints) const
+{
+    std::array<double, bone_count> shares {};
+    for (int b = 0; b < bone_count; ++b)
+        if (figure_.covered[b])
+            shares[b] = needed(b, joints.head(b), joints.tail(b)) / (k_samples * figure_.radii[b]);
+    return shares;
+}
+
 double BoneMetric::bare(int bone, const Vec3& head, const Vec3& tail) const
 {
     if (!is_arm(bone) && !is_leg(bone))

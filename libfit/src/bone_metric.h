@@ -14,6 +14,7 @@ namespace fit {
 /// Who takes part, and how thick the limbs are.
 struct Figure {
     std::array<bool, bone_count> covered {};
+    std::array<bool, bone_count> worn_elsewhere {};  // in another of several garments
     std::array<double, bone_count> radii {};  // m
     std::array<double, extremity_count> tip_radii {};  // m
 };
@@ -29,6 +30,8 @@ public:
     double worn(int bone, const Vec3& head, const Vec3& tail) const;
     /// Of that, what the limb cannot do without, m.
     double needed(int bone, const Vec3& head, const Vec3& tail) const;
+    /// As a share of all that it needs, 0 to 1; 0 for bones that are not covered.
+    std::array<double, bone_count> shares_of_room(const Skeleton& joints) const;
     /// What an arm or leg that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the
     /// garment. 0 for other bones.
     double bare(int bone, const Vec3& head, const Vec3& tail) const;

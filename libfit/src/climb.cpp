@@ -15,18 +15,19 @@ constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
 constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
                                           lclavicle, rclavicle, lhumerus, rhumerus,  lradius,
                                           rradius,   lfemur,    rfemur,   ltibia,    rtibia };
-constexpr int k_freedoms = 6 + 2 * int(k_bending.size()), k_trunk_freedoms = 6 + 2 * 7;
+constexpr int k_root_freedoms = 6, k_freedoms = k_root_freedoms + 2 * int(k_bending.size()),
+              k_trunk_freedoms = k_root_freedoms + 2 * 7;
 
 // Degrees of freedom: three of translation, three of rotation, and two of each bone that bends.
 Posture moved(const SkeletonSearch& search, const Posture& present, int freedom, double step)
 {
-    if (freedom >= 3 && freedom < 6)
+    if (freedom >= 3 && freedom < k_root_freedoms)
         return search.turned(present, step * Vec3::Unit(freedom - 3));
     Posture moved = present;
     if (freedom < 3) {
         moved.root[freedom] += k_lever * step;
     } else {
-        Vec3& direction = moved.directions[k_bending[(freedom - 6) / 2]];
+        Vec3& direction = moved.directions[k_bending[(freedom - k_root_freedoms) / 2]];
         const Vec3 across = direction.unitOrthogonal(), axis = freedom % 2 ? across : Vec3(direction.cross(across));
         direction = turned_by(step * axis) * direction;
     }
@@ -68,17 +69,25 @@ Posture beyond(const Posture& from, const Posture& to)
     return next;
 }
 
-// step_taken(freedom, step) and taken(next) make a better posture the present one.
-template <class StepTaken, class Taken>
-void climb(const Posture& present, const Steps& steps, const StepTaken& step_taken, const Taken& taken)
+std::vector<Posture> beyond(const std::vector<Posture>& from, const std::vector<Posture>& to)
+{
+    std::vector<Posture> next;
+    for (std::size_t i = 0; i < to.size(); ++i)
+        next.push_back(beyond(from[i], to[i]));
+    return next;
+}
+
+// step_taken(freedom, step) and taken(next) make a better state the present one: a posture, or several that go together.
+template <class State, class StepTaken, class Taken>
+void climb(const State& present, int freedoms, const Steps& steps, const StepTaken& step_taken, const Taken& taken)
 {
     for (double step = steps.first; step >= steps.last; step *= 0.5)
         for (bool improves = true; improves;) {
             improves = false;
-            Posture from = present;
-            for (int freedom = 0; freedom < k_freedoms; ++freedom)
+            State from = present;
+            for (int freedom = 0; freedom < freedoms; ++freedom)
                 improves = step_taken(freedom, step) || step_taken(freedom, -step) || improves;
-            for (Posture here = present; improves && taken(beyond(from, here)); here = present)
+            for (State here = present; improves && taken(beyond(from, here)); here = present)
                 from = here;
         }
 }
@@ -93,7 +102,7 @@ void climb_in_cloth(const SkeletonSearch& search, const Posture& present, const 
         return taken_whole(next)
             || (freedom < k_trunk_freedoms && taken_whole(with_limbs_kept(search.own(), present, next)));
     };
-    climb(present, steps, step_taken, taken_whole);
+    climb(present, k_freedoms, steps, step_taken, taken_whole);
 }
 
 Vec3 on_bone(const Skeleton& joints, int bone, double share)
@@ -112,6 +121,35 @@ int corners_through_cloth(const SkeletonSearch& search, const Posture& posture)
                 count
                     += search.metric().cloth().crosses(on_bone(joints, clavicle, out), on_bone(joints, lowerneck, up));
     return count;
+}
+
+double energy(const SkeletonSearch& search, const Posture& posture) { return search.energy(posture); }
+double total(const SkeletonSearch& search, const Posture& posture) { return search.total(posture); }
+
+// The bones of all postures point as those of the first do, seen from the root.
+std::vector<Posture> alike(std::vector<Posture> postures, bool one_root)
+{
+    const Posture& first = postures[0];
+    for (Posture& posture : postures) {
+        if (one_root) {
+            posture = first;
+            continue;
+        }
+        const Eigen::Quaterniond turn = posture.turn * first.turn.conjugate();
+        for (int b = 0; &posture != &first && b < bone_count; ++b)
+            posture.directions[b] = (turn * first.directions[b]).normalized();
+    }
+    return postures;
+}
+
+template <class Value>
+auto sum_over(const std::vector<const SkeletonSearch*>& searches, const std::vector<Posture>& postures,
+              const Value& value)
+{
+    auto sum = value(*searches[0], postures[0]);
+    for (std::size_t i = 1; i < searches.size(); ++i)
+        sum += value(*searches[i], postures[i]);
+    return sum;
 }
 
 // What must hold while a posture is raised by the paper's E alone: joints stay near, and bones keep the room they need.
@@ -167,7 +205,38 @@ Posture polished(const SkeletonSearch& search, const Posture& start, const Steps
         return true;
     };
     climb(
-        present, steps, [&](int freedom, double step) { return taken(moved(search, present, freedom, step)); }, taken);
+        present, k_freedoms, steps,
+        [&](int freedom, double step) { return taken(moved(search, present, freedom, step)); }, taken);
+    return present;
+}
+
+std::vector<Posture> polished_together(const std::vector<const SkeletonSearch*>& searches, std::vector<Posture> starts,
+                                       bool one_root, const Steps& steps)
+{
+    std::vector<Posture> present = alike(std::move(starts), one_root);
+    double score = sum_over(searches, present, total);
+    const int corners = sum_over(searches, present, corners_through_cloth);
+    const auto taken = [&](const std::vector<Posture>& given) {
+        const std::vector<Posture> next = alike(given, one_root);
+        if (sum_over(searches, next, energy) <= score + k_least_gain)  // crossings only cost
+            return false;
+        const double next_score = sum_over(searches, next, total);
+        if (next_score <= score + k_least_gain || sum_over(searches, next, corners_through_cloth) > corners)
+            return false;
+        present = next;
+        score = next_score;
+        return true;
+    };
+    // The first posture leads: the bones of all, and where there is one root, that too.
+    const int others = one_root ? 0 : k_root_freedoms * (int(searches.size()) - 1);
+    const auto step_taken = [&](int freedom, double step) {
+        std::vector<Posture> next = present;
+        const std::size_t i = freedom < k_freedoms ? 0 : 1 + std::size_t(freedom - k_freedoms) / k_root_freedoms;
+        const int own = freedom < k_freedoms ? freedom : (freedom - k_freedoms) % k_root_freedoms;
+        next[i] = moved(*searches[i], present[i], own, step);
+        return taken(next);
+    };
+    climb(present, k_freedoms + others, steps, step_taken, taken);
     return present;
 }
 

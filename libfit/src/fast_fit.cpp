@@ -33,26 +33,6 @@ constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leave
 constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
 constexpr double k_same_way = 0.9;  // cosine; between ways up that are worth trying apart
 
-// Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face front.
-Vec3 front_of(const std::vector<Opening>& openings)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Opening& opening : openings)
-        sum += opening.facing - opening.facing.y() * Vec3::UnitY();
-    return sum;
-}
-
-// Equation (4): the bones that the garment covers, each by equation (1).
-std::array<double, bone_count> scores(const SkeletonSearch& search, const Posture& posture)
-{
-    const Skeleton joints = placed(search.own(), posture).joints;
-    std::array<double, bone_count> result {};
-    for (int b = 0; b < bone_count; ++b)
-        if (search.metric().figure().covered[b])
-            result[b] = search.metric().worn(b, joints.head(b), joints.tail(b));
-    return result;
-}
-
 // The evidence: of the bones that the type names, those that have at least so many of their five samples inside.
 std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& posture, int samples)
 {
@@ -79,7 +59,7 @@ std::string sizes(const Rig& rig, const ClothRoom& cloth)
 double share_of_room(const SkeletonSearch& search, const Posture& posture)
 {
     const Figure& figure = search.metric().figure();
-    const auto by_bone = scores(search, posture);
+    const auto by_bone = search.scores(posture);
     double needed = 0, found = 0;
     for (int b = 0; b < bone_count; ++b) {
         needed += figure.covered[b] ? k_samples * figure.radii[b] : 0;
@@ -138,29 +118,14 @@ Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, 
     return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
 }
 
-TriangleMesh turned(TriangleMesh mesh, const Eigen::Quaterniond& turn)
-{
-    mesh.positions = (mesh.positions * turn.toRotationMatrix().transpose()).eval();
-    return mesh;
-}
-
-Posture turned(Posture posture, const Eigen::Quaterniond& turn)
-{
-    posture.root = turn * posture.root;
-    posture.turn = (turn * posture.turn).normalized();
-    for (Vec3& direction : posture.directions)
-        direction = turn * direction;
-    return posture;
-}
-
 // One way up of a garment, and how well a body stands in it.
 class Attempt {
 public:
     /// @throws InvalidInput when no body fits into the garment held like this.
     Attempt(const Rig& rig, TriangleMesh outward, GarmentType given, const Progress& progress) :
         rig_(rig), openings_(openings_of(outward)), guess_(resolved_type(given, openings_)),
-        outward_(std::move(outward)), cloth_(outward_), cues_ { front_of(openings_), cuffs_of(openings_) },
-        limits_(rig), metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, openings_))),
+        outward_(std::move(outward)), cloth_(outward_), cues_(cues_of(openings_)), limits_(rig),
+        metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, openings_))),
         search_(rig_, limits_, metric_, cues_), start_(best_start(rig_, search_, progress))
     {
         require_fit(search_, start_.posture, sizes(rig_, cloth_));
@@ -186,8 +151,9 @@ public:
         result.front_margin = start_.front_margin;
         result.covered = bones_inside(search, fitted, k_mostly_inside);
         result.pose = pose_of(rig_.skeleton, turned(fitted, back));
-        result.scores = scores(search, fitted);
-        result.scores_before = scores(search, at_barycentre(rig_, search));
+        result.scores = search.scores(fitted);
+        result.room = metric.shares_of_room(placed(rig_.skeleton, fitted).joints);
+        result.scores_before = search.scores(at_barycentre(rig_, search));
         return result;
     }
 

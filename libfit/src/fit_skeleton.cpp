@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "bone_metric.h"
 #include "fast_fit.h"
 #include "fit/error.h"
 #include "garment_type.h"
@@ -42,7 +43,8 @@ std::unique_ptr<ErrorMetric> metric_of(const Rig& rig, const TriangleMesh& body,
 FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
                       const Progress& progress)
 {
-    const std::vector<Opening> openings = openings_of(outward_cloth(garment));
+    const TriangleMesh outward = outward_cloth(garment);
+    const std::vector<Opening> openings = openings_of(outward);
     const TypeGuess guess = resolved_type(options.type, openings);
     FitResult result;
     result.type = guess.type;
@@ -55,7 +57,10 @@ FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMes
     result.evaluations = found.evaluations;
     result.bone_evaluations = found.bone_evaluations;
     result.scores_before = scores(*metric, placed(rig.skeleton, relaxation.start), result.covered);
-    result.scores = scores(*metric, placed(rig.skeleton, found.posture), result.covered);
+    const PlacedBones bones = placed(rig.skeleton, found.posture);
+    result.scores = scores(*metric, bones, result.covered);
+    const ClothRoom cloth(outward);
+    result.room = BoneMetric(cloth, figure_of(rig, result.covered)).shares_of_room(bones.joints);
     return result;
 }
 

@@ -301,16 +301,19 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
     return bones;
 }
 
-std::vector<Vec3> cuffs_of(const std::vector<Opening>& openings)
+GarmentCues cues_of(const std::vector<Opening>& openings)
 {
-    std::vector<Vec3> cuffs;
+    GarmentCues cues;
+    // Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face front.
+    for (const Opening& opening : openings)
+        cues.front += opening.facing - opening.facing.y() * Vec3::UnitY();
     double longest = 0;
     for (const Piece& piece : pieces_of(openings))
         if (sleeves_of(piece) != Sleeves::none && length_of(piece.sleeves) > longest) {
             longest = length_of(piece.sleeves);
-            cuffs = { piece.sleeves[0].centre, piece.sleeves[1].centre };
+            cues.cuffs = { piece.sleeves[0].centre, piece.sleeves[1].centre };
         }
-    return cuffs;
+    return cues;
 }
 
 }  // namespace fit

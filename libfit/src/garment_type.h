@@ -19,7 +19,11 @@ bool hangs_upright(const std::vector<Opening>& openings);
 /// The bones that a garment of this type covers; where a type may come with any sleeves, its openings tell.
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
 
-/// Middles of the two cuffs of the longest sleeves; none where there are no sleeves.
-std::vector<Vec3> cuffs_of(const std::vector<Opening>& openings);
+/// What a garment's openings say about how it is worn.
+struct GarmentCues {
+    Vec3 front = Vec3::Zero();  // horizontal; where openings face, longer the more of them agree
+    std::vector<Vec3> cuffs;  // middles of two, of the longest sleeves, or none: where hands come out
+};
+GarmentCues cues_of(const std::vector<Opening>& openings);
 
 }  // namespace fit

@@ -239,4 +239,10 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     return cloth;
 }
 
+TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn)
+{
+    cloth.positions = (cloth.positions * turn.toRotationMatrix().transpose()).eval();
+    return cloth;
+}
+
 }  // namespace fit

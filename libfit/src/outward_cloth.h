@@ -9,4 +9,6 @@ namespace fit {
 /// way its faces were given. Cost O(n log n).
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
+TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn);
+
 }  // namespace fit

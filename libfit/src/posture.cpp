@@ -46,4 +46,22 @@ Pose pose_of(const Skeleton& own, const Posture& posture)
     return pose;
 }
 
+Posture posture_of(const Skeleton& own, const Pose& pose)
+{
+    const Skeleton joints = posed(own, pose);
+    Posture posture { joints.root, pose.root_rotation, {} };
+    for (int b = 0; b < bone_count; ++b)
+        posture.directions[b] = joints.direction(b);
+    return posture;
+}
+
+Posture turned(Posture posture, const Eigen::Quaterniond& turn)
+{
+    posture.root = turn * posture.root;
+    posture.turn = (turn * posture.turn).normalized();
+    for (Vec3& direction : posture.directions)
+        direction = turn * direction;
+    return posture;
+}
+
 }  // namespace fit

@@ -37,5 +37,9 @@ Eigen::Quaterniond bone_turn(const Skeleton& own, int bone, const Eigen::Quatern
 
 PlacedBones placed(const Skeleton& own, const Posture& posture);
 Pose pose_of(const Skeleton& own, const Posture& posture);
+Posture posture_of(const Skeleton& own, const Pose& pose);
+
+/// About the origin, the whole body.
+Posture turned(Posture posture, const Eigen::Quaterniond& turn);
 
 }  // namespace fit

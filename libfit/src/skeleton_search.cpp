@@ -86,11 +86,11 @@ SkeletonSearch::SkeletonSearch(const Rig& rig, const JointLimits& limits, const 
 {
 }
 
-// Worn bones and the trunk would be at ease, bare limbs as they were given; nobody leaves the range of a joint.
+// Bones that are worn, in this garment or in another, and the trunk would be at ease, bare limbs as they were given; nobody leaves the range of a joint.
 double SkeletonSearch::posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const
 {
     const bool in_trunk = is_trunk(bone);
-    const bool worn = metric_.figure().covered[bone];
+    const bool worn = metric_.figure().covered[bone] || metric_.figure().worn_elsewhere[bone];
     const Vec3 wish
         = worn || in_trunk ? limits_.at_ease(bone, parent_turn) : parent_turn * rig_.skeleton.direction(bone);
     const double ease = in_trunk ? (worn ? k_trunk_ease : k_bare_trunk) : worn ? k_ease : k_own_pose;
@@ -191,6 +191,16 @@ int SkeletonSearch::bones_through_cloth(const Posture& posture) const
     for (int b = 0; b < bone_count; ++b)
         count += metric_.cloth().crosses(joints.head(b), joints.tail(b));
     return count;
+}
+
+std::array<double, bone_count> SkeletonSearch::scores(const Posture& posture) const
+{
+    const Skeleton joints = placed(rig_.skeleton, posture).joints;
+    std::array<double, bone_count> result {};
+    for (int b = 0; b < bone_count; ++b)
+        if (metric_.figure().covered[b])
+            result[b] = metric_.worn(b, joints.head(b), joints.tail(b));
+    return result;
 }
 
 double SkeletonSearch::crossing_cost(const Posture& posture) const

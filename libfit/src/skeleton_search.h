@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bone_metric.h"
+#include "garment_type.h"
 #include "joint_limits.h"
 #include "posture.h"
 #include "room_search.h"
@@ -25,12 +26,6 @@ inline constexpr std::array<Limb, 5> k_limbs { {
     { { rhumerus, rradius }, rhand_tip },
     { { lowerneck, upperneck }, head_top },
 } };
-
-/// What a garment's openings say about how it is worn.
-struct GarmentCues {
-    Vec3 front = Vec3::Zero();  // horizontal; where openings face, longer the more of them agree
-    std::vector<Vec3> cuffs;  // two, or none: where hands come out
-};
 
 /// How far and how finely a move looks. Grids are sorted by distance from the present: of equals, the nearest wins.
 struct Reach {
@@ -52,6 +47,8 @@ public:
     double crossing_cost(const Posture& posture) const;
     double crossing_cost(const Posture& posture, const Limb& limb) const;
     int bones_through_cloth(const Posture& posture) const;
+    /// E_B of equation (1) of each covered bone, m; 0 for the others.
+    std::array<double, bone_count> scores(const Posture& posture) const;
 
     /// The body at ease, turned by `turn`, its root at `root`.
     Posture at_ease(const Vec3& root, const Eigen::Quaterniond& turn) const;

@@ -10,6 +10,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "filters/outcome.h"
+#include "fit/units.h"
 
 namespace fit::cli {
 namespace {
@@ -100,7 +101,7 @@ Json held_back_of(const Dressing& dressing, double metres_per_unit)
     return parts;
 }
 
-/// E_B of each covered bone at the start and at the end, and how sure the fit is of how the garment is held.
+/// E_B of each covered bone at the start and at the end, how central it runs there, and how sure the fit is of how the garment is held.
 void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
 {
     json["up"] = vector_of(file_from_metres * fit.up);
@@ -109,10 +110,23 @@ void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eig
     Json bones;
     for (const Bone bone : fit.covered)
         bones[std::string(bone_name(bone))] = { { "before", fit.scores_before[bone] / metres_per_unit },
-                                                { "after", fit.scores[bone] / metres_per_unit } };
+                                                { "after", fit.scores[bone] / metres_per_unit },
+                                                { "room", fit.room[bone] } };
     json["score"] = { { "before", fit.score_before / metres_per_unit },
                       { "after", fit.score_after / metres_per_unit },
                       { "bones", bones } };
+}
+
+Json conflicts_of(const Session& session)
+{
+    Json conflicts = Json::array();
+    for (const FitConflict& conflict : session.scene.conflicts)
+        conflicts.push_back(
+            { { "bone", bone_name(conflict.bone) },
+              { "garments",
+                { session.garments[conflict.garments[0]].name(), session.garments[conflict.garments[1]].name() } },
+              { "degrees", k_degrees_per_radian * conflict.angle } });
+    return conflicts;
 }
 
 Json garment_of(const Session& session, std::size_t i)
@@ -162,6 +176,10 @@ Json json_of(const Call& call, const Session& session)
     json["garments"] = Json::array();
     for (std::size_t i = 0; i < session.garments.size(); ++i)
         json["garments"].push_back(garment_of(session, i));
+    if (session.scene.one_pose) {
+        json["one_pose"] = *session.scene.one_pose;
+        json["conflicts"] = conflicts_of(session);
+    }
     json["warnings"] = session.warnings;
     return json;
 }
@@ -185,6 +203,8 @@ std::string summary(const Call& call, const Session& session)
     else
         for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
             text << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type) << "): fitted\n";
+    if (session.scene.one_pose.value_or(false))
+        text << "one pose serves all " << session.garments.size() << " garments\n";
     for (const std::string& warning : session.warnings)
         text << "note: " << warning << '\n';
     text << "written to " << call.out.string() << '\n';

@@ -187,6 +187,8 @@ void doubt_frame(std::vector<std::string>& warnings, const std::string& file, co
 void add_doubts(Session& session)
 {
     const Scene& scene = session.scene;
+    for (std::string& line : explain(scene.conflicts, session.garment_names()))
+        session.warnings.push_back(std::move(line));
     doubt_frame(session.warnings, session.body.path.filename().string(), session.body.frame, "");
     if (scene.rig && scene.rig->side_margin < k_doubt)
         session.warnings.emplace_back(

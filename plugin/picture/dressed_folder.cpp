@@ -25,7 +25,7 @@ Json read_json(const fs::path& path)
 {
     std::ifstream file(path);
     if (!file)
-        throw InvalidInput("cannot read " + path.string() + "; give a folder that garmentfit dress or rig wrote");
+        throw InvalidInput("cannot read " + path.string() + "; give a folder that garmentfit dress, fit or rig wrote");
     return Json::parse(file);
 }
 
@@ -51,10 +51,10 @@ State read_state(const fs::path& folder, const Frame& frame, const Json& rig, co
     return state;
 }
 
-/// Where the chest faces once the pose of the last garment is taken.
-Vec3 fitted_front(const Json& rig, const Frame& frame)
+/// Where the chest faces once a garment's pose is taken.
+Vec3 fitted_front(const Json& rig, const Json& garment, const Frame& frame)
 {
-    const Json q = rig.at("garments").back().at("pose").at("root_rotation");
+    const Json q = garment.at("pose").at("root_rotation");
     const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(),
                                   q.at(3).get<double>());
     return frame.rotation() * (turn * vector_of(rig.at("front")));
@@ -97,15 +97,32 @@ Positions colours_of(const fs::path& rigged)
     return colours;
 }
 
-std::vector<ShownBone> bones_of(const Json& rig, const Frame& frame)
+ShownBone bone_between(const Json& ends, const Frame& frame)
 {
     const auto place
         = [&](const Json& json) { return Vec3(frame.to_metres(Positions(vector_of(json).transpose())).row(0)); };
+    return { place(ends.at("head")), place(ends.at("tail")) };
+}
+
+std::vector<ShownBone> bones_of(const Json& rig, const Frame& frame)
+{
     std::vector<ShownBone> bones;
     for (const Json& bone : rig.at("bones")) {
         const int b = bone_of(bone.at("name").get<std::string>());
-        const int side = b < 0 || mirror_of(b) == b ? 0 : bone_name(b)[0] == 'l' ? 1 : 2;
-        bones.push_back({ place(bone.at("head")), place(bone.at("tail")), side });
+        bones.push_back(bone_between(bone, frame));
+        bones.back().side = b < 0 || mirror_of(b) == b ? 0 : bone_name(b)[0] == 'l' ? 1 : 2;
+    }
+    return bones;
+}
+
+/// @param scores  of the covered bones, by their names
+std::vector<ShownBone> fitted_bones(const Json& joints, const Json& scores, const Frame& frame)
+{
+    std::vector<ShownBone> bones;
+    for (const auto& [name, ends] : joints.items()) {
+        bones.push_back(bone_between(ends, frame));
+        if (scores.contains(name))
+            bones.back().value = 100 * scores.at(name).at("room").get<double>();
     }
     return bones;
 }
@@ -177,6 +194,28 @@ State read_rig_folder(const fs::path& folder)
              colours_of(folder / "rigged.ply") };
 }
 
+bool is_fit_folder(const fs::path& folder)
+{
+    return !is_rig_folder(folder) && read_json(folder / "report.json").at("command") == "fit";
+}
+
+std::vector<FittedGarment> read_fit_folder(const fs::path& folder)
+{
+    const Json rig = read_json(folder / "rig.json"), report = read_json(folder / "report.json");
+    const Frame frame = frame_of(rig);
+    std::vector<FittedGarment> fitted;
+    for (std::size_t i = 0; i < rig.at("garments").size(); ++i) {
+        const Json &garment = rig.at("garments").at(i), &score = report.at("garments").at(i).at("score");
+        const std::string name = garment.at("file").get<std::string>();
+        State state { {}, { read_mesh(folder / name, frame_of(garment)) }, fitted_front(rig, garment, frame) };
+        state.bones = fitted_bones(garment.at("fitted"), score.at("bones"), frame);
+        state.scale = { "room, %", 0, 100, true };
+        fitted.push_back({ name, state, frame.metres_per_unit * score.at("before").get<double>(),
+                           frame.metres_per_unit * score.at("after").get<double>() });
+    }
+    return fitted;
+}
+
 DressedFolder read_dressed_folder(const fs::path& folder)
 {
     const Json rig = read_json(folder / "rig.json"), report = read_json(folder / "report.json");
@@ -185,7 +224,7 @@ DressedFolder read_dressed_folder(const fs::path& folder)
 
     DressedFolder read;
     read.own = { read_mesh(folder / "rigged.ply", frame), {}, front };
-    read.given.front = fitted_front(rig, frame);
+    read.given.front = fitted_front(rig, rig.at("garments").back(), frame);
     for (const Json& garment : rig.at("garments"))
         read.given.garments.push_back(
             read_mesh(folder / "rest" / garment.at("file").get<std::string>(), frame_of(garment)));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What `garmentfit dress` wrote, read for looking at.
+// What `garmentfit rig`, `fit` or `dress` wrote, read for looking at.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,14 @@ namespace fit::picture {
 struct ShownBone {
     Vec3 head, tail;
     int side = 0;  ///< 0 the middle, 1 left, 2 right
+    std::optional<double> value {};  ///< shown by colour instead, by the state's scale
 };
 
 /// How numbers become colours.
 struct Scale {
     std::string title;  ///< "ease, cm"
     double low = 0, high = 1;
+    bool red_is_low = false;
 };
 
 /// One moment of dressing, in metres with +y up.
@@ -27,7 +30,7 @@ struct State {
     TriangleMesh body;  ///< no faces: none shown
     std::vector<TriangleMesh> garments;  ///< from the inside out
     Vec3 front = Vec3::UnitZ();  ///< where the body's chest faces
-    std::vector<ShownBone> bones {};  ///< where there are some, the body is shown transparent
+    std::vector<ShownBone> bones {};  ///< where there are some, body and garments are shown transparent
     Positions colours {};  ///< of the body's vertices, red, green, blue from 0 to 1; none: skin
     std::vector<Eigen::VectorXd> values {};  ///< of each garment's vertices, shown by colour; none: plain cloth
     Scale scale {};
@@ -45,6 +48,18 @@ struct DressedFolder {
 bool is_rig_folder(const std::filesystem::path& folder);
 /// The body with its bones, each vertex in the colours of the bones that it hangs on. @throws InvalidInput.
 State read_rig_folder(const std::filesystem::path& folder);
+
+/// A garment and the bones fitted to it.
+struct FittedGarment {
+    std::string name;
+    State state;
+    double score_before, score_after;  ///< E of equation (4) of the paper, by the metric of the method that was used; m
+};
+
+/// Whether `garmentfit fit` wrote it. @throws InvalidInput.
+bool is_fit_folder(const std::filesystem::path& folder);
+/// Each garment with its bones, coloured by how central they run; grey where the garment does not cover them. @throws InvalidInput.
+std::vector<FittedGarment> read_fit_folder(const std::filesystem::path& folder);
 
 /// The dressed body, its garments coloured by "ease", "strain" or "pressure". @throws InvalidInput.
 State read_map(const std::filesystem::path& folder, const std::string& map);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// garmentfit-picture: what `garmentfit dress` or `garmentfit rig` wrote, side by side.
+// garmentfit-picture: what `garmentfit dress`, `fit` or `rig` wrote, side by side.
 
 #include <cstdlib>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -33,6 +35,28 @@ std::vector<Panel> panels_of(const State& state)
     return { { &state, "front", 0 }, { &state, "from the left", k_part_turn }, { &state, "back", k_half_turn } };
 }
 
+std::vector<Panel> panels_of(const std::vector<FittedGarment>& fitted)
+{
+    if (fitted.size() == 1)
+        return panels_of(fitted.front().state);
+    std::vector<Panel> panels;
+    for (const FittedGarment& garment : fitted) {
+        panels.push_back({ &garment.state, garment.name, 0 });
+        panels.push_back({ &garment.state, "from the left", k_part_turn });
+    }
+    return panels;
+}
+
+std::string headline_of(const std::vector<FittedGarment>& fitted)
+{
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(2) << "bones by the room they have; E";
+    for (const FittedGarment& garment : fitted)
+        text << (&garment == &fitted.front() ? " " : "; ") << garment.score_before << " -> " << garment.score_after
+             << " m";
+    return text.str();
+}
+
 void draw_folder(const std::string& folder, const std::string& map, int height, const std::string& output)
 {
     if (!map.empty()) {
@@ -41,6 +65,9 @@ void draw_folder(const std::string& folder, const std::string& map, int height, 
     } else if (is_rig_folder(folder)) {
         const State rigged = read_rig_folder(folder);
         draw(panels_of(rigged), "bones: left blue, right red; skin in the colours of its bones", height, output);
+    } else if (is_fit_folder(folder)) {
+        const std::vector<FittedGarment> fitted = read_fit_folder(folder);
+        draw(panels_of(fitted), headline_of(fitted), height, output);
     } else {
         const DressedFolder read = read_dressed_folder(folder);
         draw(panels_of(read), read.verdict, height, output);
@@ -53,12 +80,12 @@ int main(int argc, char** argv)
 {
     std::string folder, output, map;
     int height = 800;
-    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result; or what "
-                 "garmentfit rig wrote: "
-                 "bones and weights",
+    CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result; what "
+                 "garmentfit fit wrote: bones in the garment, coloured by how central they run; or what "
+                 "garmentfit rig wrote: bones and weights",
                  "garmentfit-picture");
     app.set_version_flag("--version", "garmentfit-picture " FIT_VERSION);
-    app.add_option("DIR", folder, "Folder that garmentfit dress or rig wrote")->required();
+    app.add_option("DIR", folder, "Folder that garmentfit dress, fit or rig wrote")->required();
     app.add_option("-o,--output", output, "PNG file")->required();
     app.add_option("--map", map, "Colours the garments by ease, strain or pressure instead, with a legend")
         ->check(CLI::IsMember({ "ease", "strain", "pressure" }));

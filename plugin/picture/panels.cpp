@@ -40,6 +40,8 @@ constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15,
 constexpr Colour k_cloth[]
     = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
 constexpr Colour k_bones[] = { { 0.25, 0.25, 0.3 }, { 0.1, 0.35, 0.85 }, { 0.85, 0.15, 0.1 } };  // middle, left, right
+constexpr Colour k_bare_bone { 0.6, 0.6, 0.6 };  // not covered
+constexpr double k_see_through_cloth = 0.3;  // opacity; of each of two or more sheets in front of a bone
 constexpr double k_see_through = 0.45, k_bone_thickness = 0.012;  // opacity; of half the picture's height
 constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
 constexpr double k_narrowest = 0.42, k_widest = 1;  // width / height of a panel; a caption has to stand under it
@@ -90,13 +92,13 @@ vtkNew<vtkActor> cloth_of(const TriangleMesh& mesh, std::size_t layer)
     return actor;
 }
 
-/// From blue by white (the middle of the scale, or its low end) to red.
+/// Between blue and red, white in the middle of the scale.
 vtkNew<vtkColorTransferFunction> colours_of(const Scale& scale)
 {
     vtkNew<vtkColorTransferFunction> colours;
     colours->SetColorSpaceToDiverging();
-    colours->AddRGBPoint(scale.low, 0.23, 0.30, 0.75);
-    colours->AddRGBPoint(scale.high, 0.71, 0.02, 0.15);
+    colours->AddRGBPoint(scale.red_is_low ? scale.high : scale.low, 0.23, 0.30, 0.75);
+    colours->AddRGBPoint(scale.red_is_low ? scale.low : scale.high, 0.71, 0.02, 0.15);
     return colours;
 }
 
@@ -149,7 +151,7 @@ vtkNew<vtkActor> transparent_body(const State& state)
     return actor;
 }
 
-vtkNew<vtkActor> bone_actor(const ShownBone& bone, double thickness)
+vtkNew<vtkActor> bone_actor(const ShownBone& bone, const Colour& colour, double thickness)
 {
     vtkNew<vtkLineSource> line;
     line->SetPoint1(bone.head.x(), bone.head.y(), bone.head.z());
@@ -163,7 +165,6 @@ vtkNew<vtkActor> bone_actor(const ShownBone& bone, double thickness)
     mapper->SetInputConnection(tube->GetOutputPort());
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
-    const Colour& colour = k_bones[bone.side];
     actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
     return actor;
 }
@@ -180,6 +181,26 @@ vtkNew<vtkActor2D> text_of(const std::string& words, int size, double x, double 
     actor->SetMapper(mapper);
     actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedDisplay();
     actor->SetPosition(x, y);
+    return actor;
+}
+
+Colour colour_of(const ShownBone& bone, const State& state)
+{
+    if (!bone.value)
+        return state.scale.title.empty() ? k_bones[bone.side] : k_bare_bone;
+    Colour colour;
+    colours_of(state.scale)->GetColor(*bone.value, colour.data());
+    return colour;
+}
+
+vtkNew<vtkActor> garment_actor(const State& state, std::size_t i)
+{
+    if (!state.values.empty())
+        return coloured_cloth(state.garments[i], state.values[i], state.scale);
+    if (state.bones.empty())
+        return cloth_of(state.garments[i], i);
+    vtkNew<vtkActor> actor = actor_of(state.garments[i], k_cloth[i % std::size(k_cloth)]);
+    actor->GetProperty()->SetOpacity(k_see_through_cloth);
     return actor;
 }
 
@@ -202,17 +223,22 @@ Extent extent_of(const Panel& panel)
     const Vec3 right = Vec3::UnitY().cross(towards_viewer(panel));
     Eigen::AlignedBox3d box;
     double low = 1e30, high = -1e30;
-    const auto add = [&](const TriangleMesh& mesh) {
-        for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
-            const Vec3 p = mesh.positions.row(v);
-            box.extend(p);
-            low = std::min(low, right.dot(p));
-            high = std::max(high, right.dot(p));
-        }
+    const auto add = [&](const Vec3& p) {
+        box.extend(p);
+        low = std::min(low, right.dot(p));
+        high = std::max(high, right.dot(p));
     };
-    add(panel.state->body);
+    const auto add_mesh = [&](const TriangleMesh& mesh) {
+        for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+            add(mesh.positions.row(v));
+    };
+    add_mesh(panel.state->body);
     for (const TriangleMesh& garment : panel.state->garments)
-        add(garment);
+        add_mesh(garment);
+    for (const ShownBone& bone : panel.state->bones) {
+        add(bone.head);
+        add(bone.tail);
+    }
     if (box.isEmpty())
         return {};
     Vec3 centre = box.center();
@@ -257,17 +283,14 @@ vtkNew<vtkRenderer> renderer_of(const Panel& panel, double scale)
 {
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(k_paper.data());
-    if (!panel.state->bones.empty()) {
+    if (panel.state->body.triangles.rows() > 0 && !panel.state->bones.empty())
         renderer->AddActor(transparent_body(*panel.state));
-    } else if (panel.state->body.triangles.rows() > 0) {
+    else if (panel.state->body.triangles.rows() > 0)
         renderer->AddActor(actor_of(panel.state->body, k_skin));
-    }
     for (const ShownBone& bone : panel.state->bones)
-        renderer->AddActor(bone_actor(bone, k_bone_thickness * scale));
+        renderer->AddActor(bone_actor(bone, colour_of(bone, *panel.state), k_bone_thickness * scale));
     for (std::size_t i = 0; i < panel.state->garments.size(); ++i)
-        renderer->AddActor(panel.state->values.empty()
-                               ? cloth_of(panel.state->garments[i], i)
-                               : coloured_cloth(panel.state->garments[i], panel.state->values[i], panel.state->scale));
+        renderer->AddActor(garment_actor(*panel.state, i));
     light(renderer);
     const Extent extent = extent_of(panel);
     const Vec3 eye = extent.centre + 10 * towards_viewer(panel);  // parallel projection: any distance beyond the figure
@@ -298,7 +321,7 @@ void draw(const std::vector<Panel>& panels, const std::string& headline, int hei
 {
     const double scale = common_scale(panels), figure_height = 1 - 2 * k_text_height;
     const std::vector<double> aspects = aspects_of(panels, scale);
-    const bool has_legend = !panels.empty() && !panels.front().state->values.empty();
+    const bool has_legend = !panels.empty() && !panels.front().state->scale.title.empty();
     const double all_aspects
         = std::accumulate(aspects.begin(), aspects.end(), 0.0) + (has_legend ? k_legend_aspect : 0);
     const int font = std::max(8, height / 40);

@@ -84,6 +84,9 @@ struct FitResult {
     std::vector<Bone> covered;
     std::array<double, bone_count> scores_before {}, scores {};  ///< E_B of equation (1) by the method's own metric,
         ///< metres, at the start and at the end; 0 for bones that take no part
+    std::array<double, bone_count>
+        room {};  ///< how central a covered bone runs at the end: of the room that its limb needs, the share
+        ///< that it has, 0 (at the cloth, or outside) to 1 (no cloth nearer than the skin)
     double score_before = 0, score_after = 0;  ///< E of equation (4)
     long long evaluations = 0, bone_evaluations = 0;  ///< of E and of E_B; paper and tisserand only
 };
@@ -107,5 +110,27 @@ FIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const
 /// The same for any method: tisserand reads the body's surface, whose vertices are those of the rig's weights.
 FIT_API FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment,
                                const FitOptions& options = {}, const Progress& progress = {});
+
+/// A bone that no one pose holds well in each of two garments.
+struct FitConflict {
+    Bone bone = bone_count;
+    std::array<int, 2> garments {};  ///< the first one is where the bone would lack room, or pass through cloth
+    double angle = 0;  ///< radians between its directions in their own fits, seen from the root
+};
+
+/// Several garments, one body.
+struct CommonFit {
+    std::vector<FitResult> fits;  ///< one for each garment
+    bool one_pose
+        = false;  ///< all fits turn the bones alike; only the root may be elsewhere, for garments may be moved as they are
+    std::vector<FitConflict> conflicts;  ///< why not, the widest angle first
+};
+
+/// Looks for one pose that serves all garments: each bone by all of those that cover it. Where there is none, the fits come back as they
+/// were, with what stands in the way.
+/// @param fits  by the fast method, of each garment by itself
+/// @throws Cancelled
+FIT_API CommonFit common_fit(const Rig& rig, const std::vector<GarmentMesh>& garments,
+                             const std::vector<FitResult>& fits, const Progress& progress = {});
 
 }  // namespace fit

@@ -11,6 +11,8 @@
 
 namespace fit {
 
+constexpr double k_degrees_per_radian = 180 / 3.14159265358979323846;
+
 /// A file's units and axes. Positions in metres = metres_per_unit * (rotation that takes `up` to +y) * positions in the file.
 struct Frame {
     double metres_per_unit = 1;
