@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -301,6 +302,76 @@ TEST_F(CommandLine, TakesTheUsersRigFromRigJsonOrFromASkinnedGlb)
         for (const auto& [name, p] : given)
             EXPECT_LT((taken.at(name) - p).norm(), 1e-5) << rig << ": " << name;  // a GLB has floats
     }
+}
+
+/// Triangles of a size in metres, here and there.
+std::string scattered_obj(int faces, double size)
+{
+    std::string obj, indices;
+    for (int i = 0; i < 3 * faces; ++i) {
+        const int face = i / 3, corner = i % 3;
+        obj += "v " + std::to_string(std::sin(7.0 * face) + size * (corner == 1)) + " "
+            + std::to_string(1 + std::sin(11.0 * face) + size * (corner == 2)) + " "
+            + std::to_string(std::sin(13.0 * face)) + "\n";
+        indices += (corner == 0 ? "f " : " ") + std::to_string(i + 1) + (corner == 2 ? "\n" : "");
+    }
+    return obj + indices;
+}
+
+/// A sheet of quads; place(u, v) says where, u and v from 0 to 1.
+template <class Place>
+std::string grid_obj(int columns, int rows, const Place& place)
+{
+    std::string obj;
+    for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+            const Eigen::Vector3d p = place(double(c) / (columns - 1), double(r) / (rows - 1));
+            obj += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+        }
+    for (int r = 0; r + 1 < rows; ++r)
+        for (int c = 0; c + 1 < columns; ++c) {
+            const int v = r * columns + c + 1;
+            obj += "f " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + columns + 1) + " "
+                + std::to_string(v + columns) + "\n";
+        }
+    return obj;
+}
+
+TEST_F(CommandLine, SaysWhyWhatIsNoGarmentCannotBeWorn)
+{
+    const fs::path rigged = fs::temp_directory_path() / (folder.filename().string() + "_rig");
+    ASSERT_EQ(run({ "rig", k_body, "-o", rigged }).code, 0);
+    const auto expect = [&](const std::string& garment, const std::string& words) {
+        expect_refused({ "fit", k_body, garment, "--rig", rigged / "rig.json" }, { words });
+    };
+    expect(write("square.obj", grid_obj(20, 20, [](double u, double v) { return Eigen::Vector3d(u, v, 0); })),
+           "only one opening");
+    expect(write("sock.obj", grid_obj(24, 20,
+                                      [](double u, double v) {
+                                          const double radius = 0.05 * std::min(1.0, 4 * v), turn = 6.283185307179586 * u;
+                                          return Eigen::Vector3d(radius * std::cos(turn), 0.3 * v,
+                                                                 radius * std::sin(turn));
+                                      })),
+           "opening");
+    expect(write("ten.obj", scattered_obj(10, 1)), "10 triangles");
+    expect(write("buttons.obj", scattered_obj(1000, 0.01)), "no openings");
+    expect(write("nothing.obj", ""), "empty");
+    fs::remove_all(rigged);
+}
+
+TEST_F(CommandLine, FitsSkirtAndCoatInOnePose)
+{
+    const Ended ended = run({ "fit", k_body, k_skirt, FIT_SAMPLES "/coat.ply", "--json", "-o", folder / "fitted" });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto report = nlohmann::json::parse(ended.out);
+    EXPECT_TRUE(report.at("one_pose").get<bool>());
+    EXPECT_TRUE(report.at("conflicts").empty());
+    const auto room = report.at("garments").at(1).at("score").at("bones").at("lhumerus").at("room").get<double>();
+    EXPECT_TRUE(room > 0.5 && room <= 1) << room;
+    const auto garments = nlohmann::json::parse(read_text(folder / "fitted/rig.json")).at("garments");
+    EXPECT_EQ(garments.at(0).at("pose").at("rotations"), garments.at(1).at("pose").at("rotations"));
+    EXPECT_EQ(garments.at(1).at("fitted").size(), 17u);
+    EXPECT_TRUE(garments.at(1).at("angles").contains("lhumerus"));
 }
 
 class Slow : public CommandLine { };

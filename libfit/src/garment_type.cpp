@@ -150,6 +150,8 @@ std::optional<GarmentType> type_of(Piece& piece)
 {
     if (!piece.legs.empty())
         return type_with_legs(piece);
+    if (piece.sleeves.empty() && piece.others.size() < 2)  // a way in, but none out
+        return {};
     if (piece.others.empty())
         return {};
     const Opening& lowest = piece.others.front();
@@ -235,9 +237,9 @@ TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings)
         return { given, 1 };
     const TypeGuess guess = guess_type(openings);
     if (guess.type == GarmentType::automatic)
-        throw InvalidInput(
-            "garment has no openings that a body could be put through, so its type cannot be told; give a garment "
-            "with open edges, or its type");
+        throw InvalidInput(std::string("garment has ") + (openings.size() == 1 ? "only one opening" : "no openings")
+                           + " that a body could be put through, so its type cannot be told; give a garment with a way "
+                             "in and a way out, or its type");
     return guess;
 }
 
