@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/rig_arrays.h"
+
+#include <cmath>
+#include <string>
+
+#include "fit/error.h"
+
+namespace fit {
+namespace {
+
+constexpr int k_tips_from = 1 + int(bone_count);
+
+void require_shape(const Rows& rows, int count, int columns, const char* what)
+{
+    if (rows.rows() != count || rows.cols() != columns)
+        throw InvalidInput(std::string(what) + " is an array of " + std::to_string(rows.rows()) + " x "
+                           + std::to_string(rows.cols()) + " instead of " + std::to_string(count) + " x "
+                           + std::to_string(columns) + "; give what a filter made");
+    if (!rows.allFinite())
+        throw InvalidInput(std::string(what) + " is not finite; give what a filter made");
+}
+
+Eigen::RowVector4d row_of(const Eigen::Quaterniond& q) { return { q.w(), q.x(), q.y(), q.z() }; }
+
+/// Not normalised: a pose comes back with the very bits it was handed out with.
+Eigen::Quaterniond turn_of(const Eigen::RowVector4d& row)
+{
+    constexpr double k_rounding = 1e-6;  // numbers may have been through a text file
+    if (std::abs(row.norm() - 1) > k_rounding)
+        throw InvalidInput("a turn of the pose is no unit quaternion; give what a filter made");
+    return { row[0], row[1], row[2], row[3] };
+}
+
+}  // namespace
+
+Rows rows_of(const Skeleton& skeleton)
+{
+    Rows joints(k_joint_rows, 3);
+    joints.row(0) = skeleton.root;
+    for (int b = 0; b < bone_count; ++b)
+        joints.row(1 + b) = skeleton.tails[b];
+    for (int e = 0; e < extremity_count; ++e)
+        joints.row(k_tips_from + e) = skeleton.tips[e];
+    return joints;
+}
+
+Rows row_of(const Pose& pose)
+{
+    Rows row(1, k_pose_columns);
+    row.leftCols<3>() = pose.root_translation.transpose();
+    row.middleCols<4>(3) = row_of(pose.root_rotation);
+    for (int b = 0; b < bone_count; ++b)
+        row.middleCols<4>(7 + 4 * b) = row_of(pose.rotations[b]);
+    return row;
+}
+
+Skeleton skeleton_of(const Rows& joints)
+{
+    require_shape(joints, k_joint_rows, 3, "the skeleton");
+    Skeleton skeleton;
+    skeleton.root = joints.row(0);
+    for (int b = 0; b < bone_count; ++b)
+        skeleton.tails[b] = joints.row(1 + b);
+    for (int e = 0; e < extremity_count; ++e)
+        skeleton.tips[e] = joints.row(k_tips_from + e);
+    return skeleton;
+}
+
+Pose pose_of(const Rows& row)
+{
+    require_shape(row, 1, k_pose_columns, "the pose");
+    Pose pose;
+    pose.root_translation = row.leftCols<3>().transpose();
+    pose.root_rotation = turn_of(row.middleCols<4>(3));
+    for (int b = 0; b < bone_count; ++b)
+        pose.rotations[b] = turn_of(row.middleCols<4>(7 + 4 * b));
+    return pose;
+}
+
+SkinWeights weights_of(const Rows& bones, const Rows& weights)
+{
+    if (bones.cols() != 4 || weights.cols() != 4 || bones.rows() != weights.rows())
+        throw InvalidInput("the rig has " + std::to_string(bones.rows()) + " x " + std::to_string(bones.cols())
+                           + " bones for " + std::to_string(weights.rows()) + " x " + std::to_string(weights.cols())
+                           + " weights; both are 4 for each vertex");
+    for (Eigen::Index v = 0; v < bones.rows(); ++v)
+        if (!((bones.row(v).array() >= 0).all() && (bones.row(v).array() < int(bone_count)).all()
+              && (weights.row(v).array() >= 0).all() && (weights.row(v).array() <= 1).all()))
+            throw InvalidInput("vertex " + std::to_string(v)
+                               + " has a bone or weight out of range; rig the body again");
+    return { bones.cast<int>(), weights };
+}
+
+}  // namespace fit

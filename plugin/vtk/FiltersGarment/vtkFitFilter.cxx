@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkFitFilter.h"
+
+#include "filter_state.h"
+#include "fit/error.h"
+#include "scene_data.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVersionMacros.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace {
+
+using fit::About;
+using fit::Data;
+
+// ---- visitors of the schema ------------------------------------------------------------------------------------------
+
+/// Calls `use(value, about)` for the one parameter of that name; false where there is none.
+template <class Parameters, class Use>
+bool with_parameter(const fit::Filter& filter, Parameters& parameters, const char* name, const Use& use)
+{
+    bool found = false;
+    fit::describe(filter, parameters, [&](auto& value, const About& about) {
+        if (name && about.name == name) {
+            use(value, about);
+            found = true;
+        }
+    });
+    return found;
+}
+
+template <class Value>
+double smallest(const About& about)
+{
+    return std::is_enum_v<Value> || std::is_same_v<Value, bool> ? 0 : about.min;
+}
+
+template <class Value>
+double largest(const About& about)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return double(about.choices->size()) - 1;
+    return std::is_same_v<Value, bool> ? 1 : about.max;
+}
+
+// ---- the inputs' likeness --------------------------------------------------------------------------------------------
+
+/// A copy of a composite's structure with shallow copies of its leaves, which are returned in order.
+std::vector<vtkPolyData*> copy_leaves(vtkDataObject& from, vtkDataObject& to)
+{
+    if (vtkPolyData* one = vtkPolyData::SafeDownCast(&to)) {
+        one->ShallowCopy(&from);
+        return { one };
+    }
+    auto* source = vtkCompositeDataSet::SafeDownCast(&from);
+    auto* target = vtkCompositeDataSet::SafeDownCast(&to);
+    target->CopyStructure(source);
+    std::vector<vtkPolyData*> leaves;
+    auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(source->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem()) {
+        auto copy = vtkSmartPointer<vtkPolyData>::New();
+        copy->ShallowCopy(leaf->GetCurrentDataObject());
+        target->SetDataSet(leaf, copy);
+        leaves.push_back(copy);
+    }
+    return leaves;
+}
+
+double time_asked(vtkInformation* request, vtkInformationVector* outputs)
+{
+    int port = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
+    vtkInformation* info = outputs->GetInformationObject(std::max(port, 0));
+    const auto key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+    return info->Has(key) ? info->Get(key) : 1;
+}
+
+}  // namespace
+
+vtkFitFilter::vtkFitFilter(const char* name) : State(std::make_unique<fit::FilterState>(fit::filter_of(name)))
+{
+    const bool dresses = this->State->takes(Data::garments);
+    this->SetNumberOfInputPorts(dresses ? 2 : 1);
+    this->SetNumberOfOutputPorts(dresses ? 3 : 2);
+}
+
+vtkFitFilter::~vtkFitFilter() = default;
+
+// ---- parameters ------------------------------------------------------------------------------------------------------
+
+void vtkFitFilter::SetNumber(const char* name, double number)
+{
+    with_parameter(this->State->filter, this->State->parameters, name, [&](auto& value, const About& about) {
+        using Value = std::decay_t<decltype(value)>;
+        const double clamped = std::min(std::max(number, smallest<Value>(about)), largest<Value>(about));
+        if (static_cast<Value>(clamped) == value)
+            return;
+        value = static_cast<Value>(clamped);
+        this->Modified();
+    });
+}
+
+double vtkFitFilter::GetNumber(const char* name)
+{
+    double number = 0;
+    with_parameter(this->State->filter, this->State->parameters, name,
+                   [&](auto& value, const About&) { number = static_cast<double>(value); });
+    return number;
+}
+
+double vtkFitFilter::GetSmallest(const char* name)
+{
+    double number = 0;
+    with_parameter(this->State->filter, this->State->parameters, name,
+                   [&](auto& value, const About& about) { number = smallest<std::decay_t<decltype(value)>>(about); });
+    return number;
+}
+
+double vtkFitFilter::GetLargest(const char* name)
+{
+    double number = 0;
+    with_parameter(this->State->filter, this->State->parameters, name,
+                   [&](auto& value, const About& about) { number = largest<std::decay_t<decltype(value)>>(about); });
+    return number;
+}
+
+void vtkFitFilter::SetParameter(const char* name, const char* text)
+{
+    try {
+        const bool found
+            = with_parameter(this->State->filter, this->State->parameters, name, [&](auto& value, const About& about) {
+                  auto changed = value;
+                  fit::SetByName { about.name, text ? text : "" }(changed, about);
+                  if (changed == value)
+                      return;
+                  value = changed;
+                  this->Modified();
+              });
+        if (!found)
+            vtkErrorMacro("no parameter is called \"" << (name ? name : "") << "\"; GetParameterName lists them");
+    } catch (const fit::InvalidInput& error) {
+        vtkErrorMacro(<< error.what());
+    }
+}
+
+std::string vtkFitFilter::GetParameter(const char* name)
+{
+    std::string text;
+    with_parameter(this->State->filter, this->State->parameters, name,
+                   [&](auto& value, const About& about) { text = fit::text_of(value, about); });
+    return text;
+}
+
+int vtkFitFilter::GetNumberOfParameters()
+{
+    int count = 0;
+    fit::describe(this->State->filter, this->State->parameters, [&](const auto&, const About&) { ++count; });
+    return count;
+}
+
+std::string vtkFitFilter::GetParameterName(int index)
+{
+    std::string name;
+    fit::describe(this->State->filter, this->State->parameters, [&](const auto&, const About& about) {
+        if (index-- == 0)
+            name = about.name;
+    });
+    return name;
+}
+
+std::string vtkFitFilter::GetParameterHelp(const char* name)
+{
+    std::string help;
+    with_parameter(this->State->filter, this->State->parameters, name, [&](auto& value, const About& about) {
+        help = std::string(about.help) + " (" + fit::range_of<std::decay_t<decltype(value)>>(about) + ")";
+    });
+    return help;
+}
+
+int vtkFitFilter::GetSkeletonPort() { return this->GetNumberOfOutputPorts() - 1; }
+
+void vtkFitFilter::SetChoice(const char* what, const char* value)
+{
+    std::string& choice = this->State->choices.try_emplace(what, "auto").first->second;
+    const std::string chosen = value ? value : "auto";
+    if (choice == chosen)
+        return;
+    choice = chosen;
+    this->Modified();
+}
+
+const char* vtkFitFilter::GetChoice(const char* what)
+{
+    return this->State->choices.try_emplace(what, "auto").first->second.c_str();
+}
+
+void vtkFitFilter::PutJoint(const char* name, double x, double y, double z)
+{
+    this->State->joints[name ? name : ""] = { x, y, z };
+    this->Modified();
+}
+
+void vtkFitFilter::ForgetJoints()
+{
+    this->State->joints.clear();
+    this->Modified();
+}
+
+void vtkFitFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+    this->Superclass::PrintSelf(os, indent);
+    fit::describe(this->State->filter, this->State->parameters, [&](const auto& value, const About& about) {
+        os << indent << about.label << ": " << fit::text_of(value, about) << (about.unit.empty() ? "" : " ")
+           << about.unit << "\n";
+    });
+    for (const auto& [what, value] : this->State->choices)
+        os << indent << what << ": " << value << "\n";
+    for (const auto& [name, place] : this->State->joints)
+        os << indent << "Joint " << name << ": " << place.transpose() << "\n";
+}
+
+// ---- the pipeline ----------------------------------------------------------------------------------------------------
+
+int vtkFitFilter::FillInputPortInformation(int port, vtkInformation* info)
+{
+    if (port == 0)
+        return this->Superclass::FillInputPortInformation(port, info);
+    // the composite first: the executive asks the first type only whether it should hand over one block after another
+    info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    info->Append(INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    return 1;
+}
+
+int vtkFitFilter::FillOutputPortInformation(int port, vtkInformation* info)
+{
+    const bool garments = port == 1 && port != this->GetSkeletonPort();
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), garments ? "vtkDataObject" : "vtkPolyData");
+    return 1;
+}
+
+vtkTypeBool vtkFitFilter::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+                                         vtkInformationVector* outputs)
+{
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+        return this->RequestDataObject(inputs, outputs);
+    return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+int vtkFitFilter::RequestDataObject(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port) {
+        vtkDataObject* like
+            = port == 1 && port != this->GetSkeletonPort() ? vtkDataObject::GetData(inputs[1]) : nullptr;
+        vtkInformation* info = outputs->GetInformationObject(port);
+        vtkDataObject* made = vtkDataObject::GetData(info);
+        const char* type = like ? like->GetClassName() : "vtkPolyData";
+        if (made && made->IsA(type))
+            continue;
+        auto output = vtkSmartPointer<vtkDataObject>::Take(like ? like->NewInstance() : vtkPolyData::New());
+        info->Set(vtkDataObject::DATA_OBJECT(), output);
+    }
+    return 1;
+}
+
+int vtkFitFilter::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+    const int frames = this->State->frames();
+    std::vector<double> steps;
+    for (int i = 0; i < frames; ++i)
+        steps.push_back(frames > 1 ? double(i) / (frames - 1) : 1);
+    double range[2] = { 0, 1 };
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port) {
+        vtkInformation* info = outputs->GetInformationObject(port);
+        if (steps.empty()) {
+            info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+            info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+            continue;
+        }
+        info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps.data(), frames);
+        info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    }
+    return 1;
+}
+
+bool vtkFitFilter::GoesOn(double fraction, const std::string& stage)
+{
+    this->SetProgressText(stage.c_str());
+    this->UpdateProgress(fraction);
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+    return !this->CheckAbort();
+#else
+    return !this->GetAbortExecute();
+#endif
+}
+
+int vtkFitFilter::Refuse(vtkInformationVector* outputs, unsigned long code, const char* message)
+{
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+        vtkDataObject::GetData(outputs, port)->Initialize();
+    if (code == vtkErrorCode::NoError)
+        return 1;
+    this->SetErrorCode(code);
+    vtkErrorMacro(<< message);
+    return 0;
+}
+
+int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+    this->SetErrorCode(vtkErrorCode::NoError);
+    vtkPolyData* body = vtkPolyData::GetData(inputs[0]);
+    vtkDataObject* garments = this->GetNumberOfInputPorts() > 1 ? vtkDataObject::GetData(inputs[1]) : nullptr;
+    const double time = time_asked(request, outputs);
+    try {
+        this->State->update(*body, garments, fit::Progress([this](double fraction, std::string_view stage) {
+            return this->GoesOn(fraction, std::string(stage));
+        }));
+        vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
+        dressed->ShallowCopy(body);
+        this->State->write_body(*dressed, time);
+        if (garments)
+            this->State->write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), time);
+        this->State->write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), time);
+        for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfOutputPorts(); ++port)
+            vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+        if (const std::string note = this->State->note(); !note.empty())
+            vtkWarningMacro(<< note);
+        return 1;
+    } catch (const fit::Cancelled&) {
+        return this->Refuse(outputs, vtkErrorCode::NoError, "");
+    } catch (const fit::InvalidInput& error) {
+        return this->Refuse(outputs, InvalidInput, error.what());
+    } catch (const std::exception& error) {
+        return this->Refuse(outputs, SolverFailure, error.what());
+    }
+}

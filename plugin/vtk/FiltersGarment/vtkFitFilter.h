@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkFitFilter
+ * @brief   what the five filters that dress bodies have in common
+ *
+ * A filter reads a body (port 0, vtkPolyData) and, all but vtkRigBody, the garments (port 1): one as vtkPolyData, or several
+ * from the inside out as a composite of vtkPolyData, such as vtkMultiBlockDataGroupFilter makes. What it found travels on as
+ * arrays of its outputs, so that filters can be chained, and files written in between:
+ *
+ * port 0, the body
+ * - point data `JointIndices`, `JointWeights` (4 components each): bones and how much the skin hangs on each
+ * - point data `OwnPosition`: the points as given, where they were moved
+ * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `DressedPose`: in metres with +y up;
+ *   `BodyFrame`: metres per unit, and the up axis, of the body as given
+ * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex),
+ *   `HeldBackPart`, `HeldBackDistance`, `Note`: one line where it is not certified
+ *
+ * port 1, the garments, of the type of the input (not of vtkRigBody)
+ * - point data `RestPosition`: as given; `Ease`: gap to the skin; `Strain`: mean stretch of the edges; `Pressure`: Pa
+ * - field data `FoundType`, `FoundTypeMargin`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
+ *   `LayerCrossings`, `VerticesInside`, `GarmentGap`, `StrainMedian`, `StrainP95`, `StrainMax`, `TooTightPart`,
+ *   `MissingGirth`, `GirthPlace`, `GirthBody`, `GirthGarment`
+ * - a field data string `GarmentType` of an input is taken as its type
+ *
+ * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell data).
+ *
+ * Lengths are in the body's units. Cells and all other arrays are passed through without a copy; points that move are new, and
+ * point normals are computed anew for them. Polygons are cut into fans as they are read; lines and vertices are let be.
+ *
+ * Bad input raises an ErrorEvent with one line, the error code, and leaves the outputs empty. After AbortExecute outputs are
+ * empty too; call Modified() and Update() to run again. A garment that is too small is no error but a result: a warning is given, `Certified` is 0
+ * and `Note` says why.
+ *
+ * @sa vtkRigBody vtkFitSkeleton vtkDrapeGarment vtkRecoverPose vtkDressBody
+ */
+#ifndef vtkFitFilter_h
+#define vtkFitFilter_h
+
+#include "vtkErrorCode.h"  // for UserError
+#include "vtkFiltersGarmentModule.h"  // for export macro
+#include "vtkFitParameterMacros.h"  // for subclasses
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory>  // for std::unique_ptr
+#include <string>  // for std::string
+
+namespace fit {
+class FilterState;
+}
+
+class VTKFILTERSGARMENT_EXPORT vtkFitFilter : public vtkPolyDataAlgorithm {
+public:
+    vtkTypeMacro(vtkFitFilter, vtkPolyDataAlgorithm);
+    void PrintSelf(ostream& os, vtkIndent indent) override;
+
+    /// What GetErrorCode() says after an error.
+    enum ErrorCodes {
+        InvalidInput = vtkErrorCode::UserError,  ///< something given is wrong; the message says what to do
+        SolverFailure  ///< no answer was found
+    };
+
+    ///@{
+    /**
+   * Any parameter by its name in the schema, "contact_distance", as text: "0.003", "on", "coat".
+   */
+    void SetParameter(const char* name, const char* value);
+    std::string GetParameter(const char* name);
+    ///@}
+
+    ///@{
+    /**
+   * The names of all parameters of this filter, and one line on each: what it does, range and unit.
+   */
+    int GetNumberOfParameters();
+    std::string GetParameterName(int index);
+    std::string GetParameterHelp(const char* name);
+    ///@}
+
+    /**
+   * Which port has the skeleton: 1 of vtkRigBody, 2 of the others.
+   */
+    int GetSkeletonPort();
+
+protected:
+    /// @param name  of the filter in the table of filters/filters.h
+    explicit vtkFitFilter(const char* name);
+    ~vtkFitFilter() override;
+
+    void SetNumber(const char* name, double value);
+    double GetNumber(const char* name);
+    double GetSmallest(const char* name);
+    double GetLargest(const char* name);
+    void SetChoice(const char* what, const char* value);
+    const char* GetChoice(const char* what);
+    void PutJoint(const char* name, double x, double y, double z);
+    void ForgetJoints();
+
+    vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+    int FillInputPortInformation(int port, vtkInformation* info) override;
+    int FillOutputPortInformation(int port, vtkInformation* info) override;
+    int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+    int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+    vtkFitFilter(const vtkFitFilter&) = delete;
+    void operator=(const vtkFitFilter&) = delete;
+
+    int RequestDataObject(vtkInformationVector**, vtkInformationVector*);
+    bool GoesOn(double fraction, const std::string& stage);
+    int Refuse(vtkInformationVector* outputs, unsigned long code, const char* message);
+
+    std::unique_ptr<fit::FilterState> State;
+};
+
+#endif

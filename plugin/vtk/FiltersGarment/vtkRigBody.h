@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkRigBody
+ * @brief   finds the skeleton of a body and how the skin hangs on it
+ *
+ * Input: a body, closed or not; port 1 gives the skeleton.
+ *
+ * @sa vtkFitFilter for ports, arrays and errors
+ */
+#ifndef vtkRigBody_h
+#define vtkRigBody_h
+
+#include "vtkFitFilter.h"
+
+class VTKFILTERSGARMENT_EXPORT vtkRigBody : public vtkFitFilter {
+public:
+    vtkTypeMacro(vtkRigBody, vtkFitFilter);
+    static vtkRigBody* New();
+
+    /// Parameters of rigging.
+    vtkFitRigParametersMacro();
+
+    /// Units and axes of the body.
+    vtkFitBodyChoicesMacro();
+
+    /// Joints that are known.
+    vtkFitJointsMacro();
+
+protected:
+    vtkRigBody();
+    ~vtkRigBody() override = default;
+
+private:
+    vtkRigBody(const vtkRigBody&) = delete;
+    void operator=(const vtkRigBody&) = delete;
+};
+
+#endif

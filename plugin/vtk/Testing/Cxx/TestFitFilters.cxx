@@ -1,0 +1,533 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The VTK filters as citizens of a pipeline: the same numbers as the filters behind them, nothing copied, nothing computed
+// twice, and usable after whatever went wrong.
+
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "filters/filters.h"
+#include "fixtures.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkDrapeGarment.h"
+#include "vtkDressBody.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkFitSkeleton.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkRecoverPose.h"
+#include "vtkRigBody.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+#include "vtkTestErrorObserver.h"
+#include "vtkTrivialProducer.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+// ---- what goes in ----------------------------------------------------------------------------------------------
+
+vtkSmartPointer<vtkPolyData> polydata_of(const TriangleMesh& mesh)
+{
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+        points->InsertNextPoint(mesh.positions.row(v).data());
+    vtkNew<vtkCellArray> triangles;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        triangles->InsertNextCell({ mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2) });
+    auto data = vtkSmartPointer<vtkPolyData>::New();
+    data->SetPoints(points);
+    data->SetPolys(triangles);
+    return data;
+}
+
+vtkSmartPointer<vtkFloatArray> some_numbers(const char* name, vtkIdType count, int components)
+{
+    auto array = vtkSmartPointer<vtkFloatArray>::New();
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(count);
+    array->Fill(0.5);
+    return array;
+}
+
+const TriangleMesh& body_mesh()
+{
+    static const TriangleMesh mesh = capsule_person({ .arm_angle = 20, .hip_angle = 8 }).mesh;
+    return mesh;
+}
+
+TriangleMesh shorts_mesh(double ease)
+{
+    return garment_round(
+        person_skeleton({}), ease, [](const Vec3& p) { return p.y() > 0.5 && p.y() < 1.0 && std::abs(p.x()) < 0.26; },
+        0.04);
+}
+
+vtkSmartPointer<vtkPolyData> body() { return polydata_of(body_mesh()); }
+
+vtkSmartPointer<vtkPolyData> shorts(double ease = 0.02)
+{
+    auto data = polydata_of(shorts_mesh(ease));
+    data->GetPointData()->SetTCoords(some_numbers("UV", data->GetNumberOfPoints(), 2));
+    data->GetCellData()->AddArray(some_numbers("Panel", data->GetNumberOfCells(), 1));
+    return data;
+}
+
+void hurry(vtkDressBody& filter)
+{
+    filter.SetTypeByName("shorts");
+    filter.SetSettlingSteps(2);
+    filter.SetRecoverySettlingSteps(2);
+}
+
+// ---- what comes out --------------------------------------------------------------------------------------------
+
+vtkPolyData* polydata(vtkAlgorithm& filter, int port)
+{
+    return vtkPolyData::SafeDownCast(filter.GetOutputDataObject(port));
+}
+
+double number(vtkDataObject* data, const char* name)
+{
+    return data->GetFieldData()->GetArray(name)->GetComponent(0, 0);
+}
+
+Positions points_of(vtkPolyData* data)
+{
+    Positions positions(data->GetNumberOfPoints(), 3);
+    for (Eigen::Index v = 0; v < positions.rows(); ++v)
+        data->GetPoint(v, positions.row(v).data());
+    return positions;
+}
+
+struct Stages {
+    std::set<std::string> seen;
+    vtkNew<vtkCallbackCommand> command;
+
+    explicit Stages(vtkAlgorithm& filter)
+    {
+        command->SetClientData(this);
+        command->SetCallback([](vtkObject* caller, unsigned long, void* self, void*) {
+            auto* sender = static_cast<vtkAlgorithm*>(caller);
+            if (sender->GetProgress() > 0 && sender->GetProgress() < 1)  // the executive reports both ends by itself
+                static_cast<Stages*>(self)->seen.insert(sender->GetProgressText());
+        });
+        filter.AddObserver(vtkCommand::ProgressEvent, command);
+    }
+};
+
+/// Listens to a filter and its executive.
+struct Errors {
+    vtkSmartPointer<vtkTest::ErrorObserver> heard = vtkSmartPointer<vtkTest::ErrorObserver>::New();
+
+    explicit Errors(vtkAlgorithm& filter)
+    {
+        for (vtkObject* object : { static_cast<vtkObject*>(&filter), static_cast<vtkObject*>(filter.GetExecutive()) }) {
+            object->AddObserver(vtkCommand::ErrorEvent, heard);
+            object->AddObserver(vtkCommand::WarningEvent, heard);
+        }
+    }
+};
+
+struct Chain {
+    vtkNew<vtkRigBody> rig;
+    vtkNew<vtkFitSkeleton> fit;
+    vtkNew<vtkDrapeGarment> drape;
+    vtkNew<vtkRecoverPose> recover;
+
+    Chain(vtkPolyData* body_data, vtkDataObject* garments)
+    {
+        rig->SetInputData(body_data);
+        fit->SetInputConnection(0, rig->GetOutputPort());
+        fit->SetInputDataObject(1, garments);
+        for (const auto& [from, to] : { std::pair<vtkAlgorithm*, vtkAlgorithm*> { fit, drape }, { drape, recover } }) {
+            to->SetInputConnection(0, from->GetOutputPort(0));
+            to->SetInputConnection(1, from->GetOutputPort(1));
+        }
+        fit->SetTypeByName("shorts");
+        drape->SetSettlingSteps(2);
+        recover->SetRecoverySettlingSteps(2);
+    }
+};
+
+Scene dressed_by_the_filters()
+{
+    Scene scene;
+    scene.body = make_body(body_mesh().positions, body_mesh().triangles);
+    const TriangleMesh garment = shorts_mesh(0.02);
+    scene.garments.push_back({ make_garment(garment.positions, garment.triangles), GarmentType::automatic });
+    Parameters p;
+    p.fit.type = GarmentType::shorts;
+    p.drape.settling_steps = p.recover.settling_steps = 2;
+    filter_of("dress").run(scene, p);
+    return scene;
+}
+
+/// One dressing that several tests look at.
+struct Dressed {
+    vtkSmartPointer<vtkPolyData> person = body(), garment = shorts();
+    vtkNew<vtkDressBody> dress;
+
+    Dressed()
+    {
+        dress->SetInputData(0, person);
+        dress->SetInputData(1, garment);
+        hurry(*dress);
+        dress->Update();
+    }
+};
+
+Dressed& dressed()
+{
+    static Dressed once;
+    return once;
+}
+
+// ---- the tests -------------------------------------------------------------------------------------------------
+
+TEST(DressBody, GivesTheVeryNumbersOfTheFilterBehindIt)
+{
+    const Scene scene = dressed_by_the_filters();
+    vtkDressBody* dress = dressed().dress;
+    const WornGarment& worn = scene.recovered->garments[0];
+    vtkPolyData* garment = polydata(*dress, 1);
+    EXPECT_EQ(points_of(garment), worn.positions);
+    EXPECT_EQ(number(garment, "GarmentGap"), worn.certificate.smallest_gap);
+    EXPECT_EQ(number(garment, "BodyCrossings"), 0);
+    for (Eigen::Index v = 0; v < worn.positions.rows(); ++v)
+        ASSERT_EQ(garment->GetPointData()->GetArray("Ease")->GetComponent(v, 0), scene.recovered->maps[0].ease[v]);
+    EXPECT_EQ(number(polydata(*dress, 0), "Certified"), scene.recovered->certified ? 1 : 0);
+}
+
+TEST(Chain, OfFourFiltersGivesWhatDressBodyGives)
+{
+    vtkDressBody* dress = dressed().dress;
+    Chain chain(dressed().person, dressed().garment);
+    chain.recover->Update();
+    EXPECT_EQ(points_of(polydata(*chain.recover, 1)), points_of(polydata(*dress, 1)));
+    EXPECT_EQ(points_of(polydata(*chain.recover, 2)), points_of(polydata(*dress, 2)));
+    EXPECT_EQ(number(polydata(*chain.recover, 1), "StrainP95"), number(polydata(*dress, 1), "StrainP95"));
+}
+
+TEST(DressBody, CopiesNothingThatStaysAsItWas)
+{
+    const auto& [person, garment, dress] = dressed();
+    EXPECT_EQ(polydata(*dress, 0)->GetPoints(), person->GetPoints());
+    EXPECT_EQ(polydata(*dress, 0)->GetPolys(), person->GetPolys());
+    vtkPolyData* dressed = polydata(*dress, 1);
+    EXPECT_EQ(dressed->GetPolys(), garment->GetPolys());
+    EXPECT_EQ(dressed->GetPointData()->GetTCoords(), garment->GetPointData()->GetTCoords());
+    EXPECT_EQ(dressed->GetCellData()->GetArray("Panel"), garment->GetCellData()->GetArray("Panel"));
+    EXPECT_EQ(dressed->GetPointData()->GetArray("RestPosition")->GetVoidPointer(0),
+              garment->GetPoints()->GetData()->GetVoidPointer(0));
+    EXPECT_EQ(garment->GetPointData()->GetNumberOfArrays(), 1);  // the input gained nothing
+    EXPECT_EQ(garment->GetFieldData()->GetNumberOfArrays(), 0);
+    EXPECT_EQ(person->GetFieldData()->GetNumberOfArrays(), 0);
+}
+
+TEST(DressBody, RepeatsOnlyWhatAChangedParameterConcerns)
+{
+    vtkNew<vtkDressBody> dress;
+    dress->SetInputData(0, body());
+    dress->SetInputData(1, shorts());
+    hurry(*dress);
+    dress->Update();
+    {
+        Stages stages(*dress);
+        dress->Update();
+        EXPECT_TRUE(stages.seen.empty());
+        dress->SetSettlingSteps(2);  // as it was
+        dress->Update();
+        EXPECT_TRUE(stages.seen.empty());
+        dress->SetFrames(3);
+        dress->Update();
+        EXPECT_EQ(stages.seen, std::set<std::string> { "recovering the pose" });
+    }
+    Stages stages(*dress);
+    dress->SetIterations(7);
+    dress->Update();
+    EXPECT_EQ(stages.seen.count("rigging the body"), 0u);
+    EXPECT_EQ(stages.seen.count("fitting the skeleton"), 1u);
+}
+
+TEST(RigBody, GivesASkeletonOfNamedJointsAndWeightsThatSumToOne)
+{
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(body());
+    rig->Update();
+    vtkDataArray* weights = polydata(*rig, 0)->GetPointData()->GetArray("JointWeights");
+    for (vtkIdType v = 0; v < weights->GetNumberOfTuples(); ++v)
+        ASSERT_NEAR(weights->GetComponent(v, 0) + weights->GetComponent(v, 1) + weights->GetComponent(v, 2)
+                        + weights->GetComponent(v, 3),
+                    1, 1e-12);
+    vtkPolyData* skeleton = polydata(*rig, rig->GetSkeletonPort());
+    EXPECT_EQ(skeleton->GetNumberOfLines(), int(bone_count) + int(extremity_count));
+    auto* names = vtkStringArray::SafeDownCast(skeleton->GetPointData()->GetAbstractArray("JointName"));
+    EXPECT_EQ(names->GetValue(0), "root");
+    EXPECT_GE(names->LookupValue("lelbow"), 0);
+    vtkDataArray* parents = skeleton->GetPointData()->GetArray("JointParent");
+    for (vtkIdType j = 0; j < skeleton->GetNumberOfPoints(); ++j)
+        EXPECT_LT(parents->GetComponent(j, 0), j);
+}
+
+TEST(RigBody, TakesJointsThatTheUserKnowsAndSpeaksTheBodysUnits)
+{
+    auto in_decimetres = polydata_of({ 10 * body_mesh().positions, body_mesh().triangles });
+    const Vec3 elbow = 10 * person_skeleton({ .arm_angle = 20 }).tails[lhumerus];
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(in_decimetres);
+    rig->SetUnit("dm");
+    rig->SetJoint("lelbow", elbow.x(), elbow.y(), elbow.z());
+    rig->Update();
+    vtkPolyData* skeleton = polydata(*rig, 1);
+    auto* names = vtkStringArray::SafeDownCast(skeleton->GetPointData()->GetAbstractArray("JointName"));
+    EXPECT_NEAR((Vec3(skeleton->GetPoint(names->LookupValue("lelbow"))) - elbow).norm(), 0, 1e-9);
+    EXPECT_EQ(number(polydata(*rig, 0), "BodyFrame"), 0.1);
+}
+
+TEST(DressBody, PutsOnLayersOfACompositeAndGivesThemBackAsOne)
+{
+    vtkNew<vtkMultiBlockDataSet> layers;
+    layers->SetBlock(0, shorts(0.015));
+    layers->SetBlock(1, shorts(0.03));
+    layers->GetMetaData(1u)->Set(vtkCompositeDataSet::NAME(), "overshorts");
+    vtkNew<vtkDressBody> dress;
+    dress->SetInputData(0, body());
+    dress->SetInputData(1, layers);
+    hurry(*dress);
+    dress->Update();
+    auto* dressed = vtkMultiBlockDataSet::SafeDownCast(dress->GetOutputDataObject(1));
+    ASSERT_TRUE(dressed);
+    ASSERT_EQ(dressed->GetNumberOfBlocks(), 2u);
+    EXPECT_STREQ(dressed->GetMetaData(1u)->Get(vtkCompositeDataSet::NAME()), "overshorts");
+    EXPECT_EQ(number(dressed->GetBlock(1), "Worn"), 1);
+    EXPECT_EQ(number(dressed->GetBlock(1), "LayerCrossings"), 0);
+
+    dress->SetInputData(1, shorts());  // and one garment again
+    dress->Update();
+    EXPECT_TRUE(polydata(*dress, 1));
+}
+
+TEST(RecoverPose, OffersItsWayAsTimeSteps)
+{
+    Chain chain(body(), shorts());
+    chain.recover->SetFrames(4);
+    chain.recover->UpdateInformation();
+    for (int port = 0; port < 3; ++port)
+        EXPECT_EQ(chain.recover->GetOutputInformation(port)->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 4);
+    chain.recover->UpdateTimeStep(0);
+    EXPECT_EQ(points_of(polydata(*chain.recover, 0)), points_of(polydata(*chain.drape, 0)));
+    EXPECT_EQ(points_of(polydata(*chain.recover, 1)), points_of(polydata(*chain.drape, 1)));
+    EXPECT_EQ(polydata(*chain.recover, 1)->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), 0);
+
+    Stages recovered(*chain.recover), rigged(*chain.rig);
+    chain.recover->UpdateTimeStep(1);
+    EXPECT_EQ(points_of(polydata(*chain.recover, 0)), body_mesh().positions);
+    EXPECT_TRUE(recovered.seen.empty());
+    EXPECT_TRUE(rigged.seen.empty());
+}
+
+TEST(Chain, DoesNotRigAgainWhenTheFitChanges)
+{
+    Chain chain(body(), shorts());
+    chain.fit->Update();
+    Stages rigged(*chain.rig), fitted(*chain.fit);
+    chain.fit->SetIterations(7);
+    chain.fit->Update();
+    EXPECT_TRUE(rigged.seen.empty());
+    EXPECT_FALSE(fitted.seen.empty());
+}
+
+TEST(DressBody, SaysThatAGarmentIsTooSmallAndGoesOn)
+{
+    vtkNew<vtkDressBody> dress;
+    Errors errors(*dress);
+    dress->SetInputData(0, body());
+    dress->SetInputData(1, shorts(-0.02));
+    hurry(*dress);
+    dress->Update();
+    EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
+    ASSERT_TRUE(errors.heard->GetWarning());
+    EXPECT_NE(errors.heard->GetWarningMessage().find("too small"), std::string::npos);
+    EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 0);
+    EXPECT_GT(number(polydata(*dress, 1), "MissingGirth"), 0);
+}
+
+// ---- bad input -------------------------------------------------------------------------------------------------
+
+vtkSmartPointer<vtkPolyData> lines_only()
+{
+    auto data = body();
+    vtkNew<vtkCellArray> lines;
+    lines->InsertNextCell({ 0, 1 });
+    data->SetPolys(nullptr);
+    data->SetLines(lines);
+    return data;
+}
+
+vtkSmartPointer<vtkPolyData> not_finite()
+{
+    auto data = body();
+    data->GetPoints()->SetPoint(7, NAN, 0, 0);
+    return data;
+}
+
+vtkSmartPointer<vtkPolyData> sphere()
+{
+    vtkNew<vtkSphereSource> source;
+    source->Update();
+    return source->GetOutput();
+}
+
+TEST(RigBody, RefusesBadInputInOneLineAndWorksAfterwards)
+{
+    vtkNew<vtkRigBody> rig;
+    Errors errors(*rig);
+    const std::pair<vtkSmartPointer<vtkPolyData>, const char*> bad[]
+        = { { vtkSmartPointer<vtkPolyData>::New(), "0 polygons" },
+            { lines_only(), "1 lines" },
+            { not_finite(), "7" },
+            { sphere(), "" } };
+    for (const auto& [data, part] : bad) {
+        rig->SetInputData(data);
+        rig->Update();
+        EXPECT_NE(errors.heard->GetErrorMessage().find(part), std::string::npos) << errors.heard->GetErrorMessage();
+        EXPECT_EQ(rig->GetErrorCode(), vtkFitFilter::InvalidInput);
+        EXPECT_EQ(polydata(*rig, 0)->GetNumberOfPoints(), 0);
+        EXPECT_EQ(polydata(*rig, 1)->GetNumberOfPoints(), 0);
+        errors.heard->Clear();
+    }
+    rig->SetInputData(body());
+    rig->Update();
+    EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
+    EXPECT_EQ(rig->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_GT(polydata(*rig, 1)->GetNumberOfPoints(), 0);
+}
+
+TEST(FitSkeleton, RefusesABodyWithoutARigOrWithAnothers)
+{
+    vtkNew<vtkFitSkeleton> fit;
+    Errors errors(*fit);
+    fit->SetInputData(0, body());
+    fit->SetInputData(1, shorts());
+    fit->Update();
+    EXPECT_NE(errors.heard->GetErrorMessage().find("vtkRigBody"), std::string::npos);
+    errors.heard->Clear();
+
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(body());
+    rig->Update();
+    auto other = polydata_of(capsule_person({ .arm_angle = 0, .spacing = 0.06 }).mesh);
+    other->GetFieldData()->ShallowCopy(polydata(*rig, 0)->GetFieldData());
+    for (const char* name : { "JointIndices", "JointWeights" })
+        other->GetPointData()->AddArray(polydata(*rig, 0)->GetPointData()->GetArray(name));
+    fit->SetInputData(0, other);
+    fit->Update();
+    EXPECT_NE(errors.heard->GetErrorMessage().find("belongs to a body of"), std::string::npos)
+        << errors.heard->GetErrorMessage();
+    EXPECT_EQ(polydata(*fit, 1)->GetNumberOfPoints(), 0);
+}
+
+TEST(DressBody, NamesAMissingInput)
+{
+    vtkNew<vtkDressBody> dress;
+    Errors errors(*dress);
+    dress->SetInputData(0, body());
+    dress->Update();
+    EXPECT_TRUE(errors.heard->GetError());
+}
+
+TEST(DressBody, RefusesAnUnknownUnitAndWorksAfterwards)
+{
+    vtkNew<vtkDressBody> dress;
+    Errors errors(*dress);
+    dress->SetInputData(0, body());
+    dress->SetInputData(1, shorts());
+    dress->SetUnit("cubit");
+    dress->Update();
+    EXPECT_NE(errors.heard->GetErrorMessage().find("cubit"), std::string::npos);
+    errors.heard->Clear();
+    dress->SetUnit("auto");
+    hurry(*dress);
+    dress->Update();
+    EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
+    EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 1);
+}
+
+TEST(DressBody, StopsWhenAbortedAndRunsWhenModified)
+{
+    vtkNew<vtkDressBody> dress;
+    Errors errors(*dress);
+    vtkNew<vtkCallbackCommand> abort;
+    abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*) {
+        auto* sender = static_cast<vtkAlgorithm*>(caller);
+        if (sender->GetProgress() > 0.55)
+            sender->SetAbortExecute(1);
+    });
+    const unsigned long tag = dress->AddObserver(vtkCommand::ProgressEvent, abort);
+    dress->SetInputData(0, body());
+    dress->SetInputData(1, shorts());
+    hurry(*dress);
+    dress->Update();
+    EXPECT_EQ(polydata(*dress, 1)->GetNumberOfPoints(), 0);
+    dress->RemoveObserver(tag);
+    dress->SetAbortExecute(0);
+    dress->Modified();
+    Stages stages(*dress);
+    dress->Update();
+    EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
+    EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 1);
+    EXPECT_EQ(stages.seen.count("rigging the body"), 0u);  // kept from before
+}
+
+TEST(DressBody, ClampsNumbersAndRefusesTextThatIsNoValue)
+{
+    vtkNew<vtkDressBody> dress;
+    Errors errors(*dress);
+    dress->SetContactDistance(7);
+    EXPECT_EQ(dress->GetContactDistance(), dress->GetContactDistanceMaxValue());
+    dress->SetProxyVertices(-3);
+    EXPECT_EQ(dress->GetProxyVertices(), dress->GetProxyVerticesMinValue());
+    dress->SetTypeByName("coat");
+    EXPECT_EQ(dress->GetType(), int(GarmentType::coat));
+    dress->SetType(1000);
+    EXPECT_EQ(dress->GetTypeAsString(), "suit");
+    EXPECT_FALSE(errors.heard->GetError());
+    dress->SetTypeByName("umbrella");
+    EXPECT_NE(errors.heard->GetErrorMessage().find("umbrella"), std::string::npos);
+    errors.heard->Clear();
+    dress->SetParameter("colour", "red");
+    EXPECT_NE(errors.heard->GetErrorMessage().find("colour"), std::string::npos);
+}
+
+TEST(EveryFilter, PrintsAllItsParameters)
+{
+    vtkNew<vtkDressBody> dress;
+    dress->SetUp("+z");
+    std::ostringstream text;
+    dress->Print(text);
+    for (const char* part : { "Contact distance: 0.0025 m", "Garment type: auto", "Up: +z" })
+        EXPECT_NE(text.str().find(part), std::string::npos) << text.str();
+}
+
+}  // namespace
