@@ -182,20 +182,36 @@ void FilterState::forget_stale_stages()
     }
 }
 
-void FilterState::run(const Progress& progress)
+bool FilterState::has(Stage stage) const
+{
+    switch (stage) {
+    case Stage::rig: return scene_.rig.has_value();
+    case Stage::fit: return !scene_.fits.empty() && scene_.fits.size() == scene_.garments.size();
+    case Stage::drape: return scene_.draped.has_value();
+    case Stage::recover: return scene_.recovered.has_value();
+    }
+    return false;
+}
+
+/// A stage that is stopped leaves nothing behind; those before it stay.
+void FilterState::run(Stage stage, const Progress& progress)
 {
     Parameters p = parameters;
-    if (filter.has(Stage::drape))
-        p.recover.cloth = p.drape.cloth;
+    p.recover.cloth = cloth();
+    try {
+        filter_of(name_of(stage)).run(scene_, p, progress);
+    } catch (...) {
+        forget_from(stage);
+        throw;
+    }
+}
+
+void FilterState::run(const Progress& progress)
+{
     const double n = double(filter.stages.size());
     for (std::size_t i = 0; i < filter.stages.size(); ++i) {
-        const Stage stage = filter.stages[i];
-        const bool done = stage == Stage::rig ? scene_.rig.has_value()
-            : stage == Stage::fit             ? scene_.fits.size() == scene_.garments.size()
-            : stage == Stage::drape           ? scene_.draped.has_value()
-                                              : scene_.recovered.has_value();
-        if (!done)
-            filter_of(name_of(stage)).run(scene_, p, progress.part(double(i) / n, double(i + 1) / n));
+        if (!has(filter.stages[i]))
+            run(filter.stages[i], progress.part(double(i) / n, double(i + 1) / n));
         if (scene_.draped && !scene_.draped->certified)
             return;
     }
@@ -227,6 +243,11 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
 }
 
 // ---- writing ---------------------------------------------------------------------------------------------------------
+
+const ClothOptions& FilterState::cloth() const
+{
+    return filter.has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
+}
 
 const Dressing* FilterState::end() const
 {
@@ -303,8 +324,7 @@ void FilterState::write_garments(const std::vector<vtkPolyData*>& garments, doub
             worn.positions = frame->garments[i];
         move_points(garment, k_rest, worn.positions, worn.rest.triangles, body_frame_);
         put_map(garment,
-                frame ? fit_map({ frame->body, scene_.body->surface.triangles }, worn, parameters.recover.cloth)
-                      : dressing->maps[i],
+                frame ? fit_map({ frame->body, scene_.body->surface.triangles }, worn, cloth()) : dressing->maps[i],
                 body_frame_.metres_per_unit);
     }
 }

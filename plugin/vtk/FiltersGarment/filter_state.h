@@ -62,11 +62,14 @@ private:
     void forget_from(Stage stage);
     void forget_stale_stages();
     std::vector<double> numbers_of(Stage stage) const;
+    bool has(Stage stage) const;
+    void run(Stage stage, const Progress& progress);
     void run(const Progress& progress);
     FrameChoice frame_choice(const std::string& prefix) const;
     std::string choice(const std::string& what) const;
     std::string choices_of_body() const;
 
+    const ClothOptions& cloth() const;
     const Dressing* end() const;
     const RecoverFrame* frame_at(double time) const;
     Pose pose_at(double time) const;
