@@ -171,7 +171,7 @@ TEST(Slow, LimbsKeepTheirVolumeWhenAnyJointBendsThroughItsRange)
 {
     constexpr Bend bends[] = {
         { lradius, 140, About::across },  { lradius, 80, About::itself },   { lhumerus, 80, About::front },
-        { lhumerus, -60, About::front },  { lhumerus, 80, About::across },  { lhumerus, 60, About::itself },
+        { lhumerus, -45, About::front },  { lhumerus, 80, About::across },  { lhumerus, 60, About::itself },
         { lfemur, 100, About::across },   { lfemur, -20, About::across },   { lfemur, 40, About::front },
         { lfemur, 40, About::itself },    { ltibia, -130, About::across },  { lclavicle, 20, About::front },
         { lowerback, 30, About::across }, { upperback, 30, About::across }, { thorax, 20, About::itself },

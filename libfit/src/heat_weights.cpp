@@ -18,75 +18,48 @@ namespace fit {
 namespace {
 
 constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive definite on obtuse triangles
-constexpr double k_heat = 3;  // c of the paper; larger keeps skin stiffer between joints
+constexpr double k_heat = 16;  // c of the paper; larger keeps skin stiffer between joints
+constexpr double k_heat_of_arms = 3;  // else they would reach down the flank, far from the spine that should hold it
+constexpr double k_least_facing = 0.1;  // cosine: no bone is hidden from skin, only further away
 constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
-constexpr int k_flesh_rounds = 3;  // after two, hardly a vertex changes its bone
 constexpr int k_neighbours = 4;  // that a transferred weight is blended from
 constexpr int k_block = 4096;  // vertices, of which one core finds the neighbours at a time
 
 /// Hands, feet and head hang on the bones before them.
-double squared_distance_to_bone(const Vec3& p, const Skeleton& skeleton, int bone)
+Vec3 nearest_on_bone(const Vec3& p, const Skeleton& skeleton, int bone)
 {
-    double least = squared_distance_to_segment(p, skeleton.head(bone), skeleton.tail(bone));
+    Vec3 nearest = nearest_on_segment(p, skeleton.head(bone), skeleton.tail(bone));
     for (int e = 0; e < extremity_count; ++e)
-        if (bone_before(Extremity(e)) == bone)
-            least = std::min(least, squared_distance_to_segment(p, skeleton.tail(bone), skeleton.tips[e]));
-    return least;
+        if (bone_before(Extremity(e)) == bone) {
+            const Vec3 beyond = nearest_on_segment(p, skeleton.tail(bone), skeleton.tips[e]);
+            if ((beyond - p).squaredNorm() < (nearest - p).squaredNorm())
+                nearest = beyond;
+        }
+    return nearest;
 }
 
 struct NearestBone {
     int bone = -1;
-    double squared_distance = 0;
+    double distance = 0;
 };
 
-double median(std::vector<double>& values)
-{
-    if (values.empty())
-        return 0;
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
-
-/// How deep the bones lie under the skin of arms and trunk. A flank is nearer to the thin arm that hangs beside it than to the
-/// spine, and yet lies far outside the arm's flesh: distances are compared from there.
-struct Flesh {
-    double of_arms = 0, of_trunk = 0;
-
-    double over(int bone) const { return is_arm(bone) ? of_arms : of_trunk; }
-};
-
-NearestBone nearest_visible(const Vec3& p, const Skeleton& skeleton, const std::array<bool, bone_count>& visible,
-                            const Flesh& flesh)
+/// Nearest by the ball that touches the skin from inside and reaches the bone: bones that skin faces count as near. An arm
+/// beside the trunk may be nearer to the flank than the spine is, but it does not lie behind that skin.
+NearestBone nearest_visible(const Vec3& p, const Vec3& normal, const Skeleton& skeleton,
+                            const std::array<bool, bone_count>& visible)
 {
     NearestBone nearest;
-    double least = std::numeric_limits<double>::max();
+    double smallest_ball = std::numeric_limits<double>::max();
     for (int b = 0; b < bone_count; ++b) {
         if (!visible[b])
             continue;
-        const double squared = squared_distance_to_bone(p, skeleton, b);
-        const double above_flesh = std::sqrt(squared) - flesh.over(b);
-        if (above_flesh < least) {
-            least = above_flesh;
-            nearest = { b, squared };
+        const Vec3 from_bone = p - nearest_on_bone(p, skeleton, b);
+        const double distance = from_bone.norm();
+        const double ball = distance / std::max(k_least_facing, from_bone.dot(normal) / std::max(distance, 1e-300));
+        if (ball < smallest_ball) {
+            smallest_ball = ball;
+            nearest = { b, distance };
         }
-    }
-    return nearest;
-}
-
-/// The bone that warms each vertex: what flesh belongs to and how thick it is follow from each other in a few rounds.
-std::vector<NearestBone> nearest_bones(const Positions& positions, const Skeleton& skeleton,
-                                       const VisibleBones& visible)
-{
-    std::vector<NearestBone> nearest(visible.size());
-    Flesh flesh;
-    for (int round = 0; round < k_flesh_rounds; ++round) {
-        std::vector<double> arms, trunk;
-        for (std::size_t v = 0; v < nearest.size(); ++v) {
-            nearest[v] = nearest_visible(positions.row(Eigen::Index(v)), skeleton, visible[v], flesh);
-            if (!is_leg(nearest[v].bone))
-                (is_arm(nearest[v].bone) ? arms : trunk).push_back(std::sqrt(nearest[v].squared_distance));
-        }
-        flesh = { median(arms), median(trunk) };
     }
     return nearest;
 }
@@ -163,12 +136,15 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     const Eigen::Index n = closed.positions.rows();
     Eigen::VectorXd areas;
     Eigen::SparseMatrix<double> system = stiffness(closed, areas);
-    const std::vector<NearestBone> nearest = nearest_bones(closed.positions, skeleton, visible);
+    const Positions normals = vertex_normals(closed.positions, closed.triangles);
     Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
     for (Eigen::Index v = 0; v < n; ++v) {
-        const double source = k_heat * areas[v] / std::max(nearest[v].squared_distance, 1e-8);  // H of the paper
+        const NearestBone nearest = nearest_visible(closed.positions.row(v), normals.row(v), skeleton, visible[v]);
+        const double heat_of_bone = is_arm(nearest.bone) ? k_heat_of_arms : k_heat;
+        const double source
+            = heat_of_bone * areas[v] / std::max(std::pow(nearest.distance, 2), 1e-8);  // H of the paper
         system.coeffRef(v, v) += source;
-        heat(v, nearest[v].bone) = source;
+        heat(v, nearest.bone) = source;
     }
     const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(system);
     if (solver.info() != Eigen::Success)

@@ -59,9 +59,10 @@ std::array<bool, bone_count> bones_of_curve(int curve, const Sides& sides)
             visible[b] = true;
     };
     const auto see_limb = [&](const LimbBones& limb) { see({ limb.root, limb.upper, limb.lower }); };
-    if (curve < 2)
+    if (curve < 2) {
         see_limb(curve == sides.left_arm ? k_left_arm : k_right_arm);
-    else if (curve < 4)
+        see({ thorax });  // an arm's curve begins on the flank
+    } else if (curve < 4)
         see_limb(curve - 2 == sides.left_leg ? k_left_leg : k_right_leg);
     else if (curve == 4)
         see({ thorax, lowerneck, upperneck, lclavicle, rclavicle });

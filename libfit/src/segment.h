@@ -9,11 +9,15 @@
 namespace fit {
 
 /// A segment may have no length: it is a point then.
-inline double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
+inline Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 {
     const Vec3 axis = b - a;
-    const double t = std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0);
-    return (a + t * axis - p).squaredNorm();
+    return a + std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0) * axis;
+}
+
+inline double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
+{
+    return (nearest_on_segment(p, a, b) - p).squaredNorm();
 }
 
 inline double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
