@@ -63,7 +63,7 @@ void check_proportions(const Skeleton& s)
              Proportion { "upper arm to forearm", s.length(lhumerus) / s.length(lradius), 0.6, 1.7 },
              Proportion { "thigh to shin", s.length(lfemur) / s.length(ltibia), 0.6, 1.6 },
              Proportion { "arm to leg", arm / leg, 0.4, 0.85 },
-             Proportion { "trunk to leg", trunk / leg, 0.4, 1.1 },
+             Proportion { "trunk to leg", trunk / leg, 0.4, 1.25 },
              Proportion { "hip width to leg", (s.tail(lhipjoint) - s.tail(rhipjoint)).norm() / leg, 0.05, 0.5 },
              Proportion { "shoulder width to leg", (s.tail(lclavicle) - s.tail(rclavicle)).norm() / leg, 0.15, 0.8 } })
         if (!(p.value >= p.least && p.value <= p.most))
