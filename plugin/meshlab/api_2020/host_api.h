@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What MeshLab 2020.09 calls things that later versions call otherwise; ../api_2021 says the same for those.
+
+#include <vector>
+
+#include <common/interfaces.h>
+
+namespace fit::meshlab {
+
+using HostFilters = MeshFilterInterface;  ///< whose categories are HostFilters::Layer, ...
+using ShownDocument = MeshDocument;  ///< as a dialog is made for it
+
+using LengthParameter = RichAbsPerc;
+using OpenFileParameter = RichOpenFile;
+using SaveFileParameter = RichSaveFile;
+
+inline RichMesh layer_parameter(const QString& name, const MeshModel& layer, ShownDocument& document,
+                                const QString& label, const QString& tip)
+{
+    return RichMesh(name, const_cast<MeshModel*>(&layer), &document, label, tip);
+}
+
+inline MeshModel* chosen_layer(const RichParameterList& parameters, const QString& name, MeshDocument&)
+{
+    return parameters.getMesh(name);
+}
+
+inline std::vector<const MeshModel*> layers_of(const MeshDocument& document)
+{
+    return { document.meshList.begin(), document.meshList.end() };
+}
+
+inline void set_visible(MeshDocument& document, MeshModel& layer, bool visible)
+{
+    document.setVisible(layer.id(), visible);
+}
+
+inline void update_box_and_normals(MeshModel& layer) { layer.UpdateBoxAndNormals(); }
+
+/// Textures are files that a mesh names: they go along with it.
+inline void copy_textures(const MeshModel&, MeshModel&) { }
+
+}  // namespace fit::meshlab

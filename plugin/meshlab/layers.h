@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Between MeshLab's layers and plain arrays. World axes and units: what is read has the layer's matrix applied, what is
+// made has none.
+
+#include <string>
+#include <vector>
+
+#include "fit/skeleton.h"
+#include "fit/types.h"
+#include "host_api.h"
+
+namespace fit::meshlab {
+
+/// Vertices and faces that are not deleted, in their order.
+TriangleMesh mesh_of(const MeshModel& layer);
+
+/// The layer's name without a file's extension.
+std::string name_of(const MeshModel& layer);
+
+/// As many digits as a layer keeps.
+Positions as_kept(const Positions& positions);
+
+/// A new layer with faces, texture and all that `from` has, its vertices elsewhere. The current layer stays the same.
+MeshModel& add_moved_copy(MeshDocument& document, MeshModel& from, const std::string& name, const Positions& positions);
+
+/// A new layer with a vertex for each joint and tip, and an edge for each bone and extremity.
+MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const Skeleton& skeleton);
+
+/// One value for each vertex, under a name.
+void add_attribute(MeshModel& layer, const std::string& name, const Eigen::VectorXd& values);
+
+/// Values as quality, and as colours from red at `red` to blue at `blue`.
+void show_quality(MeshModel& layer, const Eigen::VectorXd& values, double red, double blue);
+
+}  // namespace fit::meshlab

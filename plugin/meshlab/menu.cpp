@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "menu.h"
+
+#include <algorithm>
+
+namespace fit::meshlab {
+namespace {
+
+const std::string k_prefix = "Garment Fitting: ";
+
+const char* const k_citation
+    = "<br><br>See: <br><i>N. Wu, Z. Deng, Y. Huang, C. Liu, D. Zhang, X. Jin</i>, <b>\"A fast garment fitting "
+      "algorithm "
+      "using skeleton-based error metric\"</b>, Computer Animation and Virtual Worlds 29 (2018), doi:10.1002/cav.1811";
+
+/// What a filter of the common table does to layers.
+const char* layers_of_filter(std::string_view name)
+{
+    if (name == "rig")
+        return "Makes two layers: the body with its skin weights as vertex attributes joint0..3 and weight0..3 and one "
+               "bone's weight as quality, and the skeleton as edges.";
+    if (name == "fit")
+        return "Needs a rigged body. Makes two layers for each garment: the body in the pose of the garment, and its "
+               "skeleton.";
+    if (name == "drape")
+        return "Needs a fitted skeleton. Makes a layer for each garment, as it is worn in the fitted pose, with ease, "
+               "strain and pressure as vertex attributes and one of them as quality.";
+    if (name == "recover")
+        return "Needs a draped garment. Makes a layer for each garment, as it is worn in the body's own pose, with "
+               "ease, "
+               "strain and pressure as vertex attributes and one of them as quality.";
+    return "Makes the layers of the four filters; those on the way are hidden.";
+}
+
+MenuEntry stages_entry(const Filter& filter)
+{
+    return { k_prefix + std::string(filter.label), "generate_garment_fitting_" + std::string(filter.name),
+             std::string(filter.help) + ". " + layers_of_filter(filter.name)
+                 + " Layers that were there stay as they are. Choose body and garments as they were given, also when "
+                   "you run the filters one by one."
+                 + k_citation,
+             Task::run_stages, &filter };
+}
+
+std::vector<MenuEntry> make_menu()
+{
+    std::vector<MenuEntry> entries;
+    for (const Filter& filter : filters())
+        entries.push_back(stages_entry(filter));
+    entries.push_back({ k_prefix + "Save Rig", "save_garment_fitting_rig",
+                        "Writes a body's skeleton, skin weights and fitted poses into one JSON file. Filters find it "
+                        "again when it lies beside the body's file and is called like it, man.rig.json beside man.ply: "
+                        "MeshLab's own formats drop skeletons and weights. garmentfit reads it with --rig.",
+                        Task::save_rig, nullptr });
+    entries.push_back(
+        { k_prefix + "Load Rig", "load_garment_fitting_rig",
+          "Reads what Save Rig or the program garmentfit wrote for this body, and makes the layers of Rig "
+          "Body.",
+          Task::load_rig, nullptr });
+    entries.push_back({ k_prefix + "Body Measurements and Ease", "get_garment_fitting_measurements",
+                        std::string("Measures how a garment sits on a body in the body's own pose: girths of both into "
+                                    "the log, and a new layer with ease, strain and pressure as vertex attributes and "
+                                    "one of them as quality. Needs a rigged body.")
+                            + k_citation,
+                        Task::measure, nullptr });
+    return entries;
+}
+
+}  // namespace
+
+bool MenuEntry::reads(Data data) const
+{
+    return filter && std::find(filter->inputs.begin(), filter->inputs.end(), data) != filter->inputs.end();
+}
+
+bool MenuEntry::begins_with_body() const { return filter && filter->has(Stage::rig); }
+
+const std::vector<MenuEntry>& menu()
+{
+    static const std::vector<MenuEntry> entries = make_menu();
+    return entries;
+}
+
+}  // namespace fit::meshlab

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One filter, from layers in to layers out.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fit/progress.h"
+#include "host_api.h"
+#include "menu.h"
+
+namespace fit::meshlab {
+
+/// What a filter tells its user.
+struct Report {
+    std::vector<std::string> lines, warnings;
+    std::map<std::string, double> numbers;  ///< for scripts
+};
+
+/// Everything that can go wrong goes wrong before the document changes; layers are only added, and the current one stays.
+/// @throws InvalidInput, SolverFailure, Cancelled.
+Report run_entry(const MenuEntry& entry, const RichParameterList& list, MeshDocument& document,
+                 const Progress& progress);
+
+/// Reports to MeshLab ten times a second at most; stops when told to.
+Progress progress_to(vcg::CallBackPos* callback);
+
+}  // namespace fit::meshlab

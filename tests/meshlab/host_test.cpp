@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The plugin in MeshLab 2020.09's own PluginManager, without windows.
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <malloc.h>
+
+#include <QApplication>
+#include <QDir>
+
+#include <common/pluginmanager.h>
+
+#include "../temporary_folder.h"
+#include "filters/filters.h"
+#include "fit/io.h"
+#include "open_layer.h"
+
+namespace {
+
+using namespace fit;
+namespace fs = std::filesystem;
+
+const fs::path k_body = FIT_SAMPLES "/walking_woman.ply", k_skirt = FIT_SAMPLES "/skirt.ply";
+
+PluginManager& plugins()
+{
+    static PluginManager manager;
+    static const bool loaded = [] {
+        RichParameterList settings;
+        manager.loadPlugins(settings, QDir(FIT_PLUGIN_FOLDER));
+        return true;
+    }();
+    (void)loaded;
+    return manager;
+}
+
+QString full_name(const std::string& name) { return QString::fromStdString("Garment Fitting: " + name); }
+
+QAction* action_of(const std::string& name) { return plugins().actionFilterMap.value(full_name(name)); }
+
+MeshFilterInterface& filter_of(const std::string& name)
+{
+    return *qobject_cast<MeshFilterInterface*>(action_of(name)->parent());
+}
+
+RichParameterList dialog_of(const std::string& name, MeshDocument& document)
+{
+    RichParameterList list;
+    filter_of(name).initParameterSet(action_of(name), document, list);
+    return list;
+}
+
+struct Ended {
+    bool well = false;
+    std::string message;
+};
+
+bool go_on(int, const char*) { return true; }
+
+Ended run(const std::string& name, MeshDocument& document, const RichParameterList& list,
+          vcg::CallBackPos* callback = go_on)
+{
+    MeshFilterInterface& filter = filter_of(name);
+    filter.setLog(&document.Log);
+    Ended ended;
+    ended.well = filter.applyFilter(action_of(name), document, list, callback);
+    ended.message = filter.errorMsg().toStdString();
+    return ended;
+}
+
+Ended run(const std::string& name, MeshDocument& document) { return run(name, document, dialog_of(name, document)); }
+
+void choose(RichParameterList& list, const QString& name, MeshDocument& document, int layer)
+{
+    list.setValue(name, MeshValue(&document, layer));
+}
+
+TriangleMesh body_mesh()
+{
+    const MeshFile file = MeshFile::read(k_body);
+    return { file.positions(), file.triangles() };
+}
+
+std::vector<std::string> names_of(const MeshDocument& document)
+{
+    std::vector<std::string> names;
+    for (const MeshModel* layer : document.meshList)
+        names.push_back(layer->label().toStdString());
+    return names;
+}
+
+Vec3 point_of(const MeshModel& layer, int vertex)
+{
+    const Point3m& p = layer.cm.vert[vertex].cP();
+    return { p[0], p[1], p[2] };
+}
+
+/// All bytes that could change: positions, faces, colours, quality, matrix, visibility.
+std::string state_of(const MeshModel& layer)
+{
+    std::string state(reinterpret_cast<const char*>(layer.cm.vert.data()), layer.cm.vert.size() * sizeof(CVertexO));
+    state.append(reinterpret_cast<const char*>(layer.cm.face.data()), layer.cm.face.size() * sizeof(CFaceO));
+    state.append(reinterpret_cast<const char*>(&layer.cm.Tr), sizeof layer.cm.Tr);
+    return state + std::to_string(layer.dataMask()) + (layer.isVisible() ? "visible" : "hidden");
+}
+
+const std::vector<std::string> k_filters {
+    "Rig Body",   "Fit Skeleton", "Drape Garment", "Recover Pose",
+    "Dress Body", "Save Rig",     "Load Rig",      "Body Measurements and Ease"
+};
+
+class MeshLab : public fixtures::TemporaryFolder {
+protected:
+    /// A body and a skirt, as MeshLab opens them.
+    void open_samples()
+    {
+        meshlab::open_layer(document, k_body);
+        meshlab::open_layer(document, k_skirt);
+    }
+
+    /// A failed filter says why and leaves everything as it was.
+    void expect_refusal(const std::string& name, const RichParameterList& list, const std::string& words)
+    {
+        const std::vector<std::string> before = names_of(document);
+        const Ended ended = run(name, document, list);
+        EXPECT_FALSE(ended.well);
+        EXPECT_NE(ended.message.find(words), std::string::npos) << ended.message;
+        EXPECT_EQ(names_of(document), before);
+    }
+
+    MeshDocument document;
+};
+
+TEST_F(MeshLab, ShowsAllFiltersUnderTheNamesThatScriptsKnow)
+{
+    for (const std::string& name : k_filters) {
+        ASSERT_TRUE(action_of(name)) << name;
+        EXPECT_GT(filter_of(name).filterInfo(action_of(name)).size(), 80) << name;
+        EXPECT_EQ(filter_of(name).filterArity(action_of(name)), MeshFilterInterface::FIXED);
+        EXPECT_NE(filter_of(name).getClass(action_of(name)), MeshFilterInterface::Generic);
+    }
+}
+
+TEST_F(MeshLab, ShowsEveryParameterOfTheSchemaWithLabelAndTip)
+{
+    open_samples();
+    const Parameters parameters;
+    for (const Filter& filter : filters()) {
+        const RichParameterList list = dialog_of(std::string(filter.label), document);
+        describe(filter, parameters, [&](const auto&, const About& about) {
+            EXPECT_TRUE(list.hasParameter(QString::fromUtf8(about.name.data(), int(about.name.size())))) << about.name;
+        });
+        for (const RichParameter& parameter : list) {
+            EXPECT_FALSE(parameter.fieldDescription().isEmpty()) << parameter.name().toStdString();
+            EXPECT_FALSE(parameter.toolTip().isEmpty()) << parameter.name().toStdString();
+        }
+    }
+}
+
+TEST_F(MeshLab, AsksNothingOfAnEmptyDocumentAndRefusesToRun)
+{
+    for (const std::string& name : k_filters) {
+        const RichParameterList list = dialog_of(name, document);
+        EXPECT_TRUE(list.isEmpty()) << name;
+        expect_refusal(name, list, "there is no layer");
+    }
+}
+
+TEST_F(MeshLab, RigsABodyIntoTwoNewLayersAndTouchesNoOther)
+{
+    open_samples();
+    const std::string body = state_of(*document.meshList[0]), skirt = state_of(*document.meshList[1]);
+    MeshModel* const current = document.mm();
+    ASSERT_TRUE(run("Rig Body", document).well);
+
+    EXPECT_EQ(names_of(document),
+              (std::vector<std::string> { "walking_woman.ply", "skirt.ply", "walking_woman rigged",
+                                          "walking_woman skeleton" }));
+    EXPECT_EQ(state_of(*document.meshList[0]), body);
+    EXPECT_EQ(state_of(*document.meshList[1]), skirt);
+    EXPECT_EQ(document.mm(), current);
+    EXPECT_EQ(document.meshList[3]->cm.vn, 1 + bone_count + extremity_count);
+    EXPECT_EQ(document.meshList[3]->cm.en, bone_count + extremity_count);
+}
+
+TEST_F(MeshLab, FindsTheVeryRigThatTheLibraryFinds)
+{
+    open_samples();
+    ASSERT_TRUE(run("Rig Body", document).well);
+    const TriangleMesh mesh = body_mesh();
+    const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles));
+
+    for (int bone = 0; bone < bone_count; ++bone)
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_EQ(document.meshList[3]->cm.vert[bone + 1].cP()[axis], float(rig.skeleton.tails[bone][axis]));
+    CMeshO& rigged = document.meshList[2]->cm;
+    auto joint = vcg::tri::Allocator<CMeshO>::FindPerVertexAttribute<float>(rigged, "joint1");
+    auto weight = vcg::tri::Allocator<CMeshO>::FindPerVertexAttribute<float>(rigged, "weight1");
+    for (int v = 0; v < rigged.vn; ++v) {
+        EXPECT_EQ(joint[v], float(rig.weights.bones(v, 1)));
+        EXPECT_EQ(weight[v], float(rig.weights.weights(v, 1)));
+    }
+}
+
+TEST_F(MeshLab, ShowsTheWeightOfTheChosenBoneAsQuality)
+{
+    open_samples();
+    RichParameterList list = dialog_of("Rig Body", document);
+    list.setValue("shown_bone", EnumValue(lfemur));
+    ASSERT_TRUE(run("Rig Body", document, list).well);
+    const MeshModel& rigged = *document.meshList[2];
+    EXPECT_TRUE(rigged.hasDataMask(MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR));
+    float least = 1, most = 0;
+    for (const CVertexO& vertex : rigged.cm.vert) {
+        least = std::min(least, vertex.cQ());
+        most = std::max(most, vertex.cQ());
+    }
+    EXPECT_EQ(least, 0);
+    EXPECT_GT(most, 0.9F);
+}
+
+TEST_F(MeshLab, TakesTheLayersMatrixForWhatIsSeen)
+{
+    meshlab::open_layer(document, k_body);
+    MeshDocument moved;
+    MeshModel& body = meshlab::open_layer(moved, k_body);
+    body.cm.Tr.SetTranslate(3, -0.5, 1);
+    ASSERT_TRUE(run("Rig Body", document).well);
+    ASSERT_TRUE(run("Rig Body", moved).well);
+    for (int joint = 0; joint < 1 + bone_count; ++joint)
+        EXPECT_NEAR(
+            (point_of(*moved.meshList[2], joint) - point_of(*document.meshList[2], joint) - Vec3(3, -0.5, 1)).norm(), 0,
+            0.02)
+            << joint;
+    EXPECT_NEAR(point_of(*moved.meshList[1], 0).x(), point_of(body, 0).x() + 3, 1e-5);
+    EXPECT_EQ(moved.meshList[1]->cm.Tr, Matrix44m().Identity());
+}
+
+TEST_F(MeshLab, SkipsDeletedVerticesAndKeepsThem)
+{
+    TriangleMesh mesh = body_mesh();
+    mesh.positions.conservativeResize(mesh.positions.rows() + 1, 3);
+    mesh.positions.bottomRows(1) << 9, 9, 9;
+    MeshModel& body = meshlab::add_mesh(document, "/woman.ply", mesh);
+    vcg::tri::Allocator<CMeshO>::DeleteVertex(body.cm, body.cm.vert.back());
+    ASSERT_TRUE(run("Rig Body", document).well);
+    EXPECT_EQ(document.meshList[1]->cm.vert.size(), body.cm.vert.size() - 1);
+    EXPECT_TRUE(body.cm.vert.back().IsD());
+}
+
+TEST_F(MeshLab, GivesLengthsInTheBodysOwnUnit)
+{
+    TriangleMesh mesh = body_mesh();
+    mesh.positions *= 100;
+    meshlab::add_mesh(document, "/woman.ply", mesh);
+    meshlab::open_layer(document, k_skirt);
+    const RichParameterList list = dialog_of("Drape Garment", document);
+    EXPECT_NEAR(list.getAbsPerc("contact_distance"), 100 * ClothOptions().contact_distance, 1e-6);
+}
+
+TEST_F(MeshLab, RefusesWhatIsNoBody)
+{
+    const Positions corners = (Positions(4, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1).finished();
+    const Triangles faces = (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2).finished();
+    meshlab::add_mesh(document, "/tetrahedron.ply", { corners, faces });
+    meshlab::add_mesh(document, "/points.ply", { corners, Triangles(0, 3) });
+    RichParameterList list = dialog_of("Rig Body", document);
+    expect_refusal("Rig Body", list, "");
+    choose(list, "body", document, 1);
+    expect_refusal("Rig Body", list, "points has no faces");
+}
+
+TEST_F(MeshLab, RefusesTheBodyAsItsOwnGarment)
+{
+    open_samples();
+    RichParameterList list = dialog_of("Dress Body", document);
+    choose(list, "garment", document, 0);
+    expect_refusal("Dress Body", list, "walking_woman is the body already");
+}
+
+TEST_F(MeshLab, RefusesAGarmentTwice)
+{
+    open_samples();
+    meshlab::open_layer(document, FIT_SAMPLES "/coat.ply");
+    RichParameterList list = dialog_of("Dress Body", document);
+    choose(list, "second_garment", document, 2);
+    choose(list, "third_garment", document, 2);
+    expect_refusal("Dress Body", list, "coat is worn already");
+}
+
+TEST_F(MeshLab, RefusesParametersOutOfRange)
+{
+    open_samples();
+    RichParameterList list = dialog_of("Rig Body", document);
+    list.setValue("proxy_vertices", IntValue(7));
+    expect_refusal("Rig Body", list, "proxy_vertices: 7 is out of range");
+}
+
+TEST_F(MeshLab, SaysWhichFilterMustRunFirst)
+{
+    open_samples();
+    expect_refusal("Fit Skeleton", dialog_of("Fit Skeleton", document), "run Garment Fitting: Rig Body");
+    ASSERT_TRUE(run("Rig Body", document).well);
+    expect_refusal("Drape Garment", dialog_of("Drape Garment", document), "run Garment Fitting: Fit Skeleton");
+    ASSERT_TRUE(run("Fit Skeleton", document).well);
+    expect_refusal("Recover Pose", dialog_of("Recover Pose", document), "run Drape Garment");
+}
+
+TEST_F(MeshLab, ForgetsTheRigOfABodyThatWasChanged)
+{
+    open_samples();
+    ASSERT_TRUE(run("Rig Body", document).well);
+    document.meshList[0]->cm.vert[0].P()[0] += 0.01F;
+    expect_refusal("Fit Skeleton", dialog_of("Fit Skeleton", document), "was changed since");
+}
+
+TEST_F(MeshLab, FindsTheRigAgainBesideTheBodysFile)
+{
+    fs::copy(k_body, folder / "woman.ply");
+    meshlab::open_layer(document, folder / "woman.ply");
+    ASSERT_TRUE(run("Rig Body", document).well);
+    ASSERT_TRUE(run("Save Rig", document).well);
+    ASSERT_TRUE(fs::exists(folder / "woman.rig.json"));
+
+    MeshDocument reopened;
+    meshlab::open_layer(reopened, folder / "woman.ply");
+    meshlab::open_layer(reopened, k_skirt);
+    const Ended fitted = run("Fit Skeleton", reopened);
+    ASSERT_TRUE(fitted.well) << fitted.message;
+
+    meshlab::open_layer(document, k_skirt);
+    ASSERT_TRUE(run("Fit Skeleton", document).well);
+    const MeshModel &skeleton = *document.meshList.back(), &again = *reopened.meshList.back();
+    ASSERT_EQ(skeleton.label(), again.label());
+    for (int joint = 0; joint < skeleton.cm.vn; ++joint)
+        EXPECT_EQ(point_of(skeleton, joint), point_of(again, joint));
+}
+
+TEST_F(MeshLab, LoadsARigIntoTheLayersOfRigBody)
+{
+    fs::copy(k_body, folder / "woman.ply");
+    meshlab::open_layer(document, folder / "woman.ply");
+    ASSERT_TRUE(run("Rig Body", document).well);
+    ASSERT_TRUE(run("Save Rig", document).well);
+    const Ended loaded = run("Load Rig", document);
+    ASSERT_TRUE(loaded.well) << loaded.message;
+    ASSERT_EQ(document.size(), 5);
+    for (int joint = 0; joint < 1 + bone_count; ++joint)
+        EXPECT_EQ(point_of(*document.meshList[2], joint), point_of(*document.meshList[4], joint));
+}
+
+TEST_F(MeshLab, RefusesAnotherBodysRig)
+{
+    fs::copy(k_body, folder / "woman.ply");
+    meshlab::open_layer(document, folder / "woman.ply");
+    ASSERT_TRUE(run("Rig Body", document).well);
+    ASSERT_TRUE(run("Save Rig", document).well);
+    const RichParameterList list = dialog_of("Load Rig", document);
+    MeshDocument other;
+    const MeshFile skirt = MeshFile::read(k_skirt);
+    meshlab::add_mesh(other, folder / "woman.ply", { skirt.positions(), skirt.triangles() });
+    const Ended loaded = run("Load Rig", other, dialog_of("Load Rig", other));
+    EXPECT_FALSE(loaded.well);
+    EXPECT_NE(loaded.message.find("belongs to a body of 13380 vertices"), std::string::npos) << loaded.message;
+}
+
+TEST_F(MeshLab, StopsWhenToldToAndRunsAgainAfterwards)
+{
+    open_samples();
+    const Ended stopped
+        = run("Rig Body", document, dialog_of("Rig Body", document), [](int, const char*) { return false; });
+    EXPECT_FALSE(stopped.well);
+    EXPECT_NE(stopped.message.find("stopped by the user"), std::string::npos);
+    EXPECT_EQ(document.size(), 2);
+    EXPECT_TRUE(run("Rig Body", document).well);
+}
+
+int reports = 0;
+
+TEST_F(MeshLab, ReportsProgressTenTimesASecondAtMost)
+{
+    open_samples();
+    reports = 0;
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_TRUE(run("Rig Body", document, dialog_of("Rig Body", document), [](int percent, const char*) {
+                    EXPECT_TRUE(percent >= 0 && percent <= 100);
+                    ++reports;
+                    return true;
+                }).well);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    EXPECT_GT(reports, 1);
+    EXPECT_LE(reports, 1 + 10 * seconds.count());
+}
+
+/// Positions of the last layer and of a garment that the program garmentfit dressed.
+void expect_same_positions(const MeshModel& layer, const fs::path& file)
+{
+    const Positions positions = MeshFile::read(file).positions();
+    ASSERT_EQ(layer.cm.vn, positions.rows());
+    for (int v = 0; v < layer.cm.vn; ++v)
+        ASSERT_EQ(point_of(layer, v), Vec3(positions.row(v))) << v;
+}
+
+class SlowMeshLab : public MeshLab { };
+
+TEST_F(SlowMeshLab, DressesToTheNumbersOfTheCommandLine)
+{
+    const std::string call = std::string(FIT_PROGRAM) + " dress " + k_body.string() + " " + k_skirt.string()
+        + " --quiet -o " + (folder / "dressed").string();
+    ASSERT_EQ(std::system(call.c_str()), 0);
+    open_samples();
+    const Ended dressed = run("Dress Body", document);
+    ASSERT_TRUE(dressed.well) << dressed.message;
+    const MeshModel& skirt = *document.meshList.back();
+    EXPECT_EQ(skirt.label().toStdString(), "skirt on walking_woman");
+    expect_same_positions(skirt, folder / "dressed" / "skirt.ply");
+    EXPECT_EQ(skirt.cm.fn, document.meshList[1]->cm.fn);
+
+    RichParameterList list = dialog_of("Body Measurements and Ease", document);
+    const Ended measured = run("Body Measurements and Ease", document, list);
+    ASSERT_TRUE(measured.well) << measured.message;
+    CMeshO& shown = document.meshList.back()->cm;
+    CMeshO& worn = document.meshList[document.size() - 2]->cm;
+    auto ease = vcg::tri::Allocator<CMeshO>::FindPerVertexAttribute<float>(worn, "ease");
+    for (int v = 0; v < shown.vn; ++v)
+        ASSERT_NEAR(shown.vert[v].Q(), ease[v], 1e-6);
+}
+
+TEST_F(SlowMeshLab, GoesTheSameWayStepByStep)
+{
+    open_samples();
+    for (const char* step : { "Rig Body", "Fit Skeleton", "Drape Garment", "Recover Pose" }) {
+        const Ended ended = run(step, document);
+        ASSERT_TRUE(ended.well) << step << ": " << ended.message;
+    }
+    EXPECT_EQ(
+        names_of(document),
+        (std::vector<std::string> { "walking_woman.ply", "skirt.ply", "walking_woman rigged", "walking_woman skeleton",
+                                    "walking_woman in the pose of skirt", "walking_woman skeleton in the pose of skirt",
+                                    "skirt on walking_woman, draped", "skirt on walking_woman" }));
+}
+
+TEST_F(SlowMeshLab, SaysWhereAGarmentIsTooSmallAndAddsNothing)
+{
+    meshlab::open_layer(document, k_body);
+    const MeshFile skirt = MeshFile::read(k_skirt);
+    const Positions centred = skirt.positions().rowwise() - skirt.positions().colwise().mean();
+    const Positions narrow
+        = (centred * Vec3(0.72, 1, 0.72).asDiagonal()).rowwise() + skirt.positions().colwise().mean();
+    meshlab::add_mesh(document, "/narrow.ply", { narrow, skirt.triangles() });
+    expect_refusal("Dress Body", dialog_of("Dress Body", document), "narrow is too small");
+}
+
+TEST_F(SlowMeshLab, KeepsMemoryLevelOverTwentyRuns)
+{
+    meshlab::open_layer(document, k_body);
+    const auto run_and_forget = [&] {
+        ASSERT_TRUE(run("Rig Body", document).well);
+        while (document.size() > 1)
+            document.delMesh(document.meshList.back());
+    };
+    for (int warm_up = 0; warm_up < 3; ++warm_up)
+        run_and_forget();
+    const std::size_t before = mallinfo2().uordblks;
+    for (int i = 0; i < 20; ++i)
+        run_and_forget();
+    EXPECT_LT(mallinfo2().uordblks, before + (1U << 20));
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    testing::InitGoogleTest(&argc, argv);
+    const QApplication application(argc, argv);
+    return RUN_ALL_TESTS();
+}
