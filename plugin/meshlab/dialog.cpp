@@ -69,7 +69,7 @@ Defaults defaults_for(const MeshDocument& document)
     const MeshModel* garment
         = fitting && !fitting->garment_names.empty() ? layer_called(layers, fitting->garment_names.front()) : nullptr;
     for (const MeshModel* layer : layers)
-        if (!garment && layer != body && layer->cm.fn > 0 && !is_result(*layer))
+        if (!garment && layer != body && layer->cm.fn > 0 && !is_result(document, *layer))
             garment = layer;
     Defaults defaults;
     defaults.layers = { body, garment ? garment : body, layers.back() };

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fitting.h"
 
-#include <algorithm>
+#include <map>
+#include <mutex>
 
 namespace fit::meshlab {
 namespace {
-
-using Allocator = vcg::tri::Allocator<CMeshO>;
-
-const char* const k_attribute = "garment fitting";  // of a mesh; MeshLab neither copies nor saves it
 
 bool is_same(const TriangleMesh& kept, const TriangleMesh& given, const Frame& frame)
 {
@@ -16,11 +13,56 @@ bool is_same(const TriangleMesh& kept, const TriangleMesh& given, const Frame& f
         && kept.triangles == given.triangles && kept.positions == frame.to_metres(given.positions);
 }
 
-SharedFitting fitting_of(const MeshModel& layer)
+/// Which layers carry which fitting. Not an attribute of the mesh: MeshLab 2020.09 never frees those.
+class Registry {
+public:
+    void add(MeshDocument& document, int layer, const SharedFitting& fitting)
+    {
+        const std::lock_guard lock(mutex_);
+        if (fittings_.count(&document) == 0)
+            forget_with(document);
+        fittings_[&document][layer] = fitting;
+    }
+
+    SharedFitting of(const MeshDocument& document, int layer)
+    {
+        const std::lock_guard lock(mutex_);
+        const auto of_document = fittings_.find(&document);
+        if (of_document == fittings_.end())
+            return nullptr;
+        const auto found = of_document->second.find(layer);
+        return found == of_document->second.end() ? nullptr : found->second;
+    }
+
+private:
+    void forget_with(MeshDocument& document)
+    {
+        const QObject* const key = &document;
+        QObject::connect(
+            &document, &MeshDocument::meshRemoved, &context_,
+            [this, key](int layer) {
+                const std::lock_guard lock(mutex_);
+                fittings_[key].erase(layer);
+            },
+            Qt::DirectConnection);
+        QObject::connect(
+            &document, &QObject::destroyed, &context_,
+            [this, key] {
+                const std::lock_guard lock(mutex_);
+                fittings_.erase(key);
+            },
+            Qt::DirectConnection);
+    }
+
+    std::mutex mutex_;  // PyMeshLab may run filters in several threads
+    std::map<const QObject*, std::map<int, SharedFitting>> fittings_;  // by document, then by layer
+    QObject context_;  // ends the connections with the plugin
+};
+
+Registry& registry()
 {
-    auto& mesh = const_cast<CMeshO&>(layer.cm);  // vcglib of 2020.09 finds attributes of meshes that may change only
-    auto attribute = Allocator::FindPerMeshAttribute<SharedFitting>(mesh, k_attribute);
-    return Allocator::IsValidHandle(mesh, attribute) ? attribute() : nullptr;
+    static Registry fittings;
+    return fittings;
 }
 
 }  // namespace
@@ -39,18 +81,21 @@ bool Fitting::is_of_garments(const std::vector<TriangleMesh>& garments) const
     return true;
 }
 
-void hand_on(MeshModel& layer, const SharedFitting& fitting)
+void hand_on(MeshDocument& document, const MeshModel& layer, const SharedFitting& fitting)
 {
-    Allocator::GetPerMeshAttribute<SharedFitting>(layer.cm, k_attribute)() = fitting;
+    registry().add(document, layer.id(), fitting);
 }
 
-bool is_result(const MeshModel& layer) { return fitting_of(layer) != nullptr; }
+bool is_result(const MeshDocument& document, const MeshModel& layer)
+{
+    return registry().of(document, layer.id()) != nullptr;
+}
 
 SharedFitting find_fitting(const MeshDocument& document, const std::function<bool(const Fitting&)>& will_do)
 {
     const std::vector<const MeshModel*> layers = layers_of(document);
     for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
-        if (const SharedFitting fitting = fitting_of(**layer); fitting && will_do(*fitting))
+        if (const SharedFitting fitting = registry().of(document, (*layer)->id()); fitting && will_do(*fitting))
             return fitting;
     return nullptr;
 }

@@ -32,11 +32,11 @@ struct Fitting {
 
 using SharedFitting = std::shared_ptr<const Fitting>;
 
-/// Ties a fitting to a layer; several layers may share one.
-void hand_on(MeshModel& layer, const SharedFitting& fitting);
+/// Ties a fitting to a layer until that is deleted; several layers may share one.
+void hand_on(MeshDocument& document, const MeshModel& layer, const SharedFitting& fitting);
 
 /// Whether a filter of ours made the layer.
-bool is_result(const MeshModel& layer);
+bool is_result(const MeshDocument& document, const MeshModel& layer);
 
 /// The newest fitting in the document that will do, or null.
 SharedFitting find_fitting(const MeshDocument& document, const std::function<bool(const Fitting&)>& will_do);

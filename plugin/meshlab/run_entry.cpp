@@ -240,7 +240,7 @@ private:
     MeshModel& kept(MeshModel& layer)
     {
         set_visible(document_, layer, visible_);
-        hand_on(layer, fitting_);
+        hand_on(document_, layer, fitting_);
         return layer;
     }
 
