@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes in, meshes out."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Optional, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+
+Positions = npt.NDArray[np.float64]
+Triangles = npt.NDArray[np.int32]
+MeshLike = Any  # Mesh, (positions, triangles), or an object with points and regular_faces as PyVista's
+
+
+class Mesh:
+    """Positions (n x 3, in any unit, any axis up) and triangles (m x 3) of a body or a garment."""
+
+    def __init__(self, positions: npt.ArrayLike, triangles: npt.ArrayLike, *, name: str = "the garment",
+                 file: Optional[_core.MeshFile] = None) -> None:
+        self.positions: Positions = _numbers(positions, "positions")
+        self.triangles: Triangles = _indices(triangles)
+        self.name = name
+        self._file = file
+
+    def __repr__(self) -> str:
+        return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
+
+    def write(self, path: Union[str, "os.PathLike[str]"], positions: npt.ArrayLike) -> None:
+        """Writes the file that this mesh was read from with other positions and nothing else changed: same vertices,
+        order, UVs, groups and materials; normals are turned along."""
+        if self._file is None:
+            raise _core.InvalidInput("this mesh was not read from a file; only such a one can be written back")
+        self._file.write(Path(path), _numbers(positions, "positions"))
+
+
+def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False) -> Mesh:
+    """Reads OBJ, PLY, OFF, STL, glTF or GLB. With `reconstruct` a surface is laid through points without faces."""
+    path = Path(path)
+    file = _core.MeshFile.read_points(path) if reconstruct else _core.MeshFile.read(path)
+    triangles = file.triangles
+    if reconstruct and len(triangles) == 0:
+        triangles = _core.reconstruct_surface(file.positions)
+    return Mesh(file.positions, triangles, name=path.name, file=file)
+
+
+def as_mesh(given: MeshLike) -> Mesh:
+    if isinstance(given, Mesh):
+        return given
+    if hasattr(given, "points") and hasattr(given, "regular_faces"):  # PyVista
+        return Mesh(given.points, given.regular_faces)
+    if hasattr(given, "vertices") and hasattr(given, "faces"):  # trimesh
+        return Mesh(given.vertices, given.faces)
+    try:
+        positions, triangles = given
+    except (TypeError, ValueError):
+        raise _core.InvalidInput(f"{type(given).__name__} is no mesh; give a Mesh, or positions and triangles") from None
+    return Mesh(positions, triangles)
+
+
+def _numbers(values: npt.ArrayLike, what: str) -> Positions:
+    """Without a copy where it is float64 already."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise _core.InvalidInput(f"{what} are an array of shape {array.shape}; give n x 3")
+    return array
+
+
+def _indices(values: npt.ArrayLike) -> Triangles:
+    array = np.asarray(values)
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":
+        raise _core.InvalidInput(f"triangles are {array.dtype} of shape {array.shape}; give integers, m x 3")
+    if array.size and (array.min() < 0 or array.max() > np.iinfo(np.int32).max):
+        raise _core.InvalidInput(f"triangles name vertices from {array.min()} to {array.max()}")
+    return np.ascontiguousarray(array, dtype=np.int32)

@@ -1,0 +1,483 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filters for VTK pipelines in Python: pip's VTK, Debian's, and PyVista.
+
+Ports and arrays are those of the C++ filters (docs/vtk.md): port 0 the body, port 1 the garments, the last one the skeleton.
+Parameters are attributes of the schema's names, or keyword arguments:
+
+>>> from garmentfit.vtk import DressBody
+>>> dress = DressBody(type="skirt")
+>>> dress.SetInputConnection(0, body.GetOutputPort())
+>>> dress.SetInputConnection(1, skirt.GetOutputPort())
+>>> plotter.add_mesh(dress.GetOutputPort(1), scalars="Ease")  # PyVista
+"""
+from __future__ import annotations
+
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+from vtkmodules.numpy_interface import dataset_adapter  # noqa: F401  (numpy must be there before util.numpy_support)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray, vtkUnsignedShortArray
+from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet,
+                                           vtkPolyData)
+from vtkmodules.vtkCommonExecutionModel import vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline
+
+from . import _core
+from ._core import Cancelled, InvalidInput, SolverFailure
+
+_RIG_FIELDS = ("RigJoints", "RigAxes", "RigRadii", "RigSideMargin", "BodyFrame")
+_RIG_POINTS = ("JointIndices", "JointWeights")
+
+
+# ---- VTK's arrays as numpy's, and back --------------------------------------------------------------------------
+
+def _put(attributes: Any, name: str, values: Any) -> None:
+    """Numbers without a copy, or texts."""
+    if len(values) and isinstance(values[0], str) or isinstance(values, list) and not values:
+        array = vtkStringArray()
+        for text in values:
+            array.InsertNextValue(text)
+    else:
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=0)
+    array.SetName(name)
+    attributes.AddArray(array)
+
+
+def _numbers(attributes: Any, name: str) -> Optional[np.ndarray]:
+    array = attributes.GetArray(name)
+    if array is None:
+        return None
+    values = vtk_to_numpy(array).astype(np.float64, copy=False)
+    return np.ascontiguousarray(values.reshape(len(values), -1))
+
+
+def _mesh(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
+    """Points, or those kept under a name, and polygons as fans of triangles."""
+    if data.GetNumberOfPolys() == 0 or data.GetNumberOfStrips():
+        raise InvalidInput(f"{what} has {data.GetNumberOfPolys()} polygons, {data.GetNumberOfPoints()} points, "
+                           f"{data.GetNumberOfLines()} lines and {data.GetNumberOfStrips()} strips; give a surface of polygons, "
+                           "of strips vtkTriangleFilter makes one")
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    own = _numbers(data.GetPointData(), kept) if kept else None
+    positions = own if own is not None and own.shape == points.shape else points
+    return np.ascontiguousarray(positions, dtype=np.float64), _fans(data.GetPolys())
+
+
+def _fans(polygons: vtkCellArray) -> np.ndarray:
+    corners = vtk_to_numpy(polygons.GetConnectivityArray())
+    offsets = vtk_to_numpy(polygons.GetOffsetsArray())
+    if np.all(np.diff(offsets) == 3):
+        return corners.reshape(-1, 3).astype(np.int32, copy=False)
+    fans = [(corners[a], corners[k - 1], corners[k]) for a, b in zip(offsets, offsets[1:]) for k in range(a + 2, b)]
+    return np.array(fans, dtype=np.int32).reshape(-1, 3)
+
+
+def _leaves(data: vtkDataObject) -> List[Tuple[str, vtkPolyData]]:
+    if isinstance(data, vtkPolyData):
+        return [("the garment", data)]
+    leaves: List[Tuple[str, vtkPolyData]] = []
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        leaf = iterator.GetCurrentDataObject()
+        if not isinstance(leaf, vtkPolyData):
+            raise InvalidInput(f"garment {len(leaves) + 1} is a {leaf.GetClassName()}; give vtkPolyData, vtkGeometryFilter makes it")
+        named = iterator.HasCurrentMetaData() and iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME())
+        leaves.append((named or f"garment {len(leaves) + 1}", leaf))
+        iterator.GoToNextItem()
+    return leaves
+
+
+def _copy_leaves(source: vtkDataObject, target: vtkDataObject) -> List[vtkPolyData]:
+    """Shallow copies of the garments, in a composite like theirs."""
+    if isinstance(target, vtkPolyData):
+        target.ShallowCopy(source)
+        return [target]
+    target.CopyStructure(source)
+    copies = []
+    iterator = source.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        copy = vtkPolyData()
+        copy.ShallowCopy(iterator.GetCurrentDataObject())
+        target.SetDataSet(iterator, copy)
+        copies.append(copy)
+        iterator.GoToNextItem()
+    return copies
+
+
+def _restore(data: vtkPolyData, kept: str) -> None:
+    array = data.GetPointData().GetArray(kept)
+    if array is not None:
+        data.GetPointData().RemoveArray(kept)
+        points = vtkPoints()
+        points.SetData(array)
+        data.SetPoints(points)
+
+
+def _move(data: vtkPolyData, kept: str, positions: np.ndarray) -> None:
+    """New points; the old ones stay as an array, the same memory."""
+    if not data.GetPointData().HasArray(kept):
+        own = data.GetPoints().GetData()
+        same = own.NewInstance()
+        same.ShallowCopy(own)
+        same.SetName(kept)
+        data.GetPointData().AddArray(same)
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(positions, deep=0))
+    data.SetPoints(points)
+    data.GetCellData().SetNormals(None)
+    normals = data.GetPointData().GetNormals()
+    if normals is not None:
+        turned = numpy_to_vtk(_core.vertex_normals(positions, _fans(data.GetPolys())), deep=0)
+        turned.SetName(normals.GetName() or "Normals")
+        data.GetPointData().SetNormals(turned)
+
+
+def _given_type(garment: vtkPolyData) -> str:
+    array = garment.GetFieldData().GetAbstractArray("GarmentType")
+    return array.GetValue(0) if array is not None and array.GetNumberOfValues() else "auto"
+
+
+# ---- the filter --------------------------------------------------------------------------------------------------
+
+class _FitFilter(VTKPythonAlgorithmBase):
+    """What the five have in common; each names its row of the table, and what it is given and makes."""
+
+    NAME = ""
+    TAKES: Tuple[str, ...] = ()  #: of rig, fits, worn
+    MAKES: Tuple[str, ...] = ()  #: of rig, fits, dressing, frames
+    STEPS: Tuple[str, ...] = ()  #: filters to run one after another
+
+    def __init__(self, **parameters: Any) -> None:
+        object.__setattr__(self, "_values", {name: default for name, default, *_ in _core.parameters_of(self.NAME)})
+        dresses = self.NAME != "rig"
+        super().__init__(nInputPorts=1 + dresses, inputType="vtkPolyData", nOutputPorts=2 + dresses,
+                         outputType="vtkPolyData")
+        self.unit = self.up = self.front = self.garment_unit = self.garment_up = "auto"
+        self.joints: Dict[str, Tuple[float, float, float]] = {}
+        self.error: Optional[str] = None  #: one line on what went wrong last time
+        self._scenes: Dict[str, Any] = {}  # what each step has made, and from what
+        for name, value in parameters.items():
+            if name not in self._values and not hasattr(self, name):
+                raise InvalidInput(f"{type(self).__name__} has no parameter called {name!r}; there are "
+                                   + ", ".join(self._values))
+            setattr(self, name, value)
+
+    # parameters are attributes
+    def __getattr__(self, name: str) -> Any:
+        values = object.__getattribute__(self, "_values")
+        if name in values:
+            return values[name]
+        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in self._values:
+            if self._values[name] != value:
+                self._values[name] = value
+                self.Modified()
+        else:
+            changed = name in ("unit", "up", "front", "garment_unit", "garment_up", "joints")
+            super().__setattr__(name, value)
+            if changed:
+                self.Modified()
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self._values]
+
+    # what VTKPythonAlgorithmBase, a bare vtkAlgorithm, lacks
+    def SetInputData(self, *arguments: Any) -> None:
+        port, data = arguments if len(arguments) == 2 else (0, arguments[0])
+        self.SetInputDataObject(port, data)
+
+    def GetOutput(self, port: int = 0) -> vtkDataObject:
+        return self.GetOutputDataObject(port)
+
+    @property
+    def skeleton_port(self) -> int:
+        return self.GetNumberOfOutputPorts() - 1
+
+    # the pipeline's requests
+    def FillInputPortInformation(self, port: int, info: Any) -> int:
+        if port == 0:
+            info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
+        else:  # the composite first: the executive asks the first type only whether to hand over block by block
+            info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
+            info.Append(self.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
+        return 1
+
+    def FillOutputPortInformation(self, port: int, info: Any) -> int:
+        garments = port == 1 and port != self.skeleton_port
+        info.Set(vtkDataObject.DATA_TYPE_NAME(), "vtkDataObject" if garments else "vtkPolyData")
+        return 1
+
+    def ProcessRequest(self, request: Any, inputs: Any, outputs: Any) -> int:
+        if request.Has(vtkDemandDrivenPipeline.REQUEST_DATA_OBJECT()):
+            return self.RequestDataObject(request, inputs, outputs)
+        return super().ProcessRequest(request, inputs, outputs)
+
+    def RequestDataObject(self, request: Any, inputs: Any, outputs: Any) -> int:
+        for port in range(self.GetNumberOfOutputPorts()):
+            info = outputs.GetInformationObject(port)
+            garments = port == 1 and port != self.skeleton_port
+            like = inputs[1].GetInformationObject(0).Get(vtkDataObject.DATA_OBJECT()) if garments else None
+            kind = like.GetClassName() if like is not None else "vtkPolyData"
+            made = info.Get(vtkDataObject.DATA_OBJECT())
+            if made is None or made.GetClassName() != kind:
+                info.Set(vtkDataObject.DATA_OBJECT(), like.NewInstance() if like is not None else vtkPolyData())
+        return 1
+
+    def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
+        frames = self._values["frames"] if "frames" in self.MAKES else 0
+        for port in range(self.GetNumberOfOutputPorts()):
+            info = outputs.GetInformationObject(port)
+            if frames:
+                steps = [i / (frames - 1) if frames > 1 else 1.0 for i in range(frames)]
+                info.Set(vtkStreamingDemandDrivenPipeline.TIME_STEPS(), steps, frames)
+                info.Set(vtkStreamingDemandDrivenPipeline.TIME_RANGE(), [0.0, 1.0], 2)
+            else:
+                info.Remove(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+                info.Remove(vtkStreamingDemandDrivenPipeline.TIME_RANGE())
+        return 1
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        data = [inputs[port].GetInformationObject(0).Get(vtkDataObject.DATA_OBJECT())
+                for port in range(self.GetNumberOfInputPorts())]
+        made = [outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
+                for port in range(self.GetNumberOfOutputPorts())]
+        self.error = None
+        try:
+            scene = self._updated(data[0], data[1] if len(data) > 1 else None)
+            time = self._time(outputs.GetInformationObject(0))
+            self._write(scene, time, data, made)
+            return 1
+        except Cancelled:
+            self._empty(made)
+            return 1
+        except (InvalidInput, SolverFailure) as error:
+            self.error = str(error)
+            self._empty(made)
+            self._complain(self.error)
+            return 0
+
+    def _time(self, info: Any) -> float:
+        key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
+        return info.Get(key) if info.Has(key) else 1.0
+
+    @staticmethod
+    def _empty(outputs: List[vtkDataObject]) -> None:
+        for output in outputs:
+            output.Initialize()
+
+    def _complain(self, text: str) -> None:
+        """An ErrorEvent of the vtkAlgorithm; to the standard error stream where nobody listens."""
+        import sys
+        if self.HasObserver("ErrorEvent"):
+            self.InvokeEvent("ErrorEvent")
+        else:
+            print(f"garmentfit: {type(self).__name__}: {text}", file=sys.stderr)
+
+    # computing
+    def _goes_on(self, fraction: float, stage: str) -> bool:
+        self.SetProgressText(stage)
+        self.UpdateProgress(fraction)
+        return not (self.CheckAbort() if hasattr(self, "CheckAbort") else self.GetAbortExecute())
+
+    def _kept(self, step: str, made_from: Any, make: Any) -> Any:
+        """What a step has made, made anew where it would be made from something else."""
+        kept = self._scenes.get(step)
+        if kept is None or kept[0] != made_from:
+            self._scenes.pop(step, None)
+            kept = self._scenes[step] = (made_from, make())
+        return kept[1]
+
+    def _updated(self, body: vtkPolyData, garments: Optional[vtkDataObject]) -> Any:
+        choices = (self.unit, self.up, self.front, tuple(sorted((k, tuple(v)) for k, v in self.joints.items())))
+        source: Any = (body.__this__, body.GetMTime(), choices)
+        scene = self._kept("body", source, lambda: self._read_body(body))
+        dressed = garments is None
+        for i, step in enumerate(self.STEPS):
+            if not dressed and step != "rig":
+                source = (source, garments.__this__, garments.GetMTime(), self.garment_unit, self.garment_up)
+                before = scene
+                scene = self._kept("garments", source, lambda: self._read_garments(before, body, garments))
+                dressed = True
+            values, matter = self._values_of(step, 0 if garments is None else len(_leaves(garments)))
+            source = (source, tuple(sorted(matter.items())))
+            before, part = scene, i / len(self.STEPS)
+            scene = self._kept(step, source, lambda: before.run(
+                step, values, lambda done, stage: self._goes_on(part + done / len(self.STEPS), stage)))
+            if step == "drape" and not scene.verdict()["certified"]:
+                break
+        return scene
+
+    def _values_of(self, step: str, layers: int) -> Tuple[Dict[str, Any], Dict[str, Any]]:
+        """The parameters of a step, and those of them that its result depends on."""
+        values = {name: self._values[name] for name, *_ in _core.parameters_of(step)}
+        unused = set()
+        if step == "drape":  # moves only garments that are worn already, and hands out no frames
+            unused = {name for name in values if name == "frames" or name.startswith("recovery_") and layers < 2}
+        return values, {name: value for name, value in values.items() if name not in unused}
+
+    def _read_body(self, body: vtkPolyData) -> Any:
+        if "rig" not in self.TAKES:
+            positions, triangles = _mesh(body, "the body")
+            joints = {name: [float(x) for x in place] for name, place in self.joints.items()}
+            return _core.Scene.of_body(positions, triangles, self.unit, self.up, self.front, joints)
+        positions, triangles = _mesh(body, "the body", "OwnPosition")
+        arrays = {name: _numbers(body.GetFieldData(), name) for name in _RIG_FIELDS}
+        arrays.update({name: _numbers(body.GetPointData(), name) for name in _RIG_POINTS})
+        missing = [name for name, values in arrays.items() if values is None]
+        if missing:
+            raise InvalidInput(f"the body has no array {missing[0]}; connect the body that RigBody made")
+        scene = _core.Scene.of_body(positions, triangles, "auto", "auto", "auto", {}, arrays["BodyFrame"])
+        scene.set_rig(arrays)
+        if "fits" in self.TAKES:
+            poses = _numbers(body.GetFieldData(), "FitPoses")
+            if poses is None:
+                raise InvalidInput("the body has no array FitPoses; connect the body that FitSkeleton made")
+            scene.set_fit_poses(poses)
+        return scene
+
+    def _read_garments(self, scene: Any, body: vtkPolyData, garments: vtkDataObject) -> Any:
+        scene = scene.copy()
+        given = "fits" in self.TAKES or "worn" in self.TAKES
+        layers = _leaves(garments)
+        for name, garment in layers:
+            positions, triangles = _mesh(garment, name, "RestPosition" if given else "")
+            frame = _numbers(garment.GetFieldData(), "GarmentFrame") if given else None
+            scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up, name, frame)
+        if "worn" in self.TAKES:
+            pose = _numbers(body.GetFieldData(), "DressedPose")
+            if pose is None:
+                raise InvalidInput("the body has no array DressedPose; connect the body that DrapeGarment made")
+            scene.set_worn(pose, [_mesh(garment, name)[0] for name, garment in layers])
+        return scene
+
+    # writing
+    def _write(self, scene: Any, time: float, inputs: List[Any], outputs: List[Any]) -> None:
+        dressing = "dressing" in self.MAKES
+        frames = scene.frames() if dressing and "frames" in self.MAKES and time < 1 else []
+        frame = min(frames, key=lambda f: abs(f[0] - time)) if frames else None
+        self._write_body(scene, frame, inputs[0], outputs[0])
+        if len(inputs) > 1:
+            self._write_garments(scene, frame, _copy_leaves(inputs[1], outputs[1]))
+        _draw_skeleton(outputs[self.skeleton_port], scene.skeleton(frame[0] if frame else None))
+        if "frames" in self.MAKES and self._values["frames"]:
+            for output in outputs:
+                output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
+
+    def _write_body(self, scene: Any, frame: Any, given: vtkPolyData, body: vtkPolyData) -> None:
+        body.ShallowCopy(given)
+        if "rig" in self.MAKES:
+            body.GetPointData().RemoveArray("OwnPosition")  # of an earlier dressing
+            arrays = scene.rig_arrays()
+            for name in _RIG_FIELDS:
+                _put(body.GetFieldData(), name, arrays[name])
+            _put(body.GetPointData(), "JointIndices", arrays["JointIndices"].astype(np.uint16))
+            _put(body.GetPointData(), "JointWeights", arrays["JointWeights"])
+        else:
+            _restore(body, "OwnPosition")
+        if "fits" in self.MAKES:
+            _put(body.GetFieldData(), "FitPoses", scene.fit_poses())
+        if frame or scene.moved:
+            _move(body, "OwnPosition", frame[1] if frame else scene.body_positions())
+        if "dressing" in self.MAKES:
+            verdict = scene.verdict()
+            field = body.GetFieldData()
+            _put(field, "DressedPose", scene.pose_at(frame[0]) if frame else scene.pose())
+            _put(field, "Certified", np.array([verdict["certified"]], dtype=np.int32))
+            for name, key in (("SizeReached", "size_reached"), ("PoseReached", "pose_reached"), ("Speed", "speed")):
+                _put(field, name, np.array([verdict[key]]))
+            _put(field, "Note", [verdict["note"]])
+            _put(field, "HeldBackPart", [part for part, _ in verdict["held_back"]])
+            _put(field, "HeldBackDistance", np.array([distance for _, distance in verdict["held_back"]]))
+
+    def _write_garments(self, scene: Any, frame: Any, garments: List[vtkPolyData]) -> None:
+        worn = scene.garments(frame[0] if frame else None) if "dressing" in self.MAKES else []
+        for i, garment in enumerate(garments):
+            field = garment.GetFieldData()
+            _put(field, "GarmentFrame", scene.garment_frame(i))
+            if "fits" in self.TAKES or "worn" in self.TAKES:
+                _restore(garment, "RestPosition")
+            else:
+                garment.GetPointData().RemoveArray("RestPosition")
+            if "fits" in self.MAKES:
+                fit = scene.fits()[i]
+                _put(field, "FoundType", [fit["type"]])
+                _put(field, "FoundTypeMargin", np.array([fit["type_margin"]]))
+            if "dressing" not in self.MAKES:
+                continue
+            _put(field, "Worn", np.array([i < len(worn)], dtype=np.int32))
+            if i < len(worn):
+                _write_worn(garment, worn[i])
+
+
+_COUNTS = (("BodyCrossings", "body_crossings"), ("SelfCrossings", "self_crossings"),
+           ("InputSelfCrossings", "input_self_crossings"), ("LayerCrossings", "layer_crossings"),
+           ("VerticesInside", "vertices_inside"))
+_MEASURES = (("GarmentGap", "smallest_gap"), ("StrainMedian", "strain_median"), ("StrainP95", "strain_p95"),
+             ("StrainMax", "strain_max"))
+
+
+def _write_worn(garment: vtkPolyData, worn: Dict[str, Any]) -> None:
+    _move(garment, "RestPosition", worn["positions"])
+    for name in ("ease", "strain", "pressure"):
+        _put(garment.GetPointData(), name.capitalize(), worn[name])
+    field = garment.GetFieldData()
+    for name, key in _COUNTS:
+        _put(field, name, np.array([worn["certificate"][key]], dtype=np.int32))
+    for name, key in _MEASURES:
+        _put(field, name, np.array([worn["certificate"][key]]))
+    _put(field, "GirthPlace", [girth[0] for girth in worn["girths"]])
+    _put(field, "GirthBody", np.array([girth[1] for girth in worn["girths"]]))
+    _put(field, "GirthGarment", np.array([girth[2] for girth in worn["girths"]]))
+    _put(field, "TooTightPart", [part for part, _ in worn["too_tight"]])
+    _put(field, "MissingGirth", np.array([girth for _, girth in worn["too_tight"]]))
+
+
+def _draw_skeleton(skeleton: vtkPolyData, joints: np.ndarray) -> None:
+    skeleton.Initialize()
+    points, lines = vtkPoints(), vtkCellArray()
+    points.SetData(numpy_to_vtk(joints, deep=0))
+    skeleton.SetPoints(points)
+    bones = _core.bones()
+    parents = np.full(len(joints), -1, dtype=np.int32)
+    for _, start, end in bones:
+        lines.InsertNextCell(2)
+        lines.InsertCellPoint(start)
+        lines.InsertCellPoint(end)
+        parents[end] = start
+    skeleton.SetLines(lines)
+    _put(skeleton.GetPointData(), "JointName", _core.joint_names())
+    _put(skeleton.GetPointData(), "JointId", np.arange(len(joints), dtype=np.int32))
+    _put(skeleton.GetPointData(), "JointParent", parents)
+    tips = len(bones) - 5
+    _put(skeleton.GetCellData(), "BoneId", np.array([i if i < tips else -1 for i in range(len(bones))], dtype=np.int32))
+    _put(skeleton.GetCellData(), "BoneName", [name for name, *_ in bones])
+
+
+class RigBody(_FitFilter):
+    """Finds the skeleton of a body and how the skin hangs on it. Port 1 is the skeleton."""
+    NAME, STEPS, MAKES = "rig", ("rig",), ("rig",)
+
+
+class FitSkeleton(_FitFilter):
+    """Poses a rigged body so that its bones run through the middle of the garment's parts."""
+    NAME, STEPS, TAKES, MAKES = "fit", ("fit",), ("rig",), ("fits",)
+
+
+class DrapeGarment(_FitFilter):
+    """Puts the posed body into the garment without letting cloth and body cross."""
+    NAME, STEPS, TAKES, MAKES = "drape", ("drape",), ("rig", "fits"), ("dressing",)
+
+
+class RecoverPose(_FitFilter):
+    """Brings a dressed body back to its own pose, the garments along; with `frames` the way is offered as time steps."""
+    NAME, STEPS, TAKES, MAKES = "recover", ("recover",), ("rig", "worn"), ("dressing", "frames")
+
+
+class DressBody(_FitFilter):
+    """Dresses a body in garments made for somebody else: rig, fit, drape, recover."""
+    NAME, STEPS, MAKES = "dress", ("rig", "fit", "drape", "recover"), ("rig", "fits", "dressing", "frames")

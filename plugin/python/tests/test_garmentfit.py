@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The package as its users call it. GARMENTFIT_SAMPLES names the folder of sample meshes."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import garmentfit
+from garmentfit import Cancelled, Garment, InvalidInput, Mesh, _core
+
+SAMPLES = Path(os.environ.get("GARMENTFIT_SAMPLES", Path(__file__).parents[3] / "docs" / "samples"))
+QUICK = dict(type="skirt", settling_steps=2, recovery_settling_steps=2)
+
+
+@pytest.fixture(scope="session")
+def body():
+    return garmentfit.read_mesh(SAMPLES / "walking_woman.ply")
+
+
+@pytest.fixture(scope="session")
+def skirt():
+    return garmentfit.read_mesh(SAMPLES / "skirt.ply")
+
+
+@pytest.fixture(scope="session")
+def dressed(body, skirt):
+    return garmentfit.dress(body, skirt, frames=3, **QUICK)
+
+
+def test_dressing_is_certified_and_leaves_the_body_where_it_was(dressed, body, skirt):
+    assert dressed.certified and dressed.note == ""
+    assert np.array_equal(dressed.body, body.positions)
+    garment = dressed.garments[0]
+    assert np.array_equal(garment.triangles, skirt.triangles)
+    assert garment.positions.shape == skirt.positions.shape
+    assert garment.certificate.clean and garment.certificate.smallest_gap > 0
+    assert garment.ease.shape == garment.strain.shape == garment.pressure.shape == (len(skirt.positions),)
+    assert all(girth.ease > 0 for girth in garment.girths)
+    assert dressed.fits[0].type == "skirt"
+
+
+def test_four_steps_give_what_dress_gives(dressed, body, skirt):
+    rig = garmentfit.rig_body(body)
+    assert np.allclose(rig.joint_weights.sum(axis=1), 1)
+    fit = garmentfit.fit_skeleton(rig, skirt, type="skirt")
+    draped = garmentfit.drape_garment(fit, settling_steps=2)
+    recovered = garmentfit.recover_pose(draped, recovery_settling_steps=2, frames=3)
+    assert np.array_equal(recovered.garments[0].positions, dressed.garments[0].positions)
+    assert np.array_equal(recovered.joints, rig.joints)
+    assert not np.array_equal(fit.joints, rig.joints)
+
+
+def test_frames_lead_from_the_fitted_pose_to_the_own(dressed):
+    shares = [frame.share for frame in dressed.frames]
+    assert shares[0] == 0 and shares[-1] == 1 and shares == sorted(shares)
+    assert np.array_equal(dressed.frames[-1].body, dressed.body)
+
+
+def test_units_and_axes_are_those_of_the_body(body):
+    metres = garmentfit.rig_body(body)
+    turned = body.positions[:, [0, 2, 1]] * [100, -100, 100]  # centimetres, +z up
+    centimetres = garmentfit.rig_body((turned, body.triangles), unit="cm", up="+z")
+    assert centimetres.metres_per_unit == 0.01
+    assert np.allclose(centimetres.joints[:, 2], 100 * metres.joints[:, 1], atol=0.1)
+
+
+def test_arguments_are_not_changed_and_results_outlive_them(body):
+    before = body.positions.copy()
+    joints = garmentfit.rig_body(Mesh(body.positions, body.triangles)).joints
+    assert np.array_equal(before, body.positions)
+    assert np.isfinite(joints).all()
+
+
+def test_numbers_that_are_right_already_are_not_copied(body):
+    assert Mesh(body.positions, body.triangles).positions is body.positions
+
+
+@pytest.mark.parametrize("call, part", [
+    (lambda b, g: garmentfit.dress(b, g, density=-1), "density"),
+    (lambda b, g: garmentfit.dress(b, g, colour="red"), "colour"),
+    (lambda b, g: garmentfit.dress(b, Garment(g, "umbrella")), "umbrella"),
+    (lambda b, g: garmentfit.rig_body(b, unit="cubit"), "cubit"),
+    (lambda b, g: garmentfit.rig_body(b, joints={"lknee": [1, 2]}), "lknee"),
+    (lambda b, g: garmentfit.rig_body(b, joints={"tail": [1, 2, 3]}), "tail"),
+    (lambda b, g: garmentfit.rig_body((b.positions[:, :2], b.triangles)), "n x 3"),
+    (lambda b, g: garmentfit.rig_body((b.positions, b.triangles - 1)), "vertices from -1"),
+    (lambda b, g: garmentfit.rig_body((np.full((9, 3), np.nan), b.triangles[:1] * 0)), "finite"),
+    (lambda b, g: garmentfit.rig_body(42), "int is no mesh"),
+    (lambda b, g: garmentfit.read_mesh("nobody.ply"), "nobody.ply"),
+])
+def test_bad_input_is_refused_in_one_line(call, part, body, skirt):
+    with pytest.raises(InvalidInput) as refused:
+        call(body, skirt)
+    assert part in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_progress_is_told_and_can_stop(body):
+    told = []
+    garmentfit.rig_body(body, progress=lambda done, stage: told.append((done, stage)))
+    assert told[0][0] == 0 and told[-1][0] == 1
+    with pytest.raises(Cancelled):
+        garmentfit.rig_body(body, progress=lambda done, stage: done < 0.5)
+    with pytest.raises(ZeroDivisionError):
+        garmentfit.rig_body(body, progress=lambda done, stage: 1 / 0)
+
+
+def test_ctrl_c_raises_keyboard_interrupt(body):
+    def interrupt(done, stage):
+        if done > 0.3:
+            signal.raise_signal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        garmentfit.rig_body(body, progress=interrupt)
+
+
+def test_other_threads_run_meanwhile(body):
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.wait(0.001):
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    garmentfit.rig_body(body)
+    stop.set()
+    thread.join()
+    assert len(ticks) > 10
+
+
+def test_every_parameter_of_the_schema_is_documented():
+    for function, name in ((garmentfit.rig_body, "rig"), (garmentfit.fit_skeleton, "fit"),
+                           (garmentfit.drape_garment, "drape"), (garmentfit.recover_pose, "recover"),
+                           (garmentfit.dress, "dress")):
+        for parameter, *_ in _core.parameters_of(name):
+            assert f"{parameter} = " in function.__doc__
+
+
+def test_types_are_shipped():
+    folder = Path(garmentfit.__file__).parent
+    assert (folder / "py.typed").exists() and "class Scene" in (folder / "_core.pyi").read_text()
+
+
+def test_the_module_is_a_program_too(tmp_path):
+    run = [sys.executable, "-m", "garmentfit", "dress"]
+    files = [str(SAMPLES / "walking_woman.ply"), str(SAMPLES / "skirt.ply")]
+    quick = ["--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps", "2"]
+    done = subprocess.run(run + files + quick + ["-o", str(tmp_path / "out")], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert garmentfit.read_mesh(tmp_path / "out" / "skirt.ply").positions.shape == (3055, 3)
+    bad = subprocess.run(run + ["nobody.ply", files[1], "-o", str(tmp_path / "none")], capture_output=True, text=True)
+    assert bad.returncode == 2 and "nobody.ply" in bad.stderr and not (tmp_path / "none").exists()
