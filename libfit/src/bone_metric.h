@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth_room.h"
+#include "error_metric.h"
 #include "fit/skeleton.h"
 
 namespace fit {
@@ -43,6 +44,9 @@ public:
 
     /// How many of the five samples are inside, by the cloth itself.
     int samples_inside(const Vec3& head, const Vec3& tail) const;
+
+    /// No place is worth more to a bone than that, m.
+    double most(int bone) const { return figure_.covered[bone] ? k_samples * most_room_value(figure_.radii[bone]) : 0; }
 
     const ClothRoom& cloth() const { return cloth_; }
     const Figure& figure() const { return figure_; }

@@ -193,14 +193,17 @@ private:
 Posture polished(const SkeletonSearch& search, const Posture& start, const Steps& steps)
 {
     Posture present = start;
-    double score = search.total(present);
+    EnergyParts parts = search.parts(present);
+    double score = parts.energy - search.crossing_cost(present);
     const auto taken = [&](const Posture& next) {
-        if (search.energy(next) <= score + k_least_gain)  // crossings only cost
+        const double bound = search.energy(next, parts);  // crossings only cost
+        if (bound <= score + k_least_gain)
             return false;
-        const double next_score = search.total(next);
+        const double next_score = bound - search.crossing_cost(next);
         if (next_score <= score + k_least_gain)
             return false;
         present = next;
+        parts = search.parts(next);
         score = next_score;
         return true;
     };
@@ -243,20 +246,22 @@ std::vector<Posture> polished_together(const std::vector<const SkeletonSearch*>&
 Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& paper, const Steps& steps)
 {
     Posture present = start;
-    double score = search.total(present);
+    EnergyParts parts = search.parts(present);
+    double score = parts.energy - search.crossing_cost(present);
     const double least = score - k_energy_lost;
     const int corners = corners_through_cloth(search, start);
     paper.is_above(placed(search.own(), start).joints, 0);
     paper.accept();
     climb_in_cloth(search, present, steps, [&](const Posture& next) {
-        const double bound = search.energy(next);  // crossings only cost
+        const double bound = search.energy(next, parts);  // crossings only cost
         if (bound < least || !paper.is_above(placed(search.own(), next).joints, score - bound + k_least_gain))
             return false;
-        const double next_score = search.total(next);
+        const double next_score = bound - search.crossing_cost(next);
         if (next_score < least || paper.gain() + next_score <= score + k_least_gain
             || corners_through_cloth(search, next) > corners)
             return false;
         present = next;
+        parts = search.parts(next);
         score = next_score;
         paper.accept();
         return true;

@@ -18,4 +18,25 @@ inline double inside_of(double winding)
     return std::clamp((winding - surely_outside) / (surely_inside - surely_outside), 0.0, 1.0);
 }
 
+inline constexpr double k_largest_outside = 0.1;  // m; further out is not worse: long arms reach beyond their cuffs
+inline constexpr double k_surplus
+    = 0.15;  // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
+    // does not draw an arm out of its sleeve
+
+/// What distance to the cloth is worth to a point inside, of a limb of this radius, m.
+inline double inside_value(double distance, double radius)
+{
+    return std::min(distance, radius) + k_surplus * std::clamp(distance - radius, 0.0, radius);
+}
+
+/// What room is worth to it: equation (3), with the room counted up to what the limb needs.
+inline double room_value(const Room& room, double radius)
+{
+    return room.inside * inside_value(room.distance, radius)
+        - (1 - room.inside) * std::min(room.distance, k_largest_outside);
+}
+
+/// No room is worth more.
+inline double most_room_value(double radius) { return (1 + k_surplus) * radius; }
+
 }  // namespace fit

@@ -8,15 +8,7 @@
 namespace fit {
 namespace {
 
-constexpr double k_largest_outside = 0.1;  // m; further out is not worse: long arms reach beyond their cuffs
-constexpr double k_surplus = 0.15;  // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
-    // does not draw an arm out of its sleeve
 constexpr double k_first_cell = 0.4;  // m
-
-double inside_value(double distance, double radius)
-{
-    return std::min(distance, radius) + k_surplus * std::clamp(distance - radius, 0.0, radius);
-}
 
 struct Cell {
     double bound;
@@ -31,12 +23,6 @@ struct Cell {
 };
 
 }  // namespace
-
-double room_value(const Room& room, double radius)
-{
-    return room.inside * inside_value(room.distance, radius)
-        - (1 - room.inside) * std::min(room.distance, k_largest_outside);
-}
 
 RoomSearch::RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope) :
     cloth_(cloth), samples_(std::move(samples)), slope_(slope)

@@ -10,9 +10,6 @@
 
 namespace fit {
 
-/// What room is worth to a point of a limb of this radius, m: equation (3), with the room counted up to what the limb needs.
-double room_value(const Room& room, double radius);
-
 /// A point that moves with the rest, and the radius of its limb.
 struct RoomSample {
     Vec3 offset;  // m

@@ -123,13 +123,16 @@ double SkeletonSearch::cuff_cost(int bone, const Vec3& tail, const Skeleton& joi
     return k_cuff * angle * angle;
 }
 
+// k_any where it cannot come above `least`, however much room there is: angles are sooner asked than cloth.
 double SkeletonSearch::bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn,
-                                   const Skeleton& joints) const
+                                   const Skeleton& joints, double least) const
 {
     const Vec3 direction = (tail - head).normalized();
-    return metric_.value(bone, head, tail) - metric_.overlap(bone, head, tail, joints)
-        - posture_cost(bone, direction, parent_turn) - twin_cost(bone, direction, joints)
-        - cuff_cost(bone, tail, joints);
+    const double posture = posture_cost(bone, direction, parent_turn), twin = twin_cost(bone, direction, joints),
+                 cuff = cuff_cost(bone, tail, joints);
+    if (metric_.most(bone) - posture - twin - cuff <= least)
+        return k_any;
+    return metric_.value(bone, head, tail) - metric_.overlap(bone, head, tail, joints) - posture - twin - cuff;
 }
 
 double SkeletonSearch::sag() const { return hangs_from_shoulders_ ? k_sag : -k_sag; }
@@ -142,7 +145,7 @@ double SkeletonSearch::stance_energy(const Posture& posture) const
     return sag() * posture.root.y() - k_upright * tilt * tilt + facing;
 }
 
-void SkeletonSearch::lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const
+CoverDistances SkeletonSearch::cover_distances(int bone, const Vec3& head, const Vec3& tail) const
 {
     const auto& points = cover_;
     const Eigen::Array3f a = head.cast<float>(), ab = (tail - head).cast<float>();
@@ -150,31 +153,93 @@ void SkeletonSearch::lower_distances(CoverDistances& distances, int bone, const 
     const Eigen::ArrayXf x = points.col(0) - a.x(), y = points.col(1) - a.y(), z = points.col(2) - a.z();
     const Eigen::ArrayXf t = ((x * ab.x() + y * ab.y() + z * ab.z()) * inverse).max(0.f).min(1.f);
     const float radius = float(metric_.figure().radii[bone]);
-    distances = distances.min(((x - t * ab.x()).square() + (y - t * ab.y()).square() + (z - t * ab.z()).square()).sqrt()
-                              - radius);
-    distances = distances.max(0.f);
+    return (((x - t * ab.x()).square() + (y - t * ab.y()).square() + (z - t * ab.z()).square()).sqrt() - radius)
+        .max(0.f);
 }
 
-SkeletonSearch::CoverDistances SkeletonSearch::cover_distances(const PlacedBones& bones, const Limb* without) const
+CoverDistances SkeletonSearch::cover_distances(const PlacedBones& bones, const Limb& without) const
 {
     CoverDistances distances = CoverDistances::Constant(cover_.rows(), k_far_cloth);
     for (int b = 0; b < bone_count; ++b)
-        if (metric_.figure().covered[b] && !(without && (b == without->bones[0] || b == without->bones[1])))
-            lower_distances(distances, b, bones.joints.head(b), bones.joints.tail(b));
+        if (metric_.figure().covered[b] && b != without.bones[0] && b != without.bones[1])
+            distances = distances.min(cover_distances(b, bones.joints.head(b), bones.joints.tail(b)));
     return distances;
 }
 
 double SkeletonSearch::emptiness(const CoverDistances& distances) const { return k_empty * double(distances.mean()); }
 
-double SkeletonSearch::energy(const Posture& posture) const
+double SkeletonSearch::tip_energy(const PlacedBones& bones, int extremity) const
+{
+    return metric_.bare_tip(Extremity(extremity), bones.joints.tail(bone_before(Extremity(extremity))),
+                            bones.joints.tips[extremity]);
+}
+
+// lower(distances, b) takes a worn bone's distances into account.
+template <class BoneEnergy, class TipEnergy, class Lower>
+double SkeletonSearch::sum_of(const Posture& posture, const BoneEnergy& by_bone, const TipEnergy& by_tip,
+                              const Lower& lower) const
+{
+    CoverDistances distances = CoverDistances::Constant(cover_.rows(), k_far_cloth);
+    for (int b = 0; b < bone_count; ++b)
+        if (metric_.figure().covered[b])
+            lower(distances, b);
+    double sum = stance_energy(posture) - emptiness(distances);
+    for (int b = 0; b < bone_count; ++b)
+        sum += by_bone(b);
+    for (int e = 0; e < extremity_count; ++e)
+        sum += by_tip(e);
+    return sum;
+}
+
+EnergyParts SkeletonSearch::parts(const Posture& posture) const
+{
+    EnergyParts parts { placed(rig_.skeleton, posture), {}, {}, {}, 0 };
+    const Skeleton& joints = parts.bones.joints;
+    for (int b = 0; b < bone_count; ++b) {
+        parts.by_bone[b] = bone_energy(b, joints.head(b), joints.tail(b), parts.bones.parent_turn(b), joints);
+        if (metric_.figure().covered[b])
+            parts.cover[b] = cover_distances(b, joints.head(b), joints.tail(b));
+    }
+    for (int e = 0; e < extremity_count; ++e)
+        parts.by_tip[e] = tip_energy(parts.bones, e);
+    parts.energy = sum_of(
+        posture, [&](int b) { return parts.by_bone[b]; }, [&](int e) { return parts.by_tip[e]; },
+        [&](CoverDistances& distances, int b) { distances = distances.min(parts.cover[b]); });
+    return parts;
+}
+
+double SkeletonSearch::energy(const Posture& posture, const EnergyParts& near) const
 {
     const PlacedBones bones = placed(rig_.skeleton, posture);
-    double sum = stance_energy(posture) - emptiness(cover_distances(bones, nullptr));
-    for (int b = 0; b < bone_count; ++b)
-        sum += bone_energy(b, bones.joints.head(b), bones.joints.tail(b), bones.parent_turn(b), bones.joints);
-    for (int e = 0; e < extremity_count; ++e)
-        sum += metric_.bare_tip(Extremity(e), bones.joints.tail(bone_before(Extremity(e))), bones.joints.tips[e]);
-    return sum;
+    const Skeleton &joints = bones.joints, &before = near.bones.joints;
+    std::array<bool, bone_count> moved, turned;
+    for (int b = 0; b < bone_count; ++b) {
+        moved[b] = joints.head(b) != before.head(b) || joints.tail(b) != before.tail(b);
+        turned[b] = moved[b] || bones.parent_turn(b).coeffs() != near.bones.parent_turn(b).coeffs();
+    }
+    const bool hips = moved[lhipjoint] || moved[rhipjoint],
+               spine = moved[lowerback] || moved[upperback] || moved[thorax];
+    return sum_of(
+        posture,
+        [&](int b) {  // twins are held alike on either side of the hips; arms keep out of the trunk and point from the shoulder to the cuff
+            const bool is_left = b == lhumerus || b == lradius;
+            const bool looks_at_moved
+                = moved[mirror_of(b)] || hips || (is_arm(b) && (spine || moved[is_left ? lclavicle : rclavicle]));
+            return turned[b] || looks_at_moved
+                ? bone_energy(b, joints.head(b), joints.tail(b), bones.parent_turn(b), joints)
+                : near.by_bone[b];
+        },
+        [&](int e) {
+            const int b = bone_before(Extremity(e));
+            return joints.tail(b) != before.tail(b) || joints.tips[e] != before.tips[e] ? tip_energy(bones, e)
+                                                                                        : near.by_tip[e];
+        },
+        [&](CoverDistances& distances, int b) {
+            if (moved[b])
+                distances = distances.min(cover_distances(b, joints.head(b), joints.tail(b)));
+            else
+                distances = distances.min(near.cover[b]);
+        });
 }
 
 double SkeletonSearch::crossing_cost(const PlacedBones& bones, Extremity extremity) const
@@ -272,27 +337,38 @@ bool SkeletonSearch::fills_tube(const Limb& limb) const
 
 std::vector<SkeletonSearch::Chain> SkeletonSearch::extended(const Chain& chain, const Limb& limb, int link,
                                                             const Vec3& start, const Skeleton& joints,
-                                                            const Reach& reach) const
+                                                            const Reach& reach, double least) const
 {
     const Vec3 clavicle = joints.direction(parent_of(limb.bones[0]));
     const int bone = limb.bones[link];
     const bool explains = chain.distances.size() > 0;
     const bool worn = metric_.figure().covered[bone];
-    const bool forearm = bone == lradius || bone == rradius;
+    const bool forearm = bone == lradius || bone == rradius, is_last = link == 1;
+    const double empty
+        = explains && worn ? emptiness(chain.distances) : 0;  // at most that much is gained by filling it
     std::vector<Chain> result;
     for (const Vec3& direction : directions_about(start, reach.extent, reach.spacing)) {
         if (worn
             && (limits_.excess(bone, chain.turn, direction) > 0 || (forearm && folds_into_chest(clavicle, direction))))
             continue;
+        const Vec3 tail = chain.tail + rig_.skeleton.length(bone) * direction;
+        const double energy
+            = bone_energy(bone, chain.tail, tail, chain.turn, joints, least - chain.score - empty - k_better);
+        if (energy == k_any)
+            continue;
         Chain next = chain;
         next.directions[link] = direction;
-        next.tail = chain.tail + rig_.skeleton.length(bone) * direction;
-        next.score += bone_energy(bone, chain.tail, next.tail, chain.turn, joints);
+        next.tail = tail;
+        next.score += energy;
         if (explains && worn) {
-            lower_distances(next.distances, bone, chain.tail, next.tail);
-            next.score += emptiness(chain.distances) - emptiness(next.distances);
+            next.distances = next.distances.min(cover_distances(bone, chain.tail, next.tail));
+            next.score += empty - emptiness(next.distances);
         }
         next.turn = bone_turn(rig_.skeleton, bone, chain.turn, direction);
+        if (is_last)
+            next.score += tip_energy(limb, next);
+        if (is_last && !reach.exact)  // nothing else speaks against the best
+            least = std::max(least, next.score);
         result.push_back(std::move(next));
     }
     return result;
@@ -328,8 +404,8 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
 
     Chain root { bones.joints.head(upper), bones.parent_turn(upper), { Vec3::Zero(), Vec3::Zero() }, 0, {} };
     if (reach.exact && fills_tube(limb))
-        root.distances = cover_distances(bones, &limb);
-    std::vector<Chain> uppers = extended(root, limb, 0, present.directions[upper], bones.joints, reach);
+        root.distances = cover_distances(bones, limb);
+    std::vector<Chain> uppers = extended(root, limb, 0, present.directions[upper], bones.joints, reach, k_any);
     std::stable_sort(uppers.begin(), uppers.end(), better);
 
     Chain best;
@@ -345,9 +421,7 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
             break;
         kept.push_back(direction);
         const Vec3 start = shortest_arc(present.directions[upper], direction) * present.directions[lower];
-        std::vector<Chain> lowers = extended(first, limb, 1, start, bones.joints, reach);
-        for (Chain& second : lowers)
-            second.score += tip_energy(limb, second);
+        std::vector<Chain> lowers = extended(first, limb, 1, start, bones.joints, reach, found ? best.score : k_any);
         std::stable_sort(lowers.begin(), lowers.end(), better);
         for (const Chain& second : lowers) {
             if (found && second.score <= best.score + k_better)

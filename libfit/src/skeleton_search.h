@@ -4,6 +4,7 @@
 // The search for the posture in which the bones run best through a garment: the energy, and the moves that raise it.
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "bone_metric.h"
@@ -34,6 +35,17 @@ struct Reach {
     bool exact = true;  // no bone may pass through cloth (slower)
 };
 
+using CoverDistances = Eigen::ArrayXf;  // m, from points on the cloth to the nearest worn limb, or to one bone
+
+/// What a posture's energy is made of.
+struct EnergyParts {
+    PlacedBones bones;
+    std::array<double, bone_count> by_bone {};  // m
+    std::array<double, extremity_count> by_tip {};  // m
+    std::array<CoverDistances, bone_count> cover;  // of worn bones
+    double energy = 0;  // m
+};
+
 class SkeletonSearch {
 public:
     /// Keeps references: the rig, the limits and the metric have to live as long.
@@ -41,7 +53,10 @@ public:
 
     /// E of equation (4) and what it leaves open: bare limbs keep away from cloth, poses are human, the garment hangs from
     /// the body, none of it is left empty. Metres, to be maximised. Crossings are counted apart.
-    double energy(const Posture& posture) const;
+    double energy(const Posture& posture) const { return parts(posture).energy; }
+    /// The same to the last bit, given the parts of a posture that may differ in a few bones only: what did not move is not asked again.
+    double energy(const Posture& posture, const EnergyParts& near) const;
+    EnergyParts parts(const Posture& posture) const;
     /// For bones and extremities that pass through cloth: more than any room can repay, but for hands and
     /// feet, which may find none.
     double crossing_cost(const Posture& posture) const;
@@ -77,21 +92,24 @@ public:
 
 private:
     struct Chain;
-    using CoverDistances = Eigen::ArrayXf;  // m, from points on the cloth to the nearest worn limb
+    static constexpr double k_any = -std::numeric_limits<double>::infinity();
 
     double crossing_cost(const PlacedBones& bones, Extremity extremity) const;
     double bone_energy(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn,
-                       const Skeleton& joints) const;
+                       const Skeleton& joints, double least = k_any) const;
     double posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const;
     double cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
     double twin_cost(int bone, const Vec3& direction, const Skeleton& joints) const;
     double stance_energy(const Posture& posture) const;
-    CoverDistances cover_distances(const PlacedBones& bones, const Limb* without) const;
+    CoverDistances cover_distances(const PlacedBones& bones, const Limb& without) const;
     double emptiness(const CoverDistances& distances) const;
-    void lower_distances(CoverDistances& distances, int bone, const Vec3& head, const Vec3& tail) const;
+    CoverDistances cover_distances(int bone, const Vec3& head, const Vec3& tail) const;
+    template <class BoneEnergy, class TipEnergy, class Lower>
+    double sum_of(const Posture& posture, const BoneEnergy& by_bone, const TipEnergy& by_tip, const Lower& lower) const;
+    double tip_energy(const PlacedBones& bones, int extremity) const;
     bool fills_tube(const Limb& limb) const;
     std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start,
-                                const Skeleton& joints, const Reach& reach) const;
+                                const Skeleton& joints, const Reach& reach, double least) const;
     double tip_energy(const Limb& limb, const Chain& chain) const;
     Vec3 tip_of(const Limb& limb, const Chain& chain) const;
 
