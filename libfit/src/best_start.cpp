@@ -92,18 +92,20 @@ std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
     std::vector<Posture> postures;
     for (const double angle : headings(rig, cloth))
         postures.push_back(search.at_ease(Vec3::Zero(), upright(rig, angle)));
-    std::vector<std::vector<Scored>> by_heading(postures.size());
+    std::vector<std::vector<Place>> places(postures.size());
     parallel_for<std::size_t>(postures.size(), [&](std::size_t h) {
-        for (const Place& place :
-             search.trunk_places(room, postures[h], k_place_spacing, k_places_apart, k_places_a_heading)) {
-            postures[h].root = place.at;
-            const Posture with_limbs = with_worn_limbs(search, postures[h], k_coarse_limbs);
-            by_heading[h].push_back({ with_limbs, search.energy(with_limbs) });
-        }
+        places[h] = search.trunk_places(room, postures[h], k_place_spacing, k_places_apart, k_places_a_heading);
     });
     std::vector<Scored> all;
-    for (auto& some : by_heading)
-        all.insert(all.end(), some.begin(), some.end());
+    for (std::size_t h = 0; h < postures.size(); ++h)
+        for (const Place& place : places[h]) {
+            all.push_back({ postures[h] });
+            all.back().posture.root = place.at;
+        }
+    parallel_for<std::size_t>(all.size(), [&](std::size_t i) {
+        all[i].posture = with_worn_limbs(search, all[i].posture, k_coarse_limbs);
+        all[i].score = search.energy(all[i].posture);
+    });
     return all;
 }
 

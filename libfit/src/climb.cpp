@@ -82,13 +82,18 @@ template <class State, class StepTaken, class Taken>
 void climb(const State& present, int freedoms, const Steps& steps, const StepTaken& step_taken, const Taken& taken)
 {
     for (double step = steps.first; step >= steps.last; step *= 0.5)
-        for (bool improves = true; improves;) {
-            improves = false;
+        for (int in_vain = 0; in_vain < freedoms;) {  // freedoms in a row that gave nothing
             State from = present;
-            for (int freedom = 0; freedom < freedoms; ++freedom)
-                improves = step_taken(freedom, step) || step_taken(freedom, -step) || improves;
-            for (State here = present; improves && taken(beyond(from, here)); here = present)
+            bool improves = false;
+            for (int freedom = 0; freedom < freedoms && in_vain < freedoms; ++freedom) {
+                const bool better = step_taken(freedom, step) || step_taken(freedom, -step);
+                in_vain = better ? 0 : in_vain + 1;
+                improves = improves || better;
+            }
+            for (State here = present; improves && taken(beyond(from, here)); here = present) {
                 from = here;
+                in_vain = 0;
+            }
         }
 }
 

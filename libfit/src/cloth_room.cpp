@@ -21,7 +21,7 @@ constexpr double k_largest_grid = 4e6;  // nodes; a garment far too large gets a
 ClothRoom::Parts ClothRoom::parts_of(const TriangleMesh& outward)
 {
     std::optional<ClothTree> tree;
-    std::optional<TriangleTree> triangles;
+    std::optional<CrossingTree> triangles;
     parallel_for<int>(2, [&](int part) {
         if (part == 0)
             triangles.emplace(outward);

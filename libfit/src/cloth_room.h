@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cloth_tree.h"
-#include "nearest.h"
+#include "crossing_tree.h"
 #include "room.h"
 
 namespace fit {
@@ -30,7 +30,7 @@ public:
 private:
     struct Parts {
         ClothTree tree;
-        TriangleTree triangles;
+        CrossingTree triangles;
     };
     ClothRoom(const TriangleMesh& outward, Parts parts);
     static Parts parts_of(const TriangleMesh& outward);
@@ -50,7 +50,7 @@ private:
 
     Vec3 low_, high_, barycentre_;
     ClothTree tree_;
-    TriangleTree triangles_;
+    CrossingTree triangles_;
     Vec3 origin_ = Vec3::Zero();
     double spacing_ = 0;
     Eigen::Vector3i size_ = Eigen::Vector3i::Zero(),

@@ -11,6 +11,7 @@ namespace fit {
 namespace {
 
 constexpr int k_leaf_size = 4;
+constexpr int k_parts = 8;  // of a block
 constexpr float k_pi = float(std::numbers::pi);
 constexpr float k_far = 1.4f;  // radii; beyond, a dipole is good to some per cent
 constexpr float k_tolerance = 1.1f;  // of a distance
@@ -183,28 +184,83 @@ struct ClothTree::Nodes {
             / (squared * squared.sqrt());
     }
 
+    /// One of the eight cubes of 2 x 2 x 2 nodes.
+    using PartValues = Eigen::Array<float, k_parts, 1>;
+    struct Part {
+        PartValues x, y, z;
+        Eigen::Vector3f centre;
+        float radius;
+        PartValues squared_distances(const Eigen::Array<float, 1, 3>& p) const
+        {
+            return (p.x() - x).square() + (p.y() - y).square() + (p.z() - z).square();
+        }
+    };
+    static int node_of(int part, int i)  // bits of both numbers: z, y, x
+    {
+        const auto along = [&](int axis) { return 2 * (part >> axis & 1) + (i >> axis & 1); };
+        return (along(2) * k + along(1)) * k + along(0);
+    }
+    Part part(int number) const
+    {
+        Part part;
+        for (int i = 0; i < k_parts; ++i) {
+            const int node = node_of(number, i);
+            part.x[i] = x[node];
+            part.y[i] = y[node];
+            part.z[i] = z[node];
+        }
+        part.centre = { part.x.mean(), part.y.mean(), part.z.mean() };
+        part.radius = radius / (k - 1);
+        return part;
+    }
+
     Values x, y, z;
     Eigen::Vector3f centre;
     float radius;
 };
 
-// A patch further than `reach` from the block's centre is nearest to none of its nodes: the furthest node has cloth that is nearer.
-void ClothTree::add_nearest(int b, const Nodes& nodes, float& reach, Values& squared) const
+// Those no further than `reach` from the centre.
+void ClothTree::gather(int b, const Eigen::Vector3f& centre, float reach, std::vector<int>& patches) const
 {
     const Ball& ball = balls_[b];
-    const auto distance = [&](const Ball& other) { return (other.centre - nodes.centre).norm(); };
-    if (distance(ball) > reach + ball.radius)
+    if ((ball.centre - centre).norm() > reach + ball.radius)
         return;
     if (ball.right != 0) {
-        const bool left_first = distance(balls_[b + 1]) < distance(balls_[ball.right]);
-        add_nearest(left_first ? b + 1 : ball.right, nodes, reach, squared);
-        add_nearest(left_first ? ball.right : b + 1, nodes, reach, squared);
+        gather(b + 1, centre, reach, patches);
+        gather(ball.right, centre, reach, patches);
         return;
     }
     for (int i = ball.begin; i < ball.end; ++i)
-        if ((patches_[i].centre - nodes.centre).squaredNorm() <= reach * reach)
-            squared = squared.min(nodes.squared_distances(patches_[i].centre));
-    reach = std::min(reach, std::sqrt(squared.maxCoeff()) + nodes.radius);
+        if ((patches_[i].centre - centre).squaredNorm() <= reach * reach)
+            patches.push_back(i);
+}
+
+// A patch further from a cube's centre than the nearest one and the cube's diameter is nearest to none of its nodes: so few are asked by the
+// whole block, and of those fewer by each of its eight parts.
+ClothTree::Values ClothTree::squared_distances(const Nodes& nodes) const
+{
+    constexpr float rounding = 1.0001f;
+    std::vector<int> some;
+    gather(0, nodes.centre, rounding * (distance(nodes.centre.cast<double>()) + 2 * nodes.radius), some);
+    Eigen::Array<float, Eigen::Dynamic, 3> centres(Eigen::Index(some.size()), 3);
+    for (std::size_t i = 0; i < some.size(); ++i)
+        centres.row(Eigen::Index(i)) = patches_[some[i]].centre.transpose();
+
+    Values squared = Values::Constant(std::numeric_limits<float>::max());
+    Eigen::ArrayXf to_middle;
+    for (int part = 0; part < k_parts; ++part) {
+        const Nodes::Part cube = nodes.part(part);
+        to_middle = (centres.col(0) - cube.centre.x()).square() + (centres.col(1) - cube.centre.y()).square()
+            + (centres.col(2) - cube.centre.z()).square();
+        const float reach = rounding * (std::sqrt(to_middle.minCoeff()) + 2 * cube.radius);
+        auto least = Nodes::PartValues(Nodes::PartValues::Constant(std::numeric_limits<float>::max()));
+        for (Eigen::Index i = 0; i < to_middle.size(); ++i)
+            if (to_middle[i] <= reach * reach)
+                least = least.min(cube.squared_distances(centres.row(i)));
+        for (int i = 0; i < k_parts; ++i)
+            squared[Nodes::node_of(part, i)] = least[i];
+    }
+    return squared;
 }
 
 void ClothTree::add_windings(int b, const Nodes& nodes, Values& angles) const
@@ -225,11 +281,8 @@ void ClothTree::add_windings(int b, const Nodes& nodes, Values& angles) const
 ClothTree::Block ClothTree::block(const Vec3& first_node, double spacing) const
 {
     const Nodes nodes(first_node, spacing);
-    Block result { Values::Constant(std::numeric_limits<float>::max()), Values::Zero() };
-    float reach = distance(nodes.centre.cast<double>()) + 2 * nodes.radius;
-    add_nearest(0, nodes, reach, result.distances);
+    Block result { squared_distances(nodes).sqrt(), Values::Zero() };
     add_windings(0, nodes, result.windings);
-    result.distances = result.distances.sqrt();
     result.windings /= 4 * k_pi;
     return result;
 }

@@ -52,7 +52,8 @@ private:
     };
     int build(int begin, int end);
     struct Nodes;
-    void add_nearest(int b, const Nodes& nodes, float& reach, Values& squared) const;
+    void gather(int ball, const Eigen::Vector3f& centre, float reach, std::vector<int>& patches) const;
+    Values squared_distances(const Nodes& nodes) const;
     void add_windings(int ball, const Nodes& nodes, Values& angles) const;
     void look_into(int ball, const Eigen::Vector3f& query, float& nearest) const;
 

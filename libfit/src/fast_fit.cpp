@@ -17,7 +17,9 @@
 #include "error_metric.h"
 #include "fit/error.h"
 #include "garment_type.h"
+#include "nearest.h"
 #include "outward_cloth.h"
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -118,20 +120,38 @@ Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, 
     return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
 }
 
+// What a garment offers.
+struct Seen {
+    std::unique_ptr<const ClothRoom> room;
+    std::vector<Opening> openings;
+};
+
+Seen seen(const TriangleMesh& outward)
+{
+    Seen result;
+    parallel_for<int>(2, [&](int part) {
+        if (part == 0)
+            result.room = std::make_unique<const ClothRoom>(outward);
+        else
+            result.openings = openings_of(outward);
+    });
+    return result;
+}
+
 // One way up of a garment, and how well a body stands in it.
 class Attempt {
 public:
     /// @throws InvalidInput when no body fits into the garment held like this.
     Attempt(const Rig& rig, TriangleMesh outward, GarmentType given, const Progress& progress) :
-        rig_(rig), openings_(openings_of(outward)), guess_(resolved_type(given, openings_)),
-        outward_(std::move(outward)), cloth_(outward_), cues_(cues_of(openings_)), limits_(rig),
-        metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, openings_))),
+        rig_(rig), outward_(std::move(outward)), seen_(seen(outward_)), cloth_(*seen_.room),
+        guess_(resolved_type(given, seen_.openings)), cues_(cues_of(seen_.openings)), limits_(rig),
+        metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, seen_.openings))),
         search_(rig_, limits_, metric_, cues_), start_(best_start(rig_, search_, progress))
     {
         require_fit(search_, start_.posture, sizes(rig_, cloth_));
     }
 
-    bool hangs_upright() const { return fit::hangs_upright(openings_); }
+    bool hangs_upright() const { return fit::hangs_upright(seen_.openings); }
 
     /// The energy but for how high the garment happens to be, m.
     double merit() const { return search_.total(start_.posture) - search_.sag() * cloth_.barycentre().y(); }
@@ -159,10 +179,10 @@ public:
 
 private:
     const Rig& rig_;
-    std::vector<Opening> openings_;
-    TypeGuess guess_;
     TriangleMesh outward_;
-    ClothRoom cloth_;
+    Seen seen_;
+    const ClothRoom& cloth_;
+    TypeGuess guess_;
     GarmentCues cues_;
     JointLimits limits_;
     BoneMetric metric_;

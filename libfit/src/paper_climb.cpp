@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "fit/mesh.h"
 #include "paper_metric.h"
@@ -56,6 +57,11 @@ bool PaperClimb::is_above(const Skeleton& joints, double gain)
         }
         next_.total += next_.delta[s];
     }
+    // First those that promise most: of a step that leads down, few have to be asked.
+    std::sort(moved.begin(), moved.end(), [&](std::size_t a, std::size_t b) {
+        return std::make_pair(present_.delta[a] - next_.delta[a], a)
+            < std::make_pair(present_.delta[b] - next_.delta[b], b);
+    });
     for (const std::size_t s : moved) {
         if (next_.total <= least)
             return false;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "error_metric.h"
-#include "nearest.h"
+#include "vertex_tree.h"
 
 namespace fit {
 
@@ -44,7 +44,7 @@ private:
     double delta(Sample& sample, const Vec3& at, double furthest) const;
 
     Positions positions_, normals_;
-    NearestPoint nearest_;
+    VertexTree nearest_;
     std::vector<Sample> samples_;
     State present_, next_;
 };

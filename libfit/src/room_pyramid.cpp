@@ -12,11 +12,6 @@ constexpr double k_spacing = 0.05;  // m; less than half of what the slimmest tr
 constexpr double k_border = 0.04;  // m; round the garment's box; beyond, everything is outside
 constexpr double k_largest_grid = 3e4;  // nodes; a garment far too large gets a coarser grid, not a slow one
 
-RoomRange joined(const RoomRange& a, const RoomRange& b)
-{
-    return { std::min(a.nearest, b.nearest), std::max(a.furthest, b.furthest), std::max(a.most_inside, b.most_inside) };
-}
-
 template <class Visit>
 void for_each_corner(const Eigen::Vector3i& low, const Eigen::Vector3i& high, const Visit& visit)
 {
@@ -39,8 +34,8 @@ RoomPyramid::RoomPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& hi
     parallel_for<int>(level.size.z(), [&](int z) {
         for_each_corner({ 0, 0, z }, { level.size.x() - 1, level.size.y() - 1, z }, [&](const Eigen::Vector3i& c) {
             const Vec3 place = origin_ + spacing_ * c.cast<double>();
-            const double distance = cloth.distance(place);
-            level.nodes[level.index(c)] = { distance, distance, inside_of(cloth.winding(place)) };
+            const float distance = cloth.distance(place);
+            level.nodes[level.index(c)] = { distance, -distance, -float(inside_of(cloth.winding(place))), 0 };
         });
     });
     levels_.push_back(std::move(level));
@@ -55,9 +50,9 @@ RoomPyramid::Level RoomPyramid::above(const Level& level) const
     for_each_corner(Eigen::Vector3i::Zero(), next.size - Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& c) {
         const Eigen::Vector3i low = 2 * c,
                               high = (low + Eigen::Vector3i::Ones()).cwiseMin(level.size - Eigen::Vector3i::Ones());
-        RoomRange range = level.at(low);
-        for_each_corner(low, high, [&](const Eigen::Vector3i& child) { range = joined(range, level.at(child)); });
-        next.nodes.push_back(range);
+        Least least = level.at(low);
+        for_each_corner(low, high, [&](const Eigen::Vector3i& child) { least = least.min(level.at(child)); });
+        next.nodes.push_back(least);
     });
     return next;
 }
@@ -75,9 +70,9 @@ Room RoomPyramid::at(const Vec3& point) const
         double weight = 1;
         for (int axis = 0; axis < 3; ++axis)
             weight *= corner[axis] ? t[axis] : 1 - t[axis];
-        const RoomRange& node = nodes.at(c + corner);
-        room.distance += weight * node.nearest;
-        room.inside += weight * node.most_inside;
+        const Least& node = nodes.at(c + corner);
+        room.distance += weight * node[0];
+        room.inside -= weight * node[2];
     });
     const double beyond = spacing_ * (wanted - cell).norm();  // outside of the grid
     return { room.distance + beyond, beyond > 0 ? 0.0 : room.inside };
@@ -88,18 +83,24 @@ RoomRange RoomPyramid::within(const Vec3& centre, const Vec3& half_size) const
     const Vec3 last = (levels_[0].size.array() - 1).cast<double>();
     const Vec3 wanted_low = (centre - half_size - origin_) / spacing_,
                wanted_high = (centre + half_size - origin_) / spacing_;
-    const Eigen::Vector3i low = wanted_low.cwiseMax(0).cwiseMin(last).array().floor().cast<int>();
-    const Eigen::Vector3i high = wanted_high.cwiseMax(0).cwiseMin(last).array().ceil().cast<int>();
-    const auto above = [](const Eigen::Vector3i& c, int level) {
-        return Eigen::Vector3i(c.x() >> level, c.y() >> level, c.z() >> level);
-    };
-    int level = 0;  // on which no more than two nodes along each axis cover the box
-    while (level + 1 < int(levels_.size()) && (above(high, level) - above(low, level)).maxCoeff() > 1)
-        ++level;
-    const Eigen::Vector3i first = above(low, level), end = above(high, level);
-    const Level& nodes = levels_[std::size_t(level)];
-    RoomRange range = nodes.at(first);
-    for_each_corner(first, end, [&](const Eigen::Vector3i& c) { range = joined(range, nodes.at(c)); });
+    const Vec3 within_low = wanted_low.cwiseMax(0).cwiseMin(last), within_high = wanted_high.cwiseMax(0).cwiseMin(last);
+    Eigen::Vector3i low = within_low.cast<int>(), high = within_high.cast<int>();  // rounded down, and up
+    for (int axis = 0; axis < 3; ++axis)
+        high[axis] += high[axis] < within_high[axis];
+    std::size_t level = 0;  // on which no more than two nodes along each axis cover the box
+    for (; level + 1 < levels_.size() && (high - low).maxCoeff() > 1; ++level)
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] >>= 1;
+            high[axis] >>= 1;
+        }
+    const Level& nodes = levels_[level];
+    Least least = nodes.at(low);
+    for (int z = low.z(); z <= high.z(); ++z)
+        for (int y = low.y(); y <= high.y(); ++y) {
+            const Least* const row = &nodes.at({ 0, y, z });
+            least = least.min(row[low.x()]).min(row[high.x()]);
+        }
+    RoomRange range { least[0], -least[1], -least[2] };
     const Vec3 beyond = (-wanted_low).cwiseMax(wanted_high - last).cwiseMax(0);
     range.furthest += spacing_ * beyond.norm();
     return range;

@@ -27,15 +27,17 @@ public:
     RoomRange within(const Vec3& centre, const Vec3& half_size) const;
 
 private:
+    /// A range whose extremes are all least: nearest, -furthest, -most_inside. Any number is joined by minima, four at a time.
+    using Least = Eigen::Array4f;
     struct Level {
         Eigen::Vector3i size;
-        std::vector<RoomRange> nodes;  // over 2^level nodes along each axis
+        std::vector<Least> nodes;  // over 2^level nodes along each axis
 
         std::size_t index(const Eigen::Vector3i& c) const
         {
             return (std::size_t(c.z()) * size.y() + c.y()) * size.x() + c.x();
         }
-        const RoomRange& at(const Eigen::Vector3i& c) const { return nodes[index(c)]; }
+        const Least& at(const Eigen::Vector3i& c) const { return nodes[index(c)]; }
     };
     Level above(const Level& level) const;
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crossing_tree.h"
+
+#include <cmath>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
+namespace fit {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr int k_leaf_size = 4;
+constexpr double k_slack = 1e-9;  // m; far more than the few roundings of a box test, far less than a box
+
+Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
+
+// Against boxes, by separating planes: across the box's axes, and across an axis and the segment.
+class SegmentTest {
+public:
+    SegmentTest(const Vec3& from, const Vec3& to) :
+        middle_(0.5 * (from + to)), half_(0.5 * (to - from)), extent_(half_.cwiseAbs())
+    {
+    }
+
+    bool may_meet(const BoxHierarchy::Box& box) const
+    {
+        const Vec3 low = box.min().cast<double>(), high = box.max().cast<double>();
+        const Vec3 size = 0.5 * (high - low) + Vec3::Constant(k_slack), apart = middle_ - 0.5 * (low + high);
+        if ((apart.cwiseAbs().array() > (extent_ + size).array()).any())
+            return false;
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            if (std::abs(apart[j] * half_[k] - apart[k] * half_[j]) > size[j] * extent_[k] + size[k] * extent_[j])
+                return false;
+        }
+        return true;
+    }
+
+private:
+    Vec3 middle_, half_, extent_;
+};
+
+}  // namespace
+
+CrossingTree::CrossingTree(const TriangleMesh& surface)
+{
+    std::vector<BoxHierarchy::Box> boxes;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const auto corner = [&](int k) { return Vec3(surface.positions.row(surface.triangles(f, k))); };
+        const std::array<Vec3, 3> c { corner(0), corner(1), corner(2) };
+        if (CGAL::collinear(point(c[0]), point(c[1]), point(c[2])))
+            continue;
+        triangles_.push_back(c);
+        boxes.push_back(box_about(c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])));
+    }
+    boxes_ = BoxHierarchy(boxes, k_leaf_size);
+}
+
+bool CrossingTree::is_met(const Vec3& from, const Vec3& to) const
+{
+    const std::vector<BoxHierarchy::Node>& nodes = boxes_.nodes();
+    if (from == to || nodes.empty())
+        return false;
+    const SegmentTest test(from, to);
+    const Kernel::Segment_3 segment(point(from), point(to));
+    std::array<int, BoxHierarchy::k_deepest> stack;
+    int size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+        const int n = stack[--size];
+        const BoxHierarchy::Node& node = nodes[n];
+        if (!test.may_meet(node.box))
+            continue;
+        if (node.right != 0) {
+            stack[size++] = node.right;
+            stack[size++] = n + 1;
+            continue;
+        }
+        for (int i = node.begin; i < node.end; ++i) {
+            const auto& [a, b, c] = triangles_[boxes_.order()[i]];
+            if (CGAL::do_intersect(segment, Kernel::Triangle_3(point(a), point(b), point(c))))
+                return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace fit
