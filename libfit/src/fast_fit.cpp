@@ -111,13 +111,26 @@ Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
 }
 
 // Cloth that is tight leaves no choice; where it is wide, the paper's E has a say, and where there is all the room needed, the last.
-Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, const TriangleMesh& outward)
+Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, PaperClimb& paper)
 {
     if (share_of_room(search, posture) < k_tight)
         return posture;
-    PaperClimb paper(outward, search.metric().figure().covered);
     const Posture together = raised(search, posture, paper, k_last_steps);
     return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
+}
+
+// Refined, and raised: what the second asks is made ready meanwhile.
+Posture settled(const SkeletonSearch& search, const Posture& start, const TriangleMesh& outward)
+{
+    std::optional<Posture> posture;
+    std::optional<PaperClimb> paper;
+    parallel_for<int>(2, [&](int part) {
+        if (part == 0)
+            posture = refined(search, start);
+        else
+            paper.emplace(outward, search.metric().figure().covered);
+    });
+    return raised_where_wide(search, *posture, *paper);
 }
 
 // What a garment offers.
@@ -162,7 +175,7 @@ public:
         // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
         const BoneMetric metric(cloth_, figure_of(rig_, bones_inside(search_, start_.posture, k_partly_inside)));
         const SkeletonSearch search(rig_, limits_, metric, cues_);
-        const Posture fitted = raised_where_wide(search, refined(search, start_.posture), outward_);
+        const Posture fitted = settled(search, start_.posture, outward_);
         require_clear(search, fitted);
 
         FitResult result;

@@ -21,7 +21,7 @@ inline double inside_of(double winding)
 inline constexpr double k_largest_outside = 0.1;  // m; further out is not worse: long arms reach beyond their cuffs
 inline constexpr double k_surplus
     = 0.15;  // of the room beyond what the limb needs: keeps bones in the middle, yet a chest
-    // does not draw an arm out of its sleeve
+// does not draw an arm out of its sleeve
 
 /// What distance to the cloth is worth to a point inside, of a limb of this radius, m.
 inline double inside_value(double distance, double radius)
