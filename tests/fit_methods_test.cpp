@@ -10,12 +10,14 @@
 #include <tbb/global_control.h>
 
 #include "../libfit/src/cloth_room.h"
+#include "../libfit/src/crossing_tree.h"
 #include "../libfit/src/nearest.h"
 #include "../libfit/src/paper_climb.h"
 #include "../libfit/src/paper_metric.h"
 #include "../libfit/src/relaxation.h"
 #include "../libfit/src/room_search.h"
 #include "../libfit/src/surface_metric.h"
+#include "../libfit/src/vertex_tree.h"
 #include "fit/error.h"
 #include "fit/rig_body.h"
 #include "fixtures.h"
@@ -65,10 +67,15 @@ TEST(NearestVertex, TreeAndScanAgreeAlsoOnPointsEquallyNear)
     Positions points = random_points(1000, 1);
     points.bottomRows(500) = points.topRows(500);  // each of them twice
     const NearestPoint tree(points);
+    const VertexTree boxes(points);
     const PointScan scan(points);
     const Positions queries = random_points(300, 2);
-    for (Eigen::Index q = 0; q < queries.rows(); ++q)
-        EXPECT_EQ(tree.index(queries.row(q)), scan.index(queries.row(q)));
+    for (Eigen::Index q = 0; q < queries.rows(); ++q) {
+        const int nearest = scan.index(queries.row(q));
+        EXPECT_EQ(tree.index(queries.row(q)), nearest);
+        EXPECT_EQ(boxes.index(queries.row(q), 10), nearest);
+        EXPECT_EQ(boxes.index(queries.row(q), (points.row(nearest) - queries.row(q)).norm()), nearest);
+    }
 }
 
 // Cloth at random: some triangles, as large as sleeves are wide, in a box of a metre.
@@ -96,6 +103,24 @@ protected:
     const RoomSearch search { room, samples, Vec3(0, 1.5, 0) };
 };
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCloth, testing::Range(0u, 12u));
+
+TEST_P(RandomCloth, CrossingsAreThoseOfEveryTriangleByItself)
+{
+    const TriangleTree all(cloth);
+    const CrossingTree boxes(cloth);
+    const Positions ends = random_points(400, GetParam() + 100);
+    int met = 0;
+    for (Eigen::Index i = 0; i < ends.rows(); i += 2) {
+        EXPECT_EQ(boxes.is_met(ends.row(i), ends.row(i + 1)), all.is_met(ends.row(i), ends.row(i + 1)));
+        met += boxes.is_met(ends.row(i), ends.row(i + 1));
+    }
+    EXPECT_GT(met, 0);
+    for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f) {  // along an edge, and touching a corner
+        const Vec3 a = cloth.positions.row(cloth.triangles(f, 0)), b = cloth.positions.row(cloth.triangles(f, 1));
+        EXPECT_TRUE(boxes.is_met(a, b));
+        EXPECT_TRUE(boxes.is_met(a, a + Vec3(0, 0, 1)));
+    }
+}
 
 TEST_P(RandomCloth, ABoundIsNeverBelowAnythingInItsBox)
 {
