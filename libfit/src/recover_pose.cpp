@@ -22,6 +22,14 @@ constexpr double k_moving_friction = 0.25;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
 
+BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
+{
+    BoneTransforms result;
+    for (int b = 0; b < bone_count; ++b)
+        result[b] = to[b] * from[b].inverse();
+    return result;
+}
+
 /// The body on its way from one pose to another.
 class Way {
 public:
@@ -47,14 +55,14 @@ public:
         return creases_.withdrawn(last, collapse(last, rig_.weights, posed(rig_.skeleton, to_)));
     }
 
-    /// Metres that the vertex with the longest way goes.
-    double length() const
+    /// Metres that the vertex of the cloth with the longest way is carried. Bare hands go further, but they carry nothing.
+    double length(const Positions& cloth, const SkinWeights& weights) const
     {
         constexpr int k_chords = 20;
         double sum = 0;
-        Positions before = at(0);
+        Positions before = cloth;
         for (int i = 1; i <= k_chords; ++i) {
-            const Positions here = at(double(i) / k_chords);
+            const Positions here = skin(cloth, weights, between(transforms(0), transforms(double(i) / k_chords)));
             sum += (here - before).rowwise().norm().maxCoeff();
             before = here;
         }
@@ -102,14 +110,6 @@ std::vector<TooTight> too_tight(const std::vector<WornGarment>& worn, const Posi
     return result;
 }
 
-BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
-{
-    BoneTransforms result;
-    for (int b = 0; b < bone_count; ++b)
-        result[b] = to[b] * from[b].inverse();
-    return result;
-}
-
 /// Keeps states on the way, evenly spread.
 class Recording {
 public:
@@ -145,7 +145,8 @@ private:
 double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, const SkinWeights& cloth_weights,
           const RecoverOptions& options, Recording& recording, const Progress& progress)
 {
-    const int steps = std::clamp(int(std::ceil(way.length() / options.step_length)), 1, options.largest_steps);
+    const double length = way.length(motion.cloth(), cloth_weights);
+    const int steps = std::clamp(int(std::ceil(length / options.step_length)), 1, options.largest_steps);
     MotionStep step;
     step.gravity = k_gravity;
     step.friction_share = k_moving_friction;
