@@ -161,11 +161,13 @@ void add_file(RichParameterList& list, const MenuEntry& entry, const MeshModel& 
     const QString beside = QString::fromStdString(rig_file_beside(body).string());
     if (entry.task == Task::save_rig)
         list.addParam(SaveFileParameter(k_file, beside, "*.rig.json", "Rig file",
-                                        "Filters find it again when it is called like the body's file, man.rig.json "
-                                        "beside man.ply"));
+                                        "Without a name it is called like the body's file, man.rig.json beside "
+                                        "man.ply; filters find it there by themselves"));
     if (entry.task == Task::load_rig)
-        list.addParam(OpenFileParameter(k_file, beside, { "*.json" }, "Rig file",
-                                        "What Save Rig wrote, or rig.json by the program garmentfit"));
+        list.addParam(
+            OpenFileParameter(k_file, beside, { "*.json" }, "Rig file",
+                              "What Save Rig wrote, or rig.json by the program garmentfit; without a name the "
+                              "one beside the body's file"));
 }
 
 bool makes_rig(const MenuEntry& entry) { return entry.begins_with_body() || entry.task == Task::load_rig; }
@@ -275,12 +277,15 @@ void read_frames(Choice& choice, const RichParameterList& list, const MenuEntry&
         choice.garment_frame = { read_word(list, k_garment_unit, k_units), read_word(list, k_garment_up, k_axes) };
 }
 
-std::filesystem::path read_file_name(const RichParameterList& list, const MenuEntry& entry)
+/// MeshLab's own dialog begins without a name, whatever the default.
+std::filesystem::path read_file_name(const RichParameterList& list, const MenuEntry& entry, const MeshModel& body)
 {
     const QString name = entry.task == Task::save_rig ? list.getSaveFileName(k_file) : list.getOpenFileName(k_file);
-    if (name.isEmpty())
-        throw InvalidInput("file: no name was given; give one that ends in .rig.json");
-    return name.toStdString();
+    const std::filesystem::path path
+        = name.isEmpty() ? rig_file_beside(body) : std::filesystem::path(name.toStdString());
+    if (path.empty())
+        throw InvalidInput("file: " + name_of(body) + " was not saved yet; give a name that ends in .rig.json");
+    return path;
 }
 
 /// Calls the visitor for each parameter of the schema that an entry shows.
@@ -332,7 +337,7 @@ Choice read_dialog(const MenuEntry& entry, const RichParameterList& list, MeshDo
         choice.worn = read_layer(list, k_worn, document);
     }
     if (entry.task == Task::save_rig || entry.task == Task::load_rig)
-        choice.file = read_file_name(list, entry);
+        choice.file = read_file_name(list, entry, *choice.body);
     read_frames(choice, list, entry);
     describe_entry(entry, choice.parameters, ReadFromDialog(list));
     choice.parameters.fit.type = GarmentType::automatic;  // each garment has its own

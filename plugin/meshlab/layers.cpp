@@ -88,15 +88,12 @@ MeshModel& add_moved_copy(MeshDocument& document, MeshModel& from, const std::st
     return layer;
 }
 
-MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const Skeleton& skeleton)
+MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const Positions& joints)
 {
     MeshModel& layer = add_layer(document, name);
-    std::vector<Vec3> joints { skeleton.root };
-    joints.insert(joints.end(), skeleton.tails.begin(), skeleton.tails.end());
-    joints.insert(joints.end(), skeleton.tips.begin(), skeleton.tips.end());
-    auto vertex = Allocator::AddVertices(layer.cm, joints.size());
-    for (const Vec3& joint : joints)
-        (vertex++)->P() = point_of(joint);
+    Allocator::AddVertices(layer.cm, joints.rows());
+    for (Eigen::Index v = 0; v < joints.rows(); ++v)
+        layer.cm.vert[v].P() = point_of(joints.row(v));
     const auto row_of_tail = [](int bone) { return std::size_t(bone + 1); };
     for (int bone = 0; bone < bone_count; ++bone)
         Allocator::AddEdge(layer.cm, parent_of(bone) < 0 ? 0 : row_of_tail(parent_of(bone)), row_of_tail(bone));

@@ -26,7 +26,8 @@ Positions as_kept(const Positions& positions);
 MeshModel& add_moved_copy(MeshDocument& document, MeshModel& from, const std::string& name, const Positions& positions);
 
 /// A new layer with a vertex for each joint and tip, and an edge for each bone and extremity.
-MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const Skeleton& skeleton);
+/// @param joints  in the order of rows_of(Skeleton)
+MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const Positions& joints);
 
 /// One value for each vertex, under a name.
 void add_attribute(MeshModel& layer, const std::string& name, const Eigen::VectorXd& values);

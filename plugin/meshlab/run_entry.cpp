@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_entry.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
@@ -9,6 +8,7 @@
 
 #include "dialog.h"
 #include "filters/outcome.h"
+#include "filters/rig_arrays.h"
 #include "filters/rig_file.h"
 #include "fit/certificate.h"
 #include "fit/fit_map.h"
@@ -249,14 +249,9 @@ private:
         return kept(add_moved_copy(document_, *choice_.body, name, fitting_->body_frame.to_file(in_metres)));
     }
 
-    void add_bones(const std::string& name, Skeleton joints)
+    void add_bones(const std::string& name, const Skeleton& skeleton)
     {
-        const auto in_layer
-            = [&](Vec3& joint) { joint = fitting_->body_frame.to_file(Positions(joint.transpose())).row(0); };
-        in_layer(joints.root);
-        std::for_each(joints.tails.begin(), joints.tails.end(), in_layer);
-        std::for_each(joints.tips.begin(), joints.tips.end(), in_layer);
-        kept(add_skeleton(document_, name, joints));
+        kept(add_skeleton(document_, name, fitting_->body_frame.to_file(rows_of(skeleton))));
     }
 
     void add_rig()

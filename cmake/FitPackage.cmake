@@ -1,0 +1,15 @@
+# A Debian package of all that is installed: cpack -G DEB in the build folder.
+set(CPACK_PACKAGE_NAME garmentfit)
+set(CPACK_PACKAGE_CONTACT "The GarmentFit authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+if(FIT_MESHLAB)  # the plugin is made for this MeshLab and no other
+    set(CPACK_DEBIAN_PACKAGE_DEPENDS "meshlab (>= 2020.09), meshlab (<< 2020.10)")
+    get_filename_component(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${MESHLAB_COMMON_LIB} DIRECTORY)
+endif()
+include(CPack)
