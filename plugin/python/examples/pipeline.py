@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The four steps as a pipeline of plain VTK, drawn in four moments of the way back to the body's own pose.
+
+    python pipeline.py SAMPLES PICTURE.png
+"""
+import sys
+from pathlib import Path
+
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (draws)
+
+from garmentfit.vtk import DrapeGarment, FitSkeleton, RecoverPose, RigBody
+
+MOMENTS = 4
+
+
+def reader(path):
+    ply = vtkPLYReader()
+    ply.SetFileName(str(path))
+    return ply
+
+
+def chain(body, garment):
+    rig, fit, drape, recover = RigBody(), FitSkeleton(type="skirt"), DrapeGarment(), RecoverPose(frames=MOMENTS)
+    rig.SetInputConnection(body.GetOutputPort())
+    fit.SetInputConnection(0, rig.GetOutputPort())
+    fit.SetInputConnection(1, garment.GetOutputPort())
+    for above, below in ((fit, drape), (drape, recover)):
+        below.SetInputConnection(0, above.GetOutputPort(0))
+        below.SetInputConnection(1, above.GetOutputPort(1))
+    return [rig, fit, drape, recover]  # whoever keeps the last one keeps them all
+
+
+def actor(data, color):
+    mapper, drawn = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputDataObject(data)
+    mapper.ScalarVisibilityOff()
+    drawn.SetMapper(mapper)
+    drawn.GetProperty().SetColor(color)
+    return drawn
+
+
+def moment(recover, i):
+    recover.UpdateTimeStep(i / (MOMENTS - 1))
+    renderer = vtkRenderer()
+    renderer.SetViewport(i / MOMENTS, 0, (i + 1) / MOMENTS, 1)
+    renderer.SetBackground(1, 1, 1)
+    for port, color in ((0, (0.87, 0.72, 0.6)), (1, (0.2, 0.35, 0.6))):
+        now = recover.GetOutput(port).NewInstance()
+        now.ShallowCopy(recover.GetOutput(port))
+        renderer.AddActor(actor(now, color))
+    renderer.GetActiveCamera().SetPosition(1.2, 0.4, 3)
+    renderer.ResetCamera()
+    return renderer
+
+
+def main(samples, picture):
+    steps = chain(reader(samples / "walking_woman.ply"), reader(samples / "skirt.ply"))
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetSize(1600, 700)
+    for i in range(MOMENTS):
+        window.AddRenderer(moment(steps[-1], i))
+    window.Render()
+    pixels, writer = vtkWindowToImageFilter(), vtkPNGWriter()
+    pixels.SetInput(window)
+    writer.SetInputConnection(pixels.GetOutputPort())
+    writer.SetFileName(picture)
+    writer.Write()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2])
