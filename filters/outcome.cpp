@@ -43,6 +43,9 @@ std::string why_too_small(const Dressing& end, const std::string& last, const st
         text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
     else
         text << " for the body's own pose";
+    if (!parts.empty())
+        text << "; a garment " << std::ceil(100 * end.too_tight.front().enlargement)
+             << "% larger would lie there unstretched";
     return text.str();
 }
 

@@ -74,6 +74,9 @@ void describe(Options& o, Visitor&& visit)
     visit(o.largest_stretch,
           About { "largest_stretch", "Largest stretch", "", 0.01, 2,
                   "A garment is too small where the body would stretch it by more than this share" });
+    visit(o.largest_enlargement,
+          About { "enlarge", "Enlarge", "", 0, 1,
+                  "A garment that is too small to be put on is made larger, all of it alike, by up to this share" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, DrapeOptions>* = nullptr>

@@ -74,6 +74,24 @@ TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
     EXPECT_TRUE(result.garments[0].certificate.clean());  // as far as it came, nothing crosses
 }
 
+TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
+{
+    const Dressing d = person();
+    const GarmentMesh small = trousers(-0.012);
+    DrapeOptions options = short_settling();
+    options.cloth.largest_enlargement = 1;
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), small, options);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.size_reached, 1);
+    ASSERT_EQ(result.garments.size(), 1u);
+    const double size = result.garments[0].size;
+    EXPECT_GT(size, 1.05);
+    EXPECT_LT(size, 1.5);
+    EXPECT_EQ(result.garments[0].rest.positions, size * small.positions);
+    options.cloth.largest_enlargement = 0.5 * (size - 1);
+    EXPECT_LT(drape_garment(d.rig, d.body, Pose(), small, options).size_reached, 1);
+}
+
 TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
 {
     const Dressing d = person();

@@ -38,12 +38,13 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     EXPECT_EQ(count_of(RigOptions()), 2u);
     [[maybe_unused]] const auto [type, method, iterations, nearest] = FitOptions();
     EXPECT_EQ(count_of(FitOptions()), 4u);
-    [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest] = ClothOptions();
-    EXPECT_EQ(count_of(ClothOptions()), 8u);
+    [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, enlargement]
+        = ClothOptions();
+    EXPECT_EQ(count_of(ClothOptions()), 9u);
     [[maybe_unused]] const auto [drape_cloth, inflation, settling] = DrapeOptions();
-    EXPECT_EQ(count_of(DrapeOptions()), 8u + 2u);
+    EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
     [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, frames] = RecoverOptions();
-    EXPECT_EQ(count_of(RecoverOptions()), 8u + 4u);
+    EXPECT_EQ(count_of(RecoverOptions()), 9u + 4u);
 }
 
 TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)

@@ -23,10 +23,11 @@ TEST(DressingOutcome, NamesThePartsAtWhichAGarmentIsTooSmall)
     Scene scene = draped_scene();
     scene.draped->certified = false;
     scene.draped->size_reached = 0.876;
-    scene.draped->too_tight = { { 0, "chest", 0.031 } };
+    scene.draped->too_tight = { { 0, "chest", 0.031, 0.034 } };
     EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::too_small);
     EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
-              "coat is too small at chest by 31 mm; the body fits in at 87% of its size");
+              "coat is too small at chest by 31 mm; the body fits in at 87% of its size; a garment 4% larger would lie "
+              "there unstretched");
 }
 
 TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)

@@ -73,7 +73,14 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
 {
     const Untangled cloth = parted({ weld_.gathered(start), rest_.triangles }, obstacle);
     x_ << cloth.positions, obstacle.positions;
-    energy_.emplace(rest_, ties_across(cloth.left, rest_.triangles), options_);
+    ties_ = ties_across(cloth.left, rest_.triangles);
+    energy_.emplace(rest_, ties_, options_);
+}
+
+void ClothMotion::set_rest(const GarmentMesh& rest)
+{
+    rest_ = weld_.gathered(rest);
+    energy_.emplace(rest_, ties_, options_);
 }
 
 Positions ClothMotion::cloth() const { return weld_.spread(x_.topRows(cloth_vertices_)); }

@@ -36,6 +36,9 @@ public:
     ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                 const ClothOptions& options);
 
+    /// From now on the cloth wants this rest shape: the same garment in another size.
+    void set_rest(const GarmentMesh& rest);
+
     /// Moves cloth and obstacle together by these displacements (n x 3, m x 3), as far as each vertex freely may. What was
     /// lagging before keeps its lag, and nothing is left behind by it.
     void carry(const Positions& cloth, const Positions& obstacle);
@@ -65,7 +68,8 @@ private:
     int cloth_vertices_;
     Contact contact_;
     Positions x_;  // cloth, then obstacle
-    std::optional<ClothEnergy> energy_;  // made when it is known what crosses at the start
+    std::vector<std::pair<int, int>> ties_;  // across what crosses at the start
+    std::optional<ClothEnergy> energy_;  // made when the ties are known
     Positions velocity_;  // of the cloth, m/s
 };
 

@@ -75,8 +75,49 @@ void require_free(const TriangleMesh& collapsed, const GarmentMesh& garment, con
                        + "; fit the skeleton to this garment first, or give its type");
 }
 
+/// A garment that may be made larger while the body grows in it, all of it alike.
+class Grading {
+public:
+    Grading(const GarmentMesh& given, const SkinWeights& follows, const Skeleton& skeleton, int index,
+            const ClothOptions& cloth) :
+        given_(given),
+        follows_(follows), skeleton_(skeleton), index_(index), cloth_(cloth),
+        tightness_(given, follows, skeleton, index)
+    {
+    }
+
+    /// Whether the garment is big enough for what it is drawn over now, if need be after having been enlarged.
+    bool fits(ClothMotion& motion)
+    {
+        const double stretch = tightness_.largest_stretch(motion.cloth());
+        if (stretch <= cloth_.largest_stretch)
+            return true;
+        // to half of the stretch that is allowed, so that it is not due again at the next step
+        const double larger = size_ * (1 + stretch) / (1 + 0.5 * cloth_.largest_stretch);
+        if (larger > 1 + cloth_.largest_enlargement)
+            return false;
+        size_ = larger;
+        motion.set_rest(garment());
+        tightness_ = Tightness(garment(), follows_, skeleton_, index_);
+        return true;
+    }
+
+    const Tightness& tightness() const { return tightness_; }
+    double size() const { return size_; }
+    GarmentMesh garment() const { return { size_ * given_.positions, given_.triangles }; }
+
+private:
+    const GarmentMesh& given_;
+    const SkinWeights& follows_;
+    Skeleton skeleton_;
+    int index_;
+    const ClothOptions& cloth_;
+    double size_ = 1;
+    Tightness tightness_;
+};
+
 /// Inflates the body inside the garment. @return the size reached: 1, or less where the cloth would stretch too far.
-double inflate(ClothMotion& motion, const Inflatable& inside, const Tightness& tightness, const DrapeOptions& options,
+double inflate(ClothMotion& motion, const Inflatable& inside, Grading& grading, const DrapeOptions& options,
                const Progress& progress)
 {
     MotionStep step;
@@ -87,7 +128,7 @@ double inflate(ClothMotion& motion, const Inflatable& inside, const Tightness& t
         const Positions target = inside.at(size);
         step.obstacle_target = &target;
         motion.advance(step);
-        if (tightness.largest_stretch(motion.cloth()) > options.cloth.largest_stretch)
+        if (!grading.fits(motion))
             return size < 1 ? size : 1 - 1e-3;
     }
     motion.carry_obstacle(inside.withdrawn);
@@ -107,14 +148,14 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     const Eigen::Index body_vertices = body.surface.positions.rows();
     const SkinWeights follows
         = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
-    const Tightness tightness(garment, follows, posed(rig.skeleton, pose), int(worn.size()));
+    Grading grading(garment, follows, posed(rig.skeleton, pose), int(worn.size()), options.cloth);
     ClothMotion motion(garment, garment.positions, collapsed, options.cloth);
 
     DrapeResult result;
-    result.size_reached = inflate(motion, inside, tightness, options, progress.part(0, 0.7));
+    result.size_reached = inflate(motion, inside, grading, options, progress.part(0, 0.7));
     if (result.size_reached < 1)
-        result.too_tight
-            = tightness.too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch, result.size_reached);
+        result.too_tight = grading.tightness().too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch,
+                                                         result.size_reached);
     else
         result.speed = settle(motion, inside.full.positions, options.settling_steps, progress.part(0.7, 1)).speed;
 
@@ -122,7 +163,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     result.body = reached.topRows(body_vertices);
     result.garments = worn;
     put_positions(result.garments, reached.bottomRows(reached.rows() - body_vertices));
-    result.garments.push_back({ garment, motion.cloth(), {} });
+    result.garments.push_back({ grading.garment(), motion.cloth(), {}, grading.size() });
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     if (result.size_reached == 1)
         result.held_back = held_back(result.body, inside.full.positions.topRows(body_vertices), rig.weights);

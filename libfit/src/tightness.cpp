@@ -75,7 +75,7 @@ double Tightness::largest_stretch(const Positions& positions) const
 TooTight Tightness::missing(const Round& round, double stretch, double size) const
 {
     const double needed = round.girth / size, unstretched = round.girth / (1 + stretch);
-    return { index_, part_name(round.part), needed - unstretched };
+    return { index_, part_name(round.part), needed - unstretched, needed / unstretched - 1 };
 }
 
 std::vector<TooTight> Tightness::too_tight(const Positions& positions, double allowed, double size) const

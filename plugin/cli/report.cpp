@@ -74,7 +74,9 @@ Json too_tight_of(const Dressing& dressing, std::size_t garment, double metres_p
     Json parts = Json::array();
     for (const TooTight& tight : dressing.too_tight)
         if (tight.garment == int(garment))
-            parts.push_back({ { "part", tight.part }, { "missing_girth", tight.missing_girth / metres_per_unit } });
+            parts.push_back({ { "part", tight.part },
+                              { "missing_girth", tight.missing_girth / metres_per_unit },
+                              { "enlargement", tight.enlargement } });
     return parts;
 }
 
@@ -147,6 +149,7 @@ Json garment_of(const Session& session, std::size_t i)
         json["worn"] = i < end->garments.size();
         if (i < end->garments.size()) {
             put_certificate(json, end->garments[i].certificate, metres_per_unit);
+            json["size"] = end->garments[i].size;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
             put_ease(json, *end, i, metres_per_unit);
         }

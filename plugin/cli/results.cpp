@@ -159,6 +159,17 @@ void write_garments_as_given(const Session& session, const fs::path& folder)
         garment.file.write(folder / garment.name(), garment.file.positions());
 }
 
+/// As given, or as large as they were made.
+void write_rest_shapes(const Session& session, const fs::path& folder)
+{
+    fs::create_directories(folder);
+    for (std::size_t i = 0; i < session.garments.size(); ++i) {
+        const std::vector<WornGarment>& worn = session.scene.draped->garments;
+        const GarmentFile& garment = session.garments[i];
+        garment.file.write(folder / garment.name(), (i < worn.size() ? worn[i].size : 1) * garment.file.positions());
+    }
+}
+
 void write_fitted_body(const Session& session, const fs::path& folder)
 {
     const Rig& rig = *session.scene.rig;
@@ -202,6 +213,9 @@ void add_doubts(Session& session)
         if (i < scene.fits.size() && scene.fits[i].type_margin < k_doubt)
             session.warnings.push_back("the type of " + name + " is hardly more than a guess, "
                                        + std::string(name_of(scene.fits[i].type)) + "; give --type");
+        if (const Dressing* end = final_dressing(scene); end && i < end->garments.size() && end->garments[i].size > 1)
+            session.warnings.push_back(name + " was made "
+                                       + std::to_string(std::lround(100 * (end->garments[i].size - 1))) + "% larger");
         if (const Dressing* end = final_dressing(scene); end && i >= end->garments.size())
             session.warnings.push_back(name + " was not put on, for what is under it was not certified");
     }
@@ -219,7 +233,7 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_fitted_body(session, folder);
     }
     if (command == "dress" || command == "drape")
-        write_garments_as_given(session, folder / "rest");
+        write_rest_shapes(session, folder / "rest");
     if (command == "dress" && scene.recovered) {
         write_garments(session, *scene.draped, folder / "fitted");
         write_body(session, *scene.draped, folder / "fitted");

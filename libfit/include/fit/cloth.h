@@ -27,6 +27,7 @@ struct ClothOptions {
     double friction = 0.4;  ///< of cloth on body, dimensionless
     double largest_stretch
         = 0.15;  ///< a garment is too small where a part of the body stretches it by more, on the mean
+    double largest_enlargement = 0;  ///< share by which a garment that is too small may be made larger, all of it alike
 };
 
 /// Density, stiffness and friction that are still the defaults above (cotton's) become those of `options.fabric`; what was

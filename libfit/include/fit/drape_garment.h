@@ -35,6 +35,7 @@ struct TooTight {
     int garment;  ///< which, from the inside out
     std::string part;  ///< "chest", "waist", "hips", "left thigh", ...
     double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
+    double enlargement;  ///< share by which the garment would have to be larger for that
 };
 
 /// Where cloth keeps a part of the body from its place.
@@ -45,9 +46,10 @@ struct HeldBack {
 
 /// A garment on a body, layer upon layer.
 struct WornGarment {
-    GarmentMesh rest;  ///< as given: edge lengths and folds
+    GarmentMesh rest;  ///< as given, or enlarged: edge lengths and folds
     Positions positions;  ///< as worn, n x 3
     Certificate certificate;
+    double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
 };
 
 struct DrapeResult {

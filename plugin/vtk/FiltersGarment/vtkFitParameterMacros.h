@@ -44,7 +44,8 @@
     vtkFitNumberMacro(StretchStiffness, double, stretch_stiffness);                                                    \
     vtkFitNumberMacro(BendStiffness, double, bend_stiffness);                                                          \
     vtkFitNumberMacro(Friction, double, friction);                                                                     \
-    vtkFitNumberMacro(LargestStretch, double, largest_stretch)
+    vtkFitNumberMacro(LargestStretch, double, largest_stretch);                                                        \
+    vtkFitNumberMacro(Enlarge, double, enlarge)
 
 #define vtkFitDrapeParametersMacro()                                                                                   \
     vtkFitClothParametersMacro();                                                                                      \
