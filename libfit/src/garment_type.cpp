@@ -150,9 +150,7 @@ std::optional<GarmentType> type_of(Piece& piece)
 {
     if (!piece.legs.empty())
         return type_with_legs(piece);
-    if (piece.sleeves.empty() && piece.others.size() < 2)  // a way in, but none out
-        return {};
-    if (piece.others.empty())
+    if (piece.others.size() < (piece.sleeves.empty() ? 2 : 1))  // a way in, but none out
         return {};
     const Opening& lowest = piece.others.front();
     const Opening& highest = piece.others.back();

@@ -59,10 +59,11 @@ public:
     double length(const Positions& cloth, const SkinWeights& weights) const
     {
         constexpr int k_chords = 20;
+        const BoneTransforms start = transforms(0);
         double sum = 0;
         Positions before = cloth;
         for (int i = 1; i <= k_chords; ++i) {
-            const Positions here = skin(cloth, weights, between(transforms(0), transforms(double(i) / k_chords)));
+            const Positions here = skin(cloth, weights, between(start, transforms(double(i) / k_chords)));
             sum += (here - before).rowwise().norm().maxCoeff();
             before = here;
         }

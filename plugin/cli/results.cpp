@@ -152,21 +152,15 @@ void write_last_state(const Session& session, Dressing& dressing, const fs::path
             fs::remove(folder / session.garments[i].name());
 }
 
-void write_garments_as_given(const Session& session, const fs::path& folder)
-{
-    fs::create_directories(folder);
-    for (const GarmentFile& garment : session.garments)
-        garment.file.write(folder / garment.name(), garment.file.positions());
-}
-
-/// As given, or as large as they were made.
+/// The rest shapes: as given, or as large as they were made to be put on.
 void write_rest_shapes(const Session& session, const fs::path& folder)
 {
     fs::create_directories(folder);
+    const std::optional<Dressing>& draped = session.scene.draped;
     for (std::size_t i = 0; i < session.garments.size(); ++i) {
-        const std::vector<WornGarment>& worn = session.scene.draped->garments;
         const GarmentFile& garment = session.garments[i];
-        garment.file.write(folder / garment.name(), (i < worn.size() ? worn[i].size : 1) * garment.file.positions());
+        const double size = draped && i < draped->garments.size() ? draped->garments[i].size : 1;
+        garment.file.write(folder / garment.name(), size * garment.file.positions());
     }
 }
 
@@ -229,7 +223,7 @@ void write_results(Session& session, std::string_view command, const fs::path& f
     if (command == "rig")
         write_skinned_glb(folder / "rigged.glb", scene.body->surface, *scene.rig);
     if (command == "fit") {
-        write_garments_as_given(session, folder);
+        write_rest_shapes(session, folder);
         write_fitted_body(session, folder);
     }
     if (command == "dress" || command == "drape")
