@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "filters/outcome.h"
+#include "filters/moment.h"
 #include "filters/rig_file.h"
-#include "fit/certificate.h"
 #include "fit/error.h"
 #include "fit/reconstruct.h"
 #include "fit/skinned_gltf.h"
@@ -128,18 +127,6 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
     }
 }
 
-WornGarment worn_garment(const Session& session, std::size_t i, const fs::path& folder, const TriangleMesh& body,
-                         const std::vector<TriangleMesh>& under)
-{
-    const GarmentMesh& rest = session.scene.garments[i].mesh;
-    const fs::path path = folder / session.garments[i].name();
-    const Positions positions = session.body.frame.frame.to_metres(MeshFile::read(path).positions());
-    if (positions.rows() != rest.positions.rows())
-        throw InvalidInput(path.string() + " has " + std::to_string(positions.rows()) + " vertices, as given it has "
-                           + std::to_string(rest.positions.rows()) + "; give a folder that garmentfit drape wrote");
-    return { rest, positions, certify(body, rest, positions, under) };
-}
-
 }  // namespace
 
 std::vector<std::string> Session::garment_names() const
@@ -204,19 +191,10 @@ void read_draped(Session& session, const fs::path& folder)
         throw InvalidInput(folder.string() + " has no folder rest; give a folder that garmentfit drape wrote");
     read_continued(session, folder, folder / "rest");
 
-    const Scene& scene = session.scene;
-    Dressing draped;
-    draped.pose = scene.fits.back().pose;
-    draped.body
-        = skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, draped.pose));
-    const TriangleMesh body { draped.body, scene.body->surface.triangles };
-    std::vector<TriangleMesh> under;
-    for (std::size_t i = 0; i < session.garments.size(); ++i) {
-        draped.garments.push_back(worn_garment(session, i, folder, body, under));
-        under.push_back({ draped.garments[i].positions, draped.garments[i].rest.triangles });
-    }
-    draped.certified = all_clean(draped.garments);
-    session.scene.draped = std::move(draped);
+    std::vector<Positions> worn;
+    for (const GarmentFile& garment : session.garments)
+        worn.push_back(session.body.frame.frame.to_metres(MeshFile::read(folder / garment.name()).positions()));
+    session.scene.draped = dressing_from(session.scene, session.scene.fits.back().pose, worn, session.garment_names());
 }
 
 }  // namespace fit::cli

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The four steps as a pipeline of plain VTK, drawn in four moments of the way back to the body's own pose.
 
-    python pipeline.py SAMPLES PICTURE.png
+    python pipeline.py PICTURE.png BODY.ply GARMENT.ply TYPE
 """
 import sys
-from pathlib import Path
 
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
@@ -18,12 +17,12 @@ MOMENTS = 4
 
 def reader(path):
     ply = vtkPLYReader()
-    ply.SetFileName(str(path))
+    ply.SetFileName(path)
     return ply
 
 
-def chain(body, garment):
-    rig, fit, drape, recover = RigBody(), FitSkeleton(type="skirt"), DrapeGarment(), RecoverPose(frames=MOMENTS)
+def chain(body, garment, type_):
+    rig, fit, drape, recover = RigBody(), FitSkeleton(type=type_), DrapeGarment(), RecoverPose(frames=MOMENTS)
     rig.SetInputConnection(body.GetOutputPort())
     fit.SetInputConnection(0, rig.GetOutputPort())
     fit.SetInputConnection(1, garment.GetOutputPort())
@@ -56,8 +55,9 @@ def moment(recover, i):
     return renderer
 
 
-def main(samples, picture):
-    steps = chain(reader(samples / "walking_woman.ply"), reader(samples / "skirt.ply"))
+def main(picture, body, garment, type_):
+    sources = reader(body), reader(garment)  # VTK's Python does not keep what nobody holds
+    steps = chain(*sources, type_)
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetSize(1600, 700)
@@ -72,4 +72,4 @@ def main(samples, picture):
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2])
+    main(*sys.argv[1:])

@@ -29,12 +29,16 @@ class Mesh:
     def __repr__(self) -> str:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
 
-    def write(self, path: Union[str, "os.PathLike[str]"], positions: npt.ArrayLike) -> None:
+    def write(self, path: Union[str, "os.PathLike[str]"], positions: Optional[npt.ArrayLike] = None) -> None:
         """Writes the file that this mesh was read from with other positions and nothing else changed: same vertices,
-        order, UVs, groups and materials; normals are turned along."""
-        if self._file is None:
-            raise _core.InvalidInput("this mesh was not read from a file; only such a one can be written back")
-        self._file.write(Path(path), _numbers(positions, "positions"))
+        order, UVs, groups and materials; normals are turned along. A mesh that was made of arrays becomes a PLY file."""
+        moved = self.positions if positions is None else _numbers(positions, "positions")
+        if self._file is not None:
+            self._file.write(Path(path), moved)
+        elif Path(path).suffix.lower() == ".ply":
+            _core.write_mesh(Path(path), moved, self.triangles)
+        else:
+            raise _core.InvalidInput(f"{path}: a mesh that was not read from a file is written as .ply")
 
 
 def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False) -> Mesh:

@@ -96,35 +96,44 @@ class _Result:
     @property
     def body(self) -> Positions:
         """The body's vertices in the pose that was come to."""
-        return self._scene.body_positions()
+        return self._scene.moment().body()
 
     @property
     def joint_names(self) -> List[str]:
-        return _core.joint_names()
+        return _core.skeleton_arrays()["points"]["JointName"]
 
     @property
     def joints(self) -> Positions:
         """In the order of joint_names, in that pose."""
-        return self._scene.skeleton()
+        return self._scene.moment().joints()
 
     @property
     def bones(self) -> List[Tuple[str, int, int]]:
         """Name, joint it comes from, joint it goes to; after the bones the tips of head, hands and feet."""
-        return _core.bones()
+        names = _core.skeleton_arrays()["cells"]["BoneName"]
+        return [(name, *line) for name, line in zip(names, _core.skeleton_lines())]
 
 
 class Rig(_Result):
     """The skeleton of a body and how the skin hangs on it."""
 
     @property
-    def joint_indices(self) -> npt.NDArray[np.int32]:
+    def joint_indices(self) -> npt.NDArray[np.uint16]:
         """Bones (n x 4) that each vertex hangs on."""
-        return self._scene.rig_arrays()["JointIndices"]
+        return self._scene.rig_arrays()["points"]["JointIndices"]
 
     @property
     def joint_weights(self) -> npt.NDArray[np.float64]:
         """How much (n x 4); rows sum to 1."""
-        return self._scene.rig_arrays()["JointWeights"]
+        return self._scene.rig_arrays()["points"]["JointWeights"]
+
+
+class Conflict(NamedTuple):
+    """Why no one pose serves two garments."""
+
+    bone: str
+    garments: Tuple[int, int]  #: from the inside out; in the first one the bone would lack room
+    angle: float  #: degrees between the bone's directions in their own poses
 
 
 class Fit(_Result):
@@ -133,6 +142,11 @@ class Fit(_Result):
     @property
     def garments(self) -> List[FitOfGarment]:
         return [FitOfGarment(**fit) for fit in self._scene.fits()]
+
+    @property
+    def conflicts(self) -> List[Conflict]:
+        """Empty where all garments turn the bones alike."""
+        return [Conflict(*conflict) for conflict in self._scene.conflicts()]
 
 
 class Dressing(_Result):

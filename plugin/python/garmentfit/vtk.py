@@ -12,29 +12,26 @@ Parameters are attributes of the schema's names, or keyword arguments:
 """
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Tuple
+import sys
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter  # noqa: F401  (numpy must be there before util.numpy_support)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray, vtkUnsignedShortArray
-from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet,
-                                           vtkPolyData)
-from vtkmodules.vtkCommonExecutionModel import vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkPolyData)
+from vtkmodules.vtkCommonExecutionModel import (vtkDemandDrivenPipeline, vtkExecutive,
+                                                vtkStreamingDemandDrivenPipeline)
 
 from . import _core
 from ._core import Cancelled, InvalidInput, SolverFailure
-
-_RIG_FIELDS = ("RigJoints", "RigAxes", "RigRadii", "RigSideMargin", "BodyFrame")
-_RIG_POINTS = ("JointIndices", "JointWeights")
-
 
 # ---- VTK's arrays as numpy's, and back --------------------------------------------------------------------------
 
 def _put(attributes: Any, name: str, values: Any) -> None:
     """Numbers without a copy, or texts."""
-    if len(values) and isinstance(values[0], str) or isinstance(values, list) and not values:
+    if isinstance(values, list):
         array = vtkStringArray()
         for text in values:
             array.InsertNextValue(text)
@@ -44,12 +41,26 @@ def _put(attributes: Any, name: str, values: Any) -> None:
     attributes.AddArray(array)
 
 
+def _put_all(data: vtkPolyData, arrays: Dict[str, Dict[str, Any]]) -> None:
+    for attributes, kind in ((data.GetPointData(), "points"), (data.GetCellData(), "cells"), (data.GetFieldData(), "field")):
+        for name, values in arrays[kind].items():
+            _put(attributes, name, values)
+
+
 def _numbers(attributes: Any, name: str) -> Optional[np.ndarray]:
     array = attributes.GetArray(name)
     if array is None:
         return None
     values = vtk_to_numpy(array).astype(np.float64, copy=False)
     return np.ascontiguousarray(values.reshape(len(values), -1))
+
+
+def _find_in(data: vtkPolyData) -> Callable[[str], Optional[np.ndarray]]:
+    """By name, among the arrays of points and of the field."""
+    def find(name: str) -> Optional[np.ndarray]:
+        found = _numbers(data.GetPointData(), name)
+        return _numbers(data.GetFieldData(), name) if found is None else found
+    return find
 
 
 def _mesh(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
@@ -107,23 +118,27 @@ def _copy_leaves(source: vtkDataObject, target: vtkDataObject) -> List[vtkPolyDa
     return copies
 
 
+def _under_name(array: Any, name: str) -> Any:
+    """The same memory under another name; the array itself stays as it is in the input."""
+    same = array.NewInstance()
+    same.ShallowCopy(array)
+    same.SetName(name)
+    return same
+
+
 def _restore(data: vtkPolyData, kept: str) -> None:
     array = data.GetPointData().GetArray(kept)
     if array is not None:
-        data.GetPointData().RemoveArray(kept)
         points = vtkPoints()
-        points.SetData(array)
+        points.SetData(_under_name(array, "Points"))
+        data.GetPointData().RemoveArray(kept)
         data.SetPoints(points)
 
 
 def _move(data: vtkPolyData, kept: str, positions: np.ndarray) -> None:
     """New points; the old ones stay as an array, the same memory."""
     if not data.GetPointData().HasArray(kept):
-        own = data.GetPoints().GetData()
-        same = own.NewInstance()
-        same.ShallowCopy(own)
-        same.SetName(kept)
-        data.GetPointData().AddArray(same)
+        data.GetPointData().AddArray(_under_name(data.GetPoints().GetData(), kept))
     points = vtkPoints()
     points.SetData(numpy_to_vtk(positions, deep=0))
     data.SetPoints(points)
@@ -249,8 +264,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
         self.error = None
         try:
             scene = self._updated(data[0], data[1] if len(data) > 1 else None)
-            time = self._time(outputs.GetInformationObject(0))
-            self._write(scene, time, data, made)
+            self._write(scene, self._time(request, outputs), data, made)
+            self._tell("WarningEvent", scene.verdict()["note"] if "dressing" in self.MAKES else "")
             return 1
         except Cancelled:
             self._empty(made)
@@ -258,10 +273,16 @@ class _FitFilter(VTKPythonAlgorithmBase):
         except (InvalidInput, SolverFailure) as error:
             self.error = str(error)
             self._empty(made)
-            self._complain(self.error)
+            self._tell("ErrorEvent", self.error)
             return 0
+        except BaseException:  # VTK prints it: Ctrl-C, an observer's mistake
+            self._empty(made)
+            raise
 
-    def _time(self, info: Any) -> float:
+    @staticmethod
+    def _time(request: Any, outputs: Any) -> float:
+        """That the port wants which asked."""
+        info = outputs.GetInformationObject(max(request.Get(vtkExecutive.FROM_OUTPUT_PORT()), 0))
         key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
         return info.Get(key) if info.Has(key) else 1.0
 
@@ -270,12 +291,11 @@ class _FitFilter(VTKPythonAlgorithmBase):
         for output in outputs:
             output.Initialize()
 
-    def _complain(self, text: str) -> None:
-        """An ErrorEvent of the vtkAlgorithm; to the standard error stream where nobody listens."""
-        import sys
-        if self.HasObserver("ErrorEvent"):
-            self.InvokeEvent("ErrorEvent")
-        else:
+    def _tell(self, event: str, text: str) -> None:
+        """An event of the vtkAlgorithm; to the standard error stream where nobody listens."""
+        if text and self.HasObserver(event):
+            self.InvokeEvent(event)
+        elif text:
             print(f"garmentfit: {type(self).__name__}: {text}", file=sys.stderr)
 
     # computing
@@ -326,19 +346,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
             joints = {name: [float(x) for x in place] for name, place in self.joints.items()}
             return _core.Scene.of_body(positions, triangles, self.unit, self.up, self.front, joints)
         positions, triangles = _mesh(body, "the body", "OwnPosition")
-        arrays = {name: _numbers(body.GetFieldData(), name) for name in _RIG_FIELDS}
-        arrays.update({name: _numbers(body.GetPointData(), name) for name in _RIG_POINTS})
-        missing = [name for name, values in arrays.items() if values is None]
-        if missing:
-            raise InvalidInput(f"the body has no array {missing[0]}; connect the body that RigBody made")
-        scene = _core.Scene.of_body(positions, triangles, "auto", "auto", "auto", {}, arrays["BodyFrame"])
-        scene.set_rig(arrays)
-        if "fits" in self.TAKES:
-            poses = _numbers(body.GetFieldData(), "FitPoses")
-            if poses is None:
-                raise InvalidInput("the body has no array FitPoses; connect the body that FitSkeleton made")
-            scene.set_fit_poses(poses)
-        return scene
+        return _core.Scene.of_rigged(positions, triangles, _find_in(body), "fits" in self.TAKES)
 
     def _read_garments(self, scene: Any, body: vtkPolyData, garments: vtkDataObject) -> Any:
         scene = scene.copy()
@@ -346,95 +354,51 @@ class _FitFilter(VTKPythonAlgorithmBase):
         layers = _leaves(garments)
         for name, garment in layers:
             positions, triangles = _mesh(garment, name, "RestPosition" if given else "")
-            frame = _numbers(garment.GetFieldData(), "GarmentFrame") if given else None
-            scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up, name, frame)
+            scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up, name,
+                              _find_in(garment) if given else None)
         if "worn" in self.TAKES:
-            pose = _numbers(body.GetFieldData(), "DressedPose")
-            if pose is None:
-                raise InvalidInput("the body has no array DressedPose; connect the body that DrapeGarment made")
-            scene.set_worn(pose, [_mesh(garment, name)[0] for name, garment in layers])
+            scene.set_worn(_find_in(body), [_mesh(garment, name)[0] for name, garment in layers])
         return scene
 
     # writing
     def _write(self, scene: Any, time: float, inputs: List[Any], outputs: List[Any]) -> None:
-        dressing = "dressing" in self.MAKES
-        frames = scene.frames() if dressing and "frames" in self.MAKES and time < 1 else []
-        frame = min(frames, key=lambda f: abs(f[0] - time)) if frames else None
-        self._write_body(scene, frame, inputs[0], outputs[0])
+        now = scene.moment(time if "frames" in self.MAKES else 1.0)
+        self._write_body(scene, now, inputs[0], outputs[0])
         if len(inputs) > 1:
-            self._write_garments(scene, frame, _copy_leaves(inputs[1], outputs[1]))
-        _draw_skeleton(outputs[self.skeleton_port], scene.skeleton(frame[0] if frame else None))
+            self._write_garments(scene, now, _copy_leaves(inputs[1], outputs[1]))
+        _draw_skeleton(outputs[self.skeleton_port], now.joints())
         if "frames" in self.MAKES and self._values["frames"]:
             for output in outputs:
                 output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
 
-    def _write_body(self, scene: Any, frame: Any, given: vtkPolyData, body: vtkPolyData) -> None:
+    def _write_body(self, scene: Any, now: Any, given: vtkPolyData, body: vtkPolyData) -> None:
         body.ShallowCopy(given)
         if "rig" in self.MAKES:
             body.GetPointData().RemoveArray("OwnPosition")  # of an earlier dressing
-            arrays = scene.rig_arrays()
-            for name in _RIG_FIELDS:
-                _put(body.GetFieldData(), name, arrays[name])
-            _put(body.GetPointData(), "JointIndices", arrays["JointIndices"].astype(np.uint16))
-            _put(body.GetPointData(), "JointWeights", arrays["JointWeights"])
+            _put_all(body, scene.rig_arrays())
         else:
             _restore(body, "OwnPosition")
         if "fits" in self.MAKES:
-            _put(body.GetFieldData(), "FitPoses", scene.fit_poses())
-        if frame or scene.moved:
-            _move(body, "OwnPosition", frame[1] if frame else scene.body_positions())
+            _put_all(body, scene.fit_arrays())
+        if now.is_body_moved:
+            _move(body, "OwnPosition", now.body())
         if "dressing" in self.MAKES:
-            verdict = scene.verdict()
-            field = body.GetFieldData()
-            _put(field, "DressedPose", scene.pose_at(frame[0]) if frame else scene.pose())
-            _put(field, "Certified", np.array([verdict["certified"]], dtype=np.int32))
-            for name, key in (("SizeReached", "size_reached"), ("PoseReached", "pose_reached"), ("Speed", "speed")):
-                _put(field, name, np.array([verdict[key]]))
-            _put(field, "Note", [verdict["note"]])
-            _put(field, "HeldBackPart", [part for part, _ in verdict["held_back"]])
-            _put(field, "HeldBackDistance", np.array([distance for _, distance in verdict["held_back"]]))
+            _put_all(body, now.dressing_arrays())
 
-    def _write_garments(self, scene: Any, frame: Any, garments: List[vtkPolyData]) -> None:
-        worn = scene.garments(frame[0] if frame else None) if "dressing" in self.MAKES else []
+    def _write_garments(self, scene: Any, now: Any, garments: List[vtkPolyData]) -> None:
         for i, garment in enumerate(garments):
-            field = garment.GetFieldData()
-            _put(field, "GarmentFrame", scene.garment_frame(i))
+            _put_all(garment, scene.garment_arrays(i))
             if "fits" in self.TAKES or "worn" in self.TAKES:
                 _restore(garment, "RestPosition")
             else:
-                garment.GetPointData().RemoveArray("RestPosition")
+                garment.GetPointData().RemoveArray("RestPosition")  # of an earlier dressing
             if "fits" in self.MAKES:
-                fit = scene.fits()[i]
-                _put(field, "FoundType", [fit["type"]])
-                _put(field, "FoundTypeMargin", np.array([fit["type_margin"]]))
-            if "dressing" not in self.MAKES:
-                continue
-            _put(field, "Worn", np.array([i < len(worn)], dtype=np.int32))
-            if i < len(worn):
-                _write_worn(garment, worn[i])
-
-
-_COUNTS = (("BodyCrossings", "body_crossings"), ("SelfCrossings", "self_crossings"),
-           ("InputSelfCrossings", "input_self_crossings"), ("LayerCrossings", "layer_crossings"),
-           ("VerticesInside", "vertices_inside"))
-_MEASURES = (("GarmentGap", "smallest_gap"), ("StrainMedian", "strain_median"), ("StrainP95", "strain_p95"),
-             ("StrainMax", "strain_max"))
-
-
-def _write_worn(garment: vtkPolyData, worn: Dict[str, Any]) -> None:
-    _move(garment, "RestPosition", worn["positions"])
-    for name in ("ease", "strain", "pressure"):
-        _put(garment.GetPointData(), name.capitalize(), worn[name])
-    field = garment.GetFieldData()
-    for name, key in _COUNTS:
-        _put(field, name, np.array([worn["certificate"][key]], dtype=np.int32))
-    for name, key in _MEASURES:
-        _put(field, name, np.array([worn["certificate"][key]]))
-    _put(field, "GirthPlace", [girth[0] for girth in worn["girths"]])
-    _put(field, "GirthBody", np.array([girth[1] for girth in worn["girths"]]))
-    _put(field, "GirthGarment", np.array([girth[2] for girth in worn["girths"]]))
-    _put(field, "TooTightPart", [part for part, _ in worn["too_tight"]])
-    _put(field, "MissingGirth", np.array([girth for _, girth in worn["too_tight"]]))
+                _put_all(garment, scene.found_arrays(i))
+            if "dressing" in self.MAKES:
+                _put_all(garment, now.worn_arrays(i))
+                if i < now.worn:
+                    _move(garment, "RestPosition", now.garment(i))
+                    _put_all(garment, now.map_arrays(i))
 
 
 def _draw_skeleton(skeleton: vtkPolyData, joints: np.ndarray) -> None:
@@ -442,20 +406,12 @@ def _draw_skeleton(skeleton: vtkPolyData, joints: np.ndarray) -> None:
     points, lines = vtkPoints(), vtkCellArray()
     points.SetData(numpy_to_vtk(joints, deep=0))
     skeleton.SetPoints(points)
-    bones = _core.bones()
-    parents = np.full(len(joints), -1, dtype=np.int32)
-    for _, start, end in bones:
+    for start, end in _core.skeleton_lines():
         lines.InsertNextCell(2)
         lines.InsertCellPoint(start)
         lines.InsertCellPoint(end)
-        parents[end] = start
     skeleton.SetLines(lines)
-    _put(skeleton.GetPointData(), "JointName", _core.joint_names())
-    _put(skeleton.GetPointData(), "JointId", np.arange(len(joints), dtype=np.int32))
-    _put(skeleton.GetPointData(), "JointParent", parents)
-    tips = len(bones) - 5
-    _put(skeleton.GetCellData(), "BoneId", np.array([i if i < tips else -1 for i in range(len(bones))], dtype=np.int32))
-    _put(skeleton.GetCellData(), "BoneName", [name for name, *_ in bones])
+    _put_all(skeleton, _core.skeleton_arrays())
 
 
 class RigBody(_FitFilter):

@@ -1,30 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The package as its users call it. GARMENTFIT_SAMPLES names the folder of sample meshes."""
-import os
+"""The package as its users call it."""
 import signal
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import QUICK
 
 import garmentfit
 from garmentfit import Cancelled, Garment, InvalidInput, Mesh, _core
-
-SAMPLES = Path(os.environ.get("GARMENTFIT_SAMPLES", Path(__file__).parents[3] / "docs" / "samples"))
-QUICK = dict(type="skirt", settling_steps=2, recovery_settling_steps=2)
-
-
-@pytest.fixture(scope="session")
-def body():
-    return garmentfit.read_mesh(SAMPLES / "walking_woman.ply")
-
-
-@pytest.fixture(scope="session")
-def skirt():
-    return garmentfit.read_mesh(SAMPLES / "skirt.ply")
 
 
 @pytest.fixture(scope="session")
@@ -92,6 +77,9 @@ def test_numbers_that_are_right_already_are_not_copied(body):
     (lambda b, g: garmentfit.rig_body((np.full((9, 3), np.nan), b.triangles[:1] * 0)), "finite"),
     (lambda b, g: garmentfit.rig_body(42), "int is no mesh"),
     (lambda b, g: garmentfit.read_mesh("nobody.ply"), "nobody.ply"),
+    (lambda b, g: garmentfit.dress(b, []), "garment"),
+    (lambda b, g: garmentfit.dress(b, (np.zeros((0, 3)), np.zeros((0, 3), dtype=int))), "garment"),
+    (lambda b, g: garmentfit.rig_body((b.positions, b.triangles + 10**6)), "outside 0..2999"),
 ])
 def test_bad_input_is_refused_in_one_line(call, part, body, skirt):
     with pytest.raises(InvalidInput) as refused:
@@ -145,12 +133,20 @@ def test_types_are_shipped():
     assert (folder / "py.typed").exists() and "class Scene" in (folder / "_core.pyi").read_text()
 
 
-def test_the_module_is_a_program_too(tmp_path):
-    run = [sys.executable, "-m", "garmentfit", "dress"]
-    files = [str(SAMPLES / "walking_woman.ply"), str(SAMPLES / "skirt.ply")]
-    quick = ["--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps", "2"]
-    done = subprocess.run(run + files + quick + ["-o", str(tmp_path / "out")], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert garmentfit.read_mesh(tmp_path / "out" / "skirt.ply").positions.shape == (3055, 3)
-    bad = subprocess.run(run + ["nobody.ply", files[1], "-o", str(tmp_path / "none")], capture_output=True, text=True)
-    assert bad.returncode == 2 and "nobody.ply" in bad.stderr and not (tmp_path / "none").exists()
+def test_meshes_come_back_from_files(body, skirt, tmp_path):
+    skirt.write(tmp_path / "moved.ply", skirt.positions + 1)
+    assert np.allclose(garmentfit.read_mesh(tmp_path / "moved.ply").positions, skirt.positions + 1)
+    made = Mesh(body.positions / 3, body.triangles)
+    made.write(tmp_path / "made.ply")
+    back = garmentfit.read_mesh(tmp_path / "made.ply")
+    assert np.array_equal(back.positions, made.positions) and np.array_equal(back.triangles, made.triangles)
+    with pytest.raises(InvalidInput, match="ply"):
+        made.write(tmp_path / "made.obj")
+    with pytest.raises(InvalidInput):
+        skirt.write(tmp_path / "nowhere" / "skirt.ply", skirt.positions)
+
+
+def test_layers_say_whether_one_pose_serves_them(body, skirt):
+    fit = garmentfit.fit_skeleton(garmentfit.rig_body(body), [Garment(skirt, "skirt"), Garment(skirt, "skirt")])
+    assert [garment.type for garment in fit.garments] == ["skirt", "skirt"]
+    assert fit.conflicts == []

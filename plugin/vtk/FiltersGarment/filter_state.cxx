@@ -2,13 +2,13 @@
 #include "filter_state.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "filters/joint_names.h"
 #include "filters/outcome.h"
-#include "fit/error.h"
-#include "scene_data.h"
+#include "filters/scene_arrays.h"
+#include "named_arrays.h"
+#include "polydata.h"
 
 #include "vtkDataObject.h"
 #include "vtkPointData.h"
@@ -19,8 +19,6 @@ namespace {
 
 constexpr const char* k_own = "OwnPosition";
 constexpr const char* k_rest = "RestPosition";
-constexpr const char* k_body_frame = "BodyFrame";
-constexpr const char* k_garment_frame = "GarmentFrame";
 
 bool contains(const std::vector<Data>& list, Data data)
 {
@@ -78,27 +76,40 @@ void FilterState::read_body(vtkPolyData& data)
     forget_from(Stage::rig);
     scene_ = Scene();
     if (takes(Data::rig)) {
-        const TriangleMesh mesh = mesh_at(data, k_own, "the body");
-        scene_.rig = rig_in(data);
-        body_frame_ = frame_in(data, k_body_frame);
-        scene_.body = make_body(body_frame_.to_metres(mesh.positions), mesh.triangles);
+        const FindArray find = find_in(data);
+        body_frame_ = body_frame_from(find);
+        make_scene_body(mesh_at(data, k_own, "the body"));
+        scene_.rig = rig_from(find, data.GetNumberOfPoints());
+        if (takes(Data::fits))
+            scene_.fits = fits_from(find);
     } else {
         const TriangleMesh mesh = mesh_of(data, "the body");
         body_frame_ = body_frame(mesh.positions, mesh.triangles, frame_choice("")).frame;
-        scene_.body = make_body(body_frame_.to_metres(mesh.positions), mesh.triangles);
+        make_scene_body(mesh);
+        parameters.rig.front = given_front();
+        parameters.rig.joints = given_joints();
     }
-    if (takes(Data::fits))
-        scene_.fits = fits_in(data);
-    if (makes(Data::rig)) {
-        RigOptions& known = parameters.rig;
-        const std::string front = choice("Front");
-        known.front.reset();
-        if (front != "auto")
-            known.front = body_frame_.rotation() * axis_of(front);
-        known.joints = {};
-        for (const auto& [name, place] : joints)
-            joint_of(known.joints, name) = body_frame_.to_metres(Positions(place.transpose())).row(0);
-    }
+}
+
+void FilterState::make_scene_body(const TriangleMesh& mesh)
+{
+    scene_.body = make_body(body_frame_.to_metres(mesh.positions), mesh.triangles);
+}
+
+std::optional<Vec3> FilterState::given_front() const
+{
+    const std::string front = choice("Front");
+    if (front == "auto")
+        return {};
+    return Vec3(body_frame_.rotation() * axis_of(front));
+}
+
+GivenJoints FilterState::given_joints() const
+{
+    GivenJoints given;
+    for (const auto& [name, place] : joints)
+        joint_of(given, name) = body_frame_.to_metres(Positions(place.transpose())).row(0);
+    return given;
 }
 
 void FilterState::read_garments(vtkDataObject& data)
@@ -107,37 +118,25 @@ void FilterState::read_garments(vtkDataObject& data)
     scene_.garments.clear();
     garment_frames_.clear();
     garment_names_ = garment_names_in(data);
-    const bool as_given = takes(Data::fits) || takes(Data::draped);
+    const bool known = takes(Data::fits) || takes(Data::draped);
     for (vtkPolyData* garment : garments_in(data)) {
         const std::string name = called(garment_names_, scene_.garments.size());
-        const TriangleMesh mesh = as_given ? mesh_at(*garment, k_rest, name) : mesh_of(*garment, name);
-        const Frame frame = as_given && has_frame(*garment, k_garment_frame)
-            ? frame_in(*garment, k_garment_frame)
-            : garment_frame(mesh.positions, mesh.triangles, body_frame_, frame_choice("Garment")).frame;
-        garment_frames_.push_back(frame);
+        const TriangleMesh mesh = known ? mesh_at(*garment, k_rest, name) : mesh_of(*garment, name);
+        const std::optional<Frame> frame = known ? garment_frame_from(find_in(*garment)) : std::nullopt;
+        garment_frames_.push_back(
+            frame ? *frame : garment_frame(mesh.positions, mesh.triangles, body_frame_, frame_choice("Garment")).frame);
         scene_.garments.push_back(
-            { make_garment(frame.to_metres(mesh.positions), mesh.triangles), given_type(*garment) });
+            { make_garment(garment_frames_.back().to_metres(mesh.positions), mesh.triangles), given_type(*garment) });
     }
 }
 
 /// The garments as they are worn in the pose that the body was left in.
 void FilterState::read_worn(vtkPolyData& body, vtkDataObject& garments)
 {
-    Dressing draped;
-    draped.pose = pose_in(body);
-    const Rig& rig = *scene_.rig;
-    draped.body = skin(scene_.body->surface.positions, rig.weights, bone_transforms(rig.skeleton, draped.pose));
-    const TriangleMesh skinned { draped.body, scene_.body->surface.triangles };
-    std::vector<TriangleMesh> under;
-    for (vtkPolyData* garment : garments_in(garments)) {
-        const std::size_t i = draped.garments.size();
-        const Positions positions = body_frame_.to_metres(mesh_of(*garment, called(garment_names_, i)).positions);
-        const GarmentMesh& rest = scene_.garments[i].mesh;
-        draped.garments.push_back({ rest, positions, certify(skinned, rest, positions, under) });
-        under.push_back({ positions, rest.triangles });
-    }
-    draped.certified = all_clean(draped.garments);
-    scene_.draped = std::move(draped);
+    std::vector<Positions> worn;
+    for (vtkPolyData* garment : garments_in(garments))
+        worn.push_back(body_frame_.to_metres(mesh_of(*garment, called(garment_names_, worn.size())).positions));
+    scene_.draped = dressing_from(scene_, dressed_pose_from(find_in(body)), worn, garment_names_);
 }
 
 // ---- computing -------------------------------------------------------------------------------------------------------
@@ -249,94 +248,57 @@ const ClothOptions& FilterState::cloth() const
     return filter.has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
 }
 
-const Dressing* FilterState::end() const
-{
-    return makes(Data::draped) || makes(Data::recovered) ? final_dressing(scene_) : nullptr;
-}
+Moment FilterState::moment(double time) const { return moment_of(scene_, time, cloth()); }
 
-/// The state on the way that is nearest to a time; none at the end, which is the result itself.
-const RecoverFrame* FilterState::frame_at(double time) const
-{
-    const Dressing* dressing = end();
-    if (!dressing || dressing->frames.empty() || time >= 1)
-        return nullptr;
-    return &*std::min_element(dressing->frames.begin(), dressing->frames.end(),
-                              [time](const RecoverFrame& a, const RecoverFrame& b) {
-                                  return std::abs(a.share - time) < std::abs(b.share - time);
-                              });
-}
-
-Pose FilterState::pose_at(double time) const
-{
-    if (const RecoverFrame* frame = frame_at(time))
-        return slerp(scene_.draped->pose, Pose(), frame->share);
-    if (const Dressing* dressing = end())
-        return dressing->pose;
-    return scene_.fits.empty() ? Pose() : scene_.fits.back().pose;
-}
-
-void FilterState::write_body(vtkPolyData& body, double time) const
+void FilterState::write_body(vtkPolyData& body, const Moment& now) const
 {
     const TriangleMesh& own = scene_.body->surface;
-    const Rig& rig = *scene_.rig;
     if (makes(Data::rig)) {
         body.GetPointData()->RemoveArray(k_own);  // of an earlier dressing
-        put_frame(body, k_body_frame, body_frame_);
-        put_rig(body, rig);
-    } else
+        put(body, arrays_of(*scene_.rig, body_frame_));
+    } else {
         restore_points(body, k_own);
+    }
     if (makes(Data::fits))
-        put_fits(body, scene_.fits);
-
-    const RecoverFrame* frame = frame_at(time);
-    const Dressing* dressing = end();
-    const Positions now = frame ? frame->body
-        : dressing              ? dressing->body
-                                : skin(own.positions, rig.weights, bone_transforms(rig.skeleton, pose_at(time)));
-    if (now != own.positions)
-        move_points(body, k_own, now, own.triangles, body_frame_);
-    if (dressing) {
-        put_pose(body, pose_at(time));
-        put_dressing(body, *dressing, note(), body_frame_.metres_per_unit);
-    }
+        put(body, arrays_of_fits(scene_));
+    if (now.body != own.positions)
+        move_points(body, k_own, now.body, own.triangles, body_frame_);
+    if (const Dressing* dressing = final_dressing(scene_))
+        put(body, arrays_of(*dressing, now.pose, garment_names_, body_frame_));
 }
 
-void FilterState::write_garments(const std::vector<vtkPolyData*>& garments, double time) const
+void FilterState::write_garments(const std::vector<vtkPolyData*>& garments, const Moment& now) const
 {
-    const RecoverFrame* frame = frame_at(time);
-    const Dressing* dressing = end();
     for (std::size_t i = 0; i < garments.size(); ++i) {
-        vtkPolyData& garment = *garments[i];
-        put_frame(garment, k_garment_frame, garment_frames_[i]);
-        if (makes(Data::fits))
-            put_fit(garment, scene_.fits[i]);
+        put(*garments[i], arrays_of(garment_frames_[i]));
         if (takes(Data::fits) || takes(Data::draped))
-            restore_points(garment, k_rest);
+            restore_points(*garments[i], k_rest);
         else
-            garment.GetPointData()->RemoveArray(k_rest);  // of an earlier dressing
-        if (!dressing)
-            continue;
-        put_worn(garment, *dressing, i, body_frame_.metres_per_unit);
-        if (i >= dressing->garments.size())
-            continue;
-        WornGarment worn = dressing->garments[i];
-        if (frame)
-            worn.positions = frame->garments[i];
-        move_points(garment, k_rest, worn.positions, worn.rest.triangles, body_frame_);
-        put_map(garment,
-                frame ? fit_map({ frame->body, scene_.body->surface.triangles }, worn, cloth()) : dressing->maps[i],
-                body_frame_.metres_per_unit);
+            garments[i]->GetPointData()->RemoveArray(k_rest);  // of an earlier dressing
+        if (makes(Data::fits))
+            put(*garments[i], arrays_of(scene_.fits[i]));
+        if (const Dressing* dressing = final_dressing(scene_))
+            write_worn(*garments[i], *dressing, i, now);
     }
 }
 
-void FilterState::write_skeleton(vtkPolyData& skeleton, double time) const
+void FilterState::write_worn(vtkPolyData& garment, const Dressing& dressing, std::size_t i, const Moment& now) const
 {
-    draw_skeleton(skeleton, posed(scene_.rig->skeleton, pose_at(time)), body_frame_);
+    put(garment, arrays_of_worn(dressing, i, body_frame_));
+    if (i >= now.garments.size())
+        return;
+    move_points(garment, k_rest, now.garments[i], scene_.garments[i].mesh.triangles, body_frame_);
+    put(garment, arrays_of(now.maps[i], body_frame_));
+}
+
+void FilterState::write_skeleton(vtkPolyData& skeleton, const Moment& now) const
+{
+    draw_skeleton(skeleton, posed(scene_.rig->skeleton, now.pose), body_frame_);
 }
 
 std::string FilterState::note() const
 {
-    const Dressing* dressing = end();
+    const Dressing* dressing = final_dressing(scene_);
     return dressing && !dressing->certified ? explain(*dressing, garment_names_) : "";
 }
 

@@ -6,11 +6,13 @@
 #define filter_state_h
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "filters/filters.h"
 #include "filters/frame_choice.h"
+#include "filters/moment.h"
 
 #include "vtkType.h"
 
@@ -37,10 +39,12 @@ public:
     /// @throws InvalidInput, SolverFailure, Cancelled; what was computed until then is kept.
     void update(vtkPolyData& body, vtkDataObject* garments, const Progress& progress);
 
-    /// Fills outputs that are shallow copies of the inputs, in the state at `time`.
-    void write_body(vtkPolyData& body, double time) const;
-    void write_garments(const std::vector<vtkPolyData*>& garments, double time) const;
-    void write_skeleton(vtkPolyData& skeleton, double time) const;
+    /// What the outputs show at a time.
+    Moment moment(double time) const;
+    /// Fills outputs that are shallow copies of the inputs.
+    void write_body(vtkPolyData& body, const Moment& now) const;
+    void write_garments(const std::vector<vtkPolyData*>& garments, const Moment& now) const;
+    void write_skeleton(vtkPolyData& skeleton, const Moment& now) const;
     /// One line where garments could not be put on as they should; else empty.
     std::string note() const;
 
@@ -57,6 +61,9 @@ private:
     };
 
     void read_body(vtkPolyData& data);
+    void make_scene_body(const TriangleMesh& mesh);
+    std::optional<Vec3> given_front() const;
+    GivenJoints given_joints() const;
     void read_garments(vtkDataObject& data);
     void read_worn(vtkPolyData& body, vtkDataObject& garments);
     void forget_from(Stage stage);
@@ -70,9 +77,7 @@ private:
     std::string choices_of_body() const;
 
     const ClothOptions& cloth() const;
-    const Dressing* end() const;
-    const RecoverFrame* frame_at(double time) const;
-    Pose pose_at(double time) const;
+    void write_worn(vtkPolyData& garment, const Dressing& dressing, std::size_t i, const Moment& now) const;
 
     Scene scene_;
     Frame body_frame_;

@@ -3,7 +3,6 @@
 
 #include "filter_state.h"
 #include "fit/error.h"
-#include "scene_data.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -324,12 +323,13 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
         this->State->update(*body, garments, fit::Progress([this](double fraction, std::string_view stage) {
             return this->GoesOn(fraction, std::string(stage));
         }));
+        const fit::Moment now = this->State->moment(time);
         vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
         dressed->ShallowCopy(body);
-        this->State->write_body(*dressed, time);
+        this->State->write_body(*dressed, now);
         if (garments)
-            this->State->write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), time);
-        this->State->write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), time);
+            this->State->write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), now);
+        this->State->write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), now);
         for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfOutputPorts(); ++port)
             vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
         if (const std::string note = this->State->note(); !note.empty())

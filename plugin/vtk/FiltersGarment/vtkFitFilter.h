@@ -12,6 +12,7 @@
  * - point data `OwnPosition`: the points as given, where they were moved
  * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `DressedPose`: in metres with +y up;
  *   `BodyFrame`: metres per unit, and the up axis, of the body as given
+ * - field data where several garments were fitted: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle` (degrees)
  * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex),
  *   `HeldBackPart`, `HeldBackDistance`, `Note`: one line where it is not certified
  *

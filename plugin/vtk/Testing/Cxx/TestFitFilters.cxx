@@ -431,7 +431,7 @@ TEST(FitSkeleton, RefusesABodyWithoutARigOrWithAnothers)
     fit->SetInputData(0, body());
     fit->SetInputData(1, shorts());
     fit->Update();
-    EXPECT_NE(errors.heard->GetErrorMessage().find("vtkRigBody"), std::string::npos);
+    EXPECT_NE(errors.heard->GetErrorMessage().find("Rig Body"), std::string::npos);
     errors.heard->Clear();
 
     vtkNew<vtkRigBody> rig;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <oneapi/tbb/global_control.h>
+#include <unistd.h>
+
+#include "command_line.h"
+#include "filters/outcome.h"
+#include "filters/rig_file.h"
+#include "fit/error.h"
+#include "interruption.h"
+#include "output_folder.h"
+#include "progress_bar.h"
+#include "report.h"
+#include "results.h"
+#include "session.h"
+
+namespace fit::cli {
+namespace {
+
+constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
+
+/// What the user knows about the body's bones.
+void read_bones(Call& call, Session& session)
+{
+    const Frame& frame = session.body.frame.frame;
+    if (!call.front.empty() && call.front != "auto")
+        call.parameters.rig.front = frame.rotation() * axis_of(call.front);
+    if (!call.joints.empty())
+        call.parameters.rig.joints = read_joints(call.joints, frame);
+    if (!call.rig.empty() && !read_rig(session, call.rig))
+        call.parameters.rig.joints = read_joints(call.rig, frame);
+}
+
+Session read(Call& call)
+{
+    Session session;
+    if (call.filter->name == "drape") {
+        read_fitted(session, call.from);
+    } else if (call.filter->name == "recover") {
+        read_draped(session, call.from);
+    } else {
+        read_body(session, call.body, call.body_frame, call.reconstruct);
+        read_bones(call, session);
+        for (std::size_t i = 0; i < call.garments.size(); ++i)
+            add_garment(session, call.garments[i],
+                        i < call.types.size() ? garment_type_of(call.types[i]) : GarmentType::automatic,
+                        call.garment_frame);
+    }
+    return session;
+}
+
+/// Which filters to run: each finds what it needs, or it stands in the scene already.
+std::vector<std::string_view> filters_for(const Call& call, const Session& session)
+{
+    if (call.filter->name == "fit" && !session.scene.rig)
+        return { "rig", "fit" };
+    if (call.filter->name == "dress" && session.scene.rig)
+        return { "fit", "drape", "recover" };
+    return { call.filter->name };
+}
+
+void compute(const Call& call, Session& session)
+{
+    ProgressBar bar(isatty(STDERR_FILENO) && !call.quiet);
+    const Progress progress = bar.progress();
+    const std::vector<std::string_view> names = filters_for(call, session);
+    Parameters parameters = call.parameters;
+    if (call.filter->has(Stage::drape))
+        parameters.recover.cloth = parameters.drape.cloth;  // one flag for both
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double n = double(names.size());
+        filter_of(names[i]).run(session.scene, parameters, progress.part(double(i) / n, double(i + 1) / n));
+        if (session.scene.draped && !session.scene.draped->certified)
+            break;
+    }
+}
+
+void write(const Call& call, Session& session, OutputFolder& folder)
+{
+    const auto start = std::chrono::steady_clock::now();
+    write_results(session, call.filter->name, folder.draft());
+    session.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::string report = report_json(call, session);
+    std::ofstream file(folder.draft() / "report.json");
+    if (!(file << report << std::flush))
+        throw InvalidInput("cannot write report.json into " + folder.place().string() + "; is the disk full?");
+    file.close();
+    stop_if_interrupted();
+    folder.publish();
+    if (call.json)
+        std::cout << report;
+    else if (!call.quiet)
+        std::cout << summary(call, session);
+}
+
+int run(int argc, char** argv)
+{
+    std::optional<Call> call = parse(argc, argv);
+    if (!call)
+        return 0;
+    std::optional<tbb::global_control> threads;
+    if (call->threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, call->threads);
+    OutputFolder folder(call->out);
+    Session session = read(*call);
+    stop_if_interrupted();
+    compute(*call, session);
+    add_doubts(session);
+    write(*call, session, folder);
+    const Dressing* end = final_dressing(session.scene);
+    if (!end || end->certified)
+        return 0;
+    std::cerr << "garmentfit: " << explain(*end, session.garment_names()) << '\n';
+    return static_cast<int>(outcome_of(*end));
+}
+
+int fail(int code, const std::string& message)
+{
+    std::cerr << "garmentfit: " << message << '\n';
+    return code;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv)
+{
+    watch_interruption();
+    try {
+        return run(argc, argv);
+    } catch (const Cancelled& stopped) {
+        return fail(k_stopped, stopped.what());
+    } catch (const InvalidInput& error) {
+        return fail(k_wrong_input, error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(k_wrong_input, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(k_not_certified, "out of memory; give a mesh with fewer vertices");
+    } catch (const std::exception& error) {
+        return fail(k_not_certified, error.what());
+    }
+}
+
+}  // namespace fit::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python_results.h"
+
+#include <nanobind/stl/string.h>
+
+#include "filters/outcome.h"
+
+namespace fit::python {
+namespace {
+
+nb::object in_body_units(const PythonScene& s, const Positions& metres)
+{
+    return nb::cast(array_of(s.body_frame.to_file(metres)));
+}
+
+nb::dict certificate_of(const Certificate& c, double metres_per_unit)
+{
+    nb::dict made;
+    made["body_crossings"] = c.body_crossings;
+    made["self_crossings"] = c.self_crossings;
+    made["input_self_crossings"] = c.input_self_crossings;
+    made["layer_crossings"] = c.layer_crossings;
+    made["vertices_inside"] = c.vertices_inside;
+    made["smallest_gap"] = c.smallest_gap / metres_per_unit;
+    made["strain_median"] = c.strain.median;
+    made["strain_p95"] = c.strain.p95;
+    made["strain_max"] = c.strain.max;
+    return made;
+}
+
+nb::list girths_of(const std::vector<Girth>& girths, double metres_per_unit)
+{
+    nb::list made;
+    for (const Girth& girth : girths)
+        made.append(nb::make_tuple(girth.place, girth.body / metres_per_unit, girth.garment / metres_per_unit));
+    return made;
+}
+
+nb::list too_tight_of(const Dressing& end, std::size_t i, double metres_per_unit)
+{
+    nb::list made;
+    for (const TooTight& part : end.too_tight)
+        if (part.garment == int(i))
+            made.append(nb::make_tuple(part.part, part.missing_girth / metres_per_unit));
+    return made;
+}
+
+nb::dict garment_of(const PythonScene& s, std::size_t i)
+{
+    const Dressing& end = s.dressing();
+    const double unit = s.body_frame.metres_per_unit;
+    nb::dict garment;
+    garment["name"] = s.names[i];
+    garment["positions"] = in_body_units(s, end.garments[i].positions);
+    garment["triangles"] = array_of(end.garments[i].rest.triangles);
+    garment["certificate"] = certificate_of(end.garments[i].certificate, unit);
+    garment["ease"] = array_of(Eigen::VectorXd(end.maps[i].ease / unit));
+    garment["strain"] = array_of(end.maps[i].strain);
+    garment["pressure"] = array_of(end.maps[i].pressure);
+    garment["girths"] = girths_of(end.girths[i], unit);
+    garment["too_tight"] = too_tight_of(end, i, unit);
+    return garment;
+}
+
+}  // namespace
+
+PythonMoment::PythonMoment(const PythonScene& scene, double share) :
+    scene_(scene), now_(moment_of(scene.scene, share, scene.cloth))
+{
+}
+
+nb::object PythonMoment::body() const { return in_body_units(scene_, now_.body); }
+
+nb::object PythonMoment::joints() const
+{
+    return in_body_units(scene_, rows_of(posed(scene_.rig().skeleton, now_.pose)));
+}
+
+nb::object PythonMoment::garment(std::size_t i) const { return in_body_units(scene_, now_.garments.at(i)); }
+
+bool PythonMoment::is_body_moved() const { return now_.body != scene_.scene.body->surface.positions; }
+
+nb::dict PythonMoment::dressing_arrays() const
+{
+    return dict_of(arrays_of(scene_.dressing(), now_.pose, scene_.names, scene_.body_frame));
+}
+
+nb::dict PythonMoment::worn_arrays(std::size_t garment) const
+{
+    return dict_of(arrays_of_worn(scene_.dressing(), garment, scene_.body_frame));
+}
+
+nb::dict PythonMoment::map_arrays(std::size_t garment) const
+{
+    return dict_of(arrays_of(now_.maps.at(garment), scene_.body_frame));
+}
+
+nb::list garments_of(const PythonScene& s)
+{
+    nb::list made;
+    for (std::size_t i = 0; i < s.dressing().garments.size(); ++i)
+        made.append(garment_of(s, i));
+    return made;
+}
+
+nb::list fits_of(const PythonScene& s)
+{
+    nb::list made;
+    for (const FitResult& result : s.scene.fits) {
+        nb::dict fit;
+        fit["type"] = std::string(name_of(result.type));
+        fit["type_margin"] = result.type_margin;
+        nb::list covered;
+        for (const Bone bone : result.covered)
+            covered.append(nb::str(bone_name(bone).data()));
+        fit["covered"] = covered;
+        made.append(fit);
+    }
+    return made;
+}
+
+nb::list conflicts_of(const PythonScene& s)
+{
+    nb::list made;
+    for (const FitConflict& conflict : s.scene.conflicts)
+        made.append(nb::make_tuple(std::string(bone_name(conflict.bone)),
+                                   nb::make_tuple(conflict.garments[0], conflict.garments[1]),
+                                   k_degrees_per_radian * conflict.angle));
+    return made;
+}
+
+nb::dict verdict_of(const PythonScene& s)
+{
+    const Dressing& end = s.dressing();
+    nb::dict made;
+    made["certified"] = end.certified;
+    made["too_small"] = !end.certified && outcome_of(end) == Outcome::too_small;
+    made["size_reached"] = end.size_reached;
+    made["pose_reached"] = end.pose_reached;
+    made["speed"] = end.speed;
+    made["note"] = end.certified ? std::string() : explain(end, s.names);
+    nb::list held;
+    for (const HeldBack& part : end.held_back)
+        held.append(nb::make_tuple(part.part, part.distance / s.body_frame.metres_per_unit));
+    made["held_back"] = held;
+    return made;
+}
+
+nb::list frames_of(const PythonScene& s)
+{
+    nb::list made;
+    for (const RecoverFrame& frame : s.dressing().frames) {
+        nb::list garments;
+        for (const Positions& positions : frame.garments)
+            garments.append(in_body_units(s, positions));
+        made.append(nb::make_tuple(frame.share, in_body_units(s, frame.body), garments));
+    }
+    return made;
+}
+
+}  // namespace fit::python

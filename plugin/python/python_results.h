@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a scene has come to, in Python's own types. Lengths are in the body's unit.
+
+#include <cstddef>
+
+#include "filters/moment.h"
+#include "python_scene.h"
+
+namespace fit::python {
+
+/// A scene at one time of its way back to the body's own pose, and its arrays as all hosts call them.
+class PythonMoment {
+public:
+    /// The scene must outlive it.
+    PythonMoment(const PythonScene& scene, double share);
+
+    nb::object body() const;
+    nb::object joints() const;
+    nb::object garment(std::size_t i) const;
+    std::size_t worn() const { return now_.garments.size(); }
+    bool is_body_moved() const;
+    nb::dict dressing_arrays() const;
+    nb::dict worn_arrays(std::size_t garment) const;
+    nb::dict map_arrays(std::size_t garment) const;
+
+private:
+    const PythonScene& scene_;
+    Moment now_;
+};
+
+/// [{name, positions, triangles, certificate: {...}, ease, strain, pressure, girths: [...], too_tight: [...]}, ...]
+nb::list garments_of(const PythonScene& scene);
+/// [{type, type_margin, covered: [bone, ...]}, ...]
+nb::list fits_of(const PythonScene& scene);
+/// [(bone, (garment, garment), degrees), ...]
+nb::list conflicts_of(const PythonScene& scene);
+/// {certified, too_small, note, size_reached, ...}
+nb::dict verdict_of(const PythonScene& scene);
+/// [(share of the way, body, [garment, ...]), ...]
+nb::list frames_of(const PythonScene& scene);
+
+}  // namespace fit::python

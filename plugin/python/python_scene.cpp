@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python_scene.h"
+
+#include <nanobind/stl/string.h>
+
+#include "filters/frame_choice.h"
+#include "filters/joint_names.h"
+#include "filters/moment.h"
+#include "filters/outcome.h"
+#include "fit/error.h"
+
+namespace fit::python {
+namespace {
+
+std::string text_of(const nb::handle& value)
+{
+    if (nb::isinstance<nb::bool_>(value))
+        return nb::cast<bool>(value) ? "on" : "off";
+    return nb::str(value).c_str();
+}
+
+/// @throws InvalidInput naming the parameter.
+void set_parameter(const Filter& filter, Parameters& parameters, const std::string& name, const nb::handle& value)
+{
+    SetByName set { name, text_of(value) };
+    describe(filter, parameters, set);
+    if (set.found)
+        return;
+    std::string names;
+    describe(filter, parameters,
+             [&](const auto&, const About& about) { names += (names.empty() ? "" : ", ") + std::string(about.name); });
+    throw InvalidInput(std::string(filter.name) + " has no parameter called \"" + name + "\"; there are " + names);
+}
+
+Parameters parameters_from(const Filter& filter, const nb::dict& given)
+{
+    Parameters parameters;
+    for (const auto& [name, value] : given)
+        set_parameter(filter, parameters, nb::cast<std::string>(name), value);
+    return parameters;
+}
+
+/// A value as Python has it: choices by their names.
+template <class Value>
+nb::object object_of(const Value& value, const About& about)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return nb::str(fit::text_of(value, about).c_str());
+    else
+        return nb::cast(value);
+}
+
+Positions as_positions(const std::vector<double>& place, const std::string& joint)
+{
+    if (place.size() != 3)
+        throw InvalidInput("joint " + joint + " has " + std::to_string(place.size()) + " coordinates; give x, y, z");
+    return Eigen::Map<const Positions>(place.data(), 1, 3);
+}
+
+/// Repairs may take a while: Python's other threads run meanwhile.
+BodyMesh body_from(const Frame& frame, const Positions& in_file, const Triangles& triangles)
+{
+    const nb::gil_scoped_release others_may_run;
+    return make_body(frame.to_metres(in_file), triangles);
+}
+
+/// Tells Python how far it is, unless that was interrupted or says no.
+Progress progress_to(const nb::object& progress)
+{
+    return Progress([&progress](double fraction, std::string_view stage) {
+        const nb::gil_scoped_acquire python;
+        if (PyErr_CheckSignals() != 0)
+            throw nb::python_error();
+        if (progress.is_none())
+            return true;
+        const nb::object answer = progress(fraction, std::string(stage));
+        return answer.is_none() || nb::cast<bool>(nb::bool_(answer));
+    });
+}
+
+}  // namespace
+
+const Rig& PythonScene::rig() const
+{
+    if (!scene.rig)
+        throw InvalidInput("the body has no rig yet; run rig_body first");
+    return *scene.rig;
+}
+
+const Dressing& PythonScene::dressing() const
+{
+    if (const Dressing* end = final_dressing(scene))
+        return *end;
+    throw InvalidInput("nothing has been draped yet; run drape_garment first");
+}
+
+PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,
+                          const std::string& up, const std::string& front,
+                          const std::map<std::string, std::vector<double>>& joints)
+{
+    PythonScene made;
+    const Positions in_file = positions_from(positions);
+    const Triangles faces = triangles_from(triangles);
+    made.body_frame = body_frame(in_file, faces, { unit, up }).frame;
+    made.scene.body = body_from(made.body_frame, in_file, faces);
+    if (front != "auto")
+        made.front = made.body_frame.rotation() * axis_of(front);
+    for (const auto& [name, place] : joints)
+        joint_of(made.joints, name) = made.body_frame.to_metres(as_positions(place, name)).row(0);
+    return made;
+}
+
+PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangles, const nb::object& find, bool fitted)
+{
+    PythonScene made;
+    const FindArray find_array = find_with(find);
+    made.body_frame = body_frame_from(find_array);
+    made.scene.body = body_from(made.body_frame, positions_from(positions), triangles_from(triangles));
+    made.scene.rig = rig_from(find_array, Eigen::Index(positions.shape(0)));
+    if (fitted)
+        made.scene.fits = fits_from(find_array);
+    return made;
+}
+
+void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
+                 const std::string& unit, const std::string& up, const std::string& name, const nb::object& find)
+{
+    const Positions in_file = positions_from(positions);
+    const Triangles faces = triangles_from(triangles);
+    const std::optional<Frame> known = garment_frame_from(find_with(find));
+    const Frame frame = known ? *known : garment_frame(in_file, faces, scene.body_frame, { unit, up }).frame;
+    scene.scene.garments.push_back({ make_garment(frame.to_metres(in_file), faces), garment_type_of(type) });
+    scene.garment_frames.push_back(frame);
+    scene.names.push_back(name);
+}
+
+void set_worn(PythonScene& s, const nb::object& find, const std::vector<NumbersIn>& garments)
+{
+    std::vector<Positions> worn;
+    for (const NumbersIn& garment : garments)
+        worn.push_back(s.body_frame.to_metres(positions_from(garment)));
+    s.scene.draped = dressing_from(s.scene, dressed_pose_from(find_with(find)), worn, s.names);
+}
+
+PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress)
+{
+    const Filter& filter = filter_of(name);
+    Parameters parameters = parameters_from(filter, values);
+    parameters.rig.front = given.front;
+    parameters.rig.joints = given.joints;
+    PythonScene made = given;
+    const Progress report = progress_to(progress);
+    const nb::gil_scoped_release others_may_run;
+    filter.run(made.scene, parameters, report);
+    made.cloth = filter.has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
+    return made;
+}
+
+/// [(name, default, range, help), ...]
+nb::list parameters_of(const std::string& name)
+{
+    nb::list list;
+    const Parameters defaults;
+    describe(filter_of(name), defaults, [&](const auto& value, const About& about) {
+        list.append(nb::make_tuple(std::string(about.name), object_of(value, about),
+                                   range_of<std::decay_t<decltype(value)>>(about), std::string(about.help)));
+    });
+    return list;
+}
+
+}  // namespace fit::python

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A scene, the door it came in by, and the filters that run on it. Python never changes a scene that it has handed out:
+// each step works on a copy.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "filters/filters.h"
+#include "fit/units.h"
+#include "numpy_arrays.h"
+
+namespace fit::python {
+
+struct PythonScene {
+    Scene scene;
+    Frame body_frame;
+    std::vector<Frame> garment_frames;
+    std::vector<std::string> names;
+    std::optional<Vec3> front;
+    GivenJoints joints;
+    ClothOptions cloth;  ///< that the garments were last moved as
+
+    /// @throws InvalidInput naming the step that is missing.
+    const Rig& rig() const;
+    const Dressing& dressing() const;
+};
+
+/// A body as it came. @throws InvalidInput.
+PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,
+                          const std::string& up, const std::string& front,
+                          const std::map<std::string, std::vector<double>>& joints);
+/// A body that a filter has rigged, and posed where it is `fitted`, with what find(name) knows of it. @throws InvalidInput.
+PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangles, const nb::object& find,
+                            bool fitted);
+
+/// With the array GarmentFrame where a filter has seen the garment. @throws InvalidInput.
+void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
+                 const std::string& unit, const std::string& up, const std::string& name, const nb::object& find);
+/// The garments as they are worn in the body's DressedPose, in its units. @throws InvalidInput.
+void set_worn(PythonScene& scene, const nb::object& find, const std::vector<NumbersIn>& garments);
+
+/// Runs a filter of the table on a copy. Python may run meanwhile; it is asked at each report whether to go on.
+PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress);
+
+/// [(name, default, range, help), ...] of a filter.
+nb::list parameters_of(const std::string& filter);
+
+}  // namespace fit::python

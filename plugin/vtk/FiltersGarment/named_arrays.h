@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Named arrays of a scene as arrays of vtkPolyData, and back.
+
+#ifndef named_arrays_h
+#define named_arrays_h
+
+#include "filters/scene_arrays.h"
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+class vtkDataArray;
+class vtkDoubleArray;
+class vtkPolyData;
+
+namespace fit {
+
+Rows rows_of(vtkDataArray& array);
+vtkNew<vtkDoubleArray> array_of(const char* name, const Eigen::Ref<const Rows>& rows);
+/// The same memory under another name; renaming the array itself would rename it in the input, too.
+vtkSmartPointer<vtkDataArray> under_name(vtkDataArray& array, const char* name);
+
+void put(vtkPolyData& data, const MeshArrays& arrays);
+/// Among the arrays of points and of the field.
+FindArray find_in(vtkPolyData& data);
+
+}  // namespace fit
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/moment.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+
+namespace fit {
+namespace {
+
+using namespace fixtures;
+
+/// A person with a sheet beside it, which is dressed in it on paper only.
+struct Moments : testing::Test {
+    Moments()
+    {
+        const Person person = capsule_person();
+        scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+        scene.rig = simple_rig(person);
+        const TriangleMesh cloth = sheet(4, 0.05, [](double, double) { return 3.0; });
+        scene.garments.push_back({ make_garment(cloth.positions, cloth.triangles), {} });
+    }
+
+    const Positions& worn() const { return scene.garments[0].mesh.positions; }
+
+    void recover_in_two_frames()
+    {
+        scene.fits.push_back({});
+        scene.draped = dressing_from(scene, {}, { worn() }, { "sheet" });
+        scene.recovered = scene.draped;
+        scene.recovered->maps.resize(1);
+        const Positions& body = scene.body->surface.positions;
+        scene.recovered->frames = { { 0, body.array() + 1, { worn() } }, { 1, body, { worn() } } };
+    }
+
+    Scene scene;
+};
+
+TEST_F(Moments, BeginWithTheBodyInItsOwnPoseBitForBit)
+{
+    const Moment now = moment_of(scene, 1, {});
+    EXPECT_EQ(now.body, scene.body->surface.positions);
+    EXPECT_TRUE(now.garments.empty());
+}
+
+TEST_F(Moments, ShowTheNearestFrameAndTheEndAfterIt)
+{
+    recover_in_two_frames();
+    const Positions& own = scene.body->surface.positions;
+    EXPECT_EQ(moment_of(scene, 0.4, {}).body, Positions(own.array() + 1));
+    EXPECT_EQ(moment_of(scene, 0.6, {}).body, own);
+    EXPECT_EQ(moment_of(scene, 1, {}).body, own);
+    EXPECT_EQ(moment_of(scene, 0.4, {}).maps[0].ease.size(), worn().rows());
+}
+
+TEST_F(Moments, OfAFittedBodyShowTheFitsPose)
+{
+    scene.fits.push_back({});
+    scene.fits[0].pose.root_translation = { 0, 0.25, 0 };
+    const Positions moved = moment_of(scene, 1, {}).body;
+    EXPECT_NEAR((moved - scene.body->surface.positions).col(1).minCoeff(), 0.25, 1e-12);
+}
+
+TEST_F(Moments, GoOnFromGarmentsAsTheyAreWornIfTheyAreTheSame)
+{
+    const Dressing dressing = dressing_from(scene, {}, { worn() }, { "sheet" });
+    EXPECT_TRUE(dressing.certified);
+    expect_invalid([&] { dressing_from(scene, {}, { worn().topRows(3) }, { "sheet" }); }, "sheet");
+}
+
+}  // namespace
+}  // namespace fit
