@@ -117,14 +117,38 @@ TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
     for (int step = 0; step < 30; ++step) {
         Positions push = 0.02 * Positions::Random(n + m, 3);
         push.topRows(n) -= 0.1 * x.topRows(n);  // the cloth is crushed onto the ball and itself
-        const Eigen::VectorXd lengths = push.rowwise().norm();
-        contact.detect(x, { lengths.data(), lengths.data() + lengths.size() });
+        contact.detect(x, push, 1e-4);
         const std::vector<double> shares = contact.free_shares(x, push, 1e-4);
         for (int v = 0; v < n + m; ++v)
             x.row(v) += shares[v] * push.row(v);
         const TriangleMesh now { x.topRows(n), cloth.triangles };
         ASSERT_EQ(crossing_count(now, { x.bottomRows(m), obstacle.triangles }), 0) << "step " << step;
         ASSERT_TRUE(self_crossings(now).empty()) << "step " << step;
+    }
+}
+
+TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
+{
+    const GarmentMesh cloth = tube(0.11);
+    const TriangleMesh obstacle = ball(0.1);
+    const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
+    Contact lasting(cloth.triangles, n, obstacle.triangles, 5e-3);
+    Positions x(n + m, 3);
+    x << cloth.positions, obstacle.positions;
+    const auto meeting = [](const Contact& contact) {
+        std::set<std::pair<PairKind, std::array<int, 4>>> result;
+        for (const ContactPair& pair : contact.pairs())
+            result.emplace(pair.kind, pair.vertices);
+        return result;
+    };
+    std::srand(4);
+    for (int step = 0; step < 30; ++step) {
+        Contact fresh(cloth.triangles, n, obstacle.triangles);
+        fresh.detect(x, Positions::Zero(n + m, 3), 5e-3);
+        lasting.detect(x, Positions::Zero(n + m, 3), 5e-3);
+        EXPECT_FALSE(fresh.pairs().empty());
+        EXPECT_EQ(meeting(lasting), meeting(fresh)) << "step " << step;
+        x += 5e-4 * Positions::Random(n + m, 3);
     }
 }
 
@@ -143,7 +167,7 @@ TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
     Triangles triangles(3, 3);
     triangles << 0, 1, 2, 3, 4, 5, 6, 7, 8;
     Contact contact(triangles, 9, Triangles(0, 3));
-    contact.detect(x, std::vector<double>(9, 0.2));
+    contact.detect(x, push, 1e-4);
     const Positions together = contact.joined(x, push, 1e-4);
     for (int v = 0; v < 6; ++v)
         EXPECT_LT((together.row(v) - Eigen::RowVector3d(0, 0, 0.1)).norm(), 1e-12) << v;
@@ -183,24 +207,39 @@ TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
     EXPECT_EQ(within, crosswise);
 }
 
+// Springs between the neighbours of a net, n by m knots, each knot held a little.
+Eigen::SparseMatrix<double> net(int n, int m)
+{
+    Eigen::SparseMatrix<double> result(n * m, n * m);
+    const auto join = [&](int i, int j) {
+        result.coeffRef(i, i) += 1;
+        result.coeffRef(j, j) += 1;
+        result.coeffRef(i, j) -= 1;
+        result.coeffRef(j, i) -= 1;
+    };
+    for (int r = 0; r < m; ++r)
+        for (int c = 0; c < n; ++c) {
+            result.coeffRef(r * n + c, r * n + c) += 0.1;
+            if (c > 0)
+                join(r * n + c, r * n + c - 1);
+            if (r > 0)
+                join(r * n + c, r * n + c - n);
+        }
+    return result;
+}
+
 TEST(SinglePrecisionFactor, SolvesForThreeRightSidesToSingleDigits)
 {
-    constexpr int k_size = 40;
-    Eigen::SparseMatrix<double> chain(k_size, k_size);  // springs in a row, held a little everywhere
-    for (int i = 0; i < k_size; ++i) {
-        chain.coeffRef(i, i) += 0.1;
-        for (int j : { i - 1, i + 1 })
-            if (j >= 0 && j < k_size) {
-                chain.coeffRef(i, i) += 1;
-                chain.coeffRef(i, j) -= 1;
-            }
-    }
     std::srand(1);
-    const Positions wanted = Positions::Random(k_size, 3);
-    SinglePrecisionFactor factor;
-    ASSERT_TRUE(factor.compute(chain));
-    EXPECT_LT((factor.solve(chain * wanted) - wanted).cwiseAbs().maxCoeff(), 1e-4);
-    EXPECT_FALSE(factor.compute(-chain));
+    for (const auto& system : { net(1, 1), net(40, 1), net(25, 30) }) {
+        const Positions wanted = Positions::Random(system.rows(), 3);
+        SinglePrecisionFactor factor;
+        ASSERT_TRUE(factor.compute(system));
+        EXPECT_LT((factor.solve(system * wanted) - wanted).cwiseAbs().maxCoeff(), 1e-4);
+        ASSERT_TRUE(factor.compute(2 * system));
+        EXPECT_LT((factor.solve(system * wanted) - 0.5 * wanted).cwiseAbs().maxCoeff(), 1e-4);
+        EXPECT_FALSE(factor.compute(-system));
+    }
 }
 
 TEST(ClothEnergy, AGarmentAtRestStays)
@@ -208,8 +247,9 @@ TEST(ClothEnergy, AGarmentAtRestStays)
     const GarmentMesh cloth = tube(0.15);
     ClothEnergy energy(cloth, {}, {});
     energy.set_time_step(0.02);
-    const Positions x = energy.minimized(cloth.positions, cloth.positions, {});
-    EXPECT_LT((x - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
+    Descent descent(energy, cloth.positions, cloth.positions);
+    descent.step({});
+    EXPECT_LT((descent.positions() - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(ClothEnergy, FallsFreelyByHalfGTimesTimeSquared)
@@ -241,7 +281,11 @@ TEST(ClothEnergy, AStretchedGarmentGetsBackTowardsItsLengths)
     Positions x = 1.2 * cloth.positions;
     double strain = strain_of(cloth, x).median;
     for (int i = 0; i < 10; ++i) {
-        x = energy.minimized(x, x, {});
+        const Positions here = x;
+        Descent descent(energy, here, here);
+        for (int k = 0; k < 3; ++k)
+            descent.step({});
+        x = descent.positions();
         EXPECT_LT(strain_of(cloth, x).median, strain);
         strain = strain_of(cloth, x).median;
     }

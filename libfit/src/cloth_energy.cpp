@@ -6,6 +6,7 @@
 #include <map>
 
 #include "fit/error.h"
+#include "parallel.h"
 
 namespace fit {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 constexpr double k_largest_cotangent = 10;
 // Vertices without area get the mass of a square millimetre of cotton, so that the system stays definite.
 constexpr double k_least_mass = 2e-7;
+
+// Vertices, springs or hinges that are worth handing to another thread.
+constexpr Eigen::Index k_grain = 512;
 
 double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b)
 {
@@ -71,22 +75,25 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
         springs_.push_back({ i, j, length(i, j), options.stretch_stiffness });
     add_hinges(rest, options.bend_stiffness);
 
-    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<Eigen::Triplet<double>> pulls;
+    Eigen::VectorXd stiffness(springs_.size() + hinges_.size());
+    int element = 0;
     for (const Spring& s : springs_) {
-        entries.insert(entries.end(),
-                       { { s.i, s.i, s.stiffness },
-                         { s.j, s.j, s.stiffness },
-                         { s.i, s.j, -s.stiffness },
-                         { s.j, s.i, -s.stiffness } });
+        pulls.emplace_back(s.i, element, 1.0);
+        pulls.emplace_back(s.j, element, -1.0);
+        stiffness[element++] = s.stiffness;
     }
-    for (const Hinge& h : hinges_)
-        for (int r = 0; r < 4; ++r)
-            for (int c = 0; c < 4; ++c)
-                entries.emplace_back(h.v[r], h.v[c], h.stiffness * h.coefficients[r] * h.coefficients[c]);
-    for (std::size_t v = 0; v < masses_.size(); ++v)
-        entries.emplace_back(int(v), int(v), 0.0);  // every diagonal entry exists: set_time_step() writes there
-    elastic_.resize(rest.positions.rows(), rest.positions.rows());
-    elastic_.setFromTriplets(entries.begin(), entries.end());
+    for (const Hinge& h : hinges_) {
+        for (int k = 0; k < 4; ++k)
+            pulls.emplace_back(h.v[k], element, h.coefficients[k]);
+        stiffness[element++] = h.stiffness;
+    }
+    pulled_.resize(rest.positions.rows(), element);
+    pulled_.setFromTriplets(pulls.begin(), pulls.end());
+    elastic_ = pulled_ * stiffness.asDiagonal() * SparseRows(pulled_.transpose());
+    SparseRows diagonal(elastic_.rows(), elastic_.cols());  // every diagonal entry exists: set_time_step() writes there
+    diagonal.setIdentity();
+    elastic_ += 0 * diagonal;
 }
 
 void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
@@ -121,7 +128,7 @@ void ClothEnergy::set_time_step(double time_step)
     if (inertia_ == 1 / (time_step * time_step))
         return;
     inertia_ = 1 / (time_step * time_step);
-    Eigen::SparseMatrix<double> system = elastic_;
+    Eigen::SparseMatrix<double> system = elastic_;  // symmetric: columns are rows
     for (Eigen::Index v = 0; v < system.rows(); ++v)
         system.coeffRef(v, v) += masses_[v] * inertia_;
     if (!factor_.compute(system))
@@ -129,28 +136,39 @@ void ClothEnergy::set_time_step(double time_step)
             "cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
 }
 
+Positions ClothEnergy::product(const SparseRows& matrix, const Positions& x)
+{
+    Positions result(matrix.rows(), 3);
+    const auto row = [&](Eigen::Index i) {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (SparseRows::InnerIterator entry(matrix, i); entry; ++entry)
+            sum += entry.value() * x.row(entry.col());
+        result.row(i) = sum;
+    };
+    parallel_for(matrix.rows(), row, k_grain);
+    return result;
+}
+
 // Where the springs and hinges, projected to their rest, pull.
 Positions ClothEnergy::projected(const Positions& x) const
 {
-    Positions right = Positions::Zero(x.rows(), 3);
-    for (const Spring& s : springs_) {
-        const Vec3 edge = x.row(s.i) - x.row(s.j);
+    Positions pulls(springs_.size() + hinges_.size(), 3);
+    const auto spring = [&](Eigen::Index e) {
+        const Spring& s = springs_[e];
+        const Eigen::RowVector3d edge = x.row(s.i) - x.row(s.j);
         const double length = edge.norm();
-        if (length == 0)
-            continue;
-        const Vec3 pull = s.stiffness * s.length / length * edge;
-        right.row(s.i) += pull;
-        right.row(s.j) -= pull;
-    }
-    for (const Hinge& h : hinges_) {
-        const Vec3 target = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
-        for (int k = 0; k < 4; ++k)
-            right.row(h.v[k]) += h.coefficients[k] * target;
-    }
-    return right;
+        pulls.row(e) = (length > 0 ? s.stiffness * s.length / length : 0.0) * edge;
+    };
+    const auto hinge = [&](Eigen::Index e) {
+        const Hinge& h = hinges_[e];
+        pulls.row(Eigen::Index(springs_.size()) + e) = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
+    };
+    parallel_for(Eigen::Index(springs_.size()), spring, k_grain);
+    parallel_for(Eigen::Index(hinges_.size()), hinge, k_grain);
+    return product(pulled_, pulls);
 }
 
-Positions ClothEnergy::elastic_forces(const Positions& x) const { return projected(x) - elastic_ * x; }
+Positions ClothEnergy::elastic_forces(const Positions& x) const { return projected(x) - product(elastic_, x); }
 
 double ClothEnergy::elastic_energy(const Positions& x) const
 {
@@ -183,7 +201,7 @@ Positions ClothEnergy::loads(const Positions& x, const Positions& inertial, cons
 // Left side of the global system, n x 3.
 Positions ClothEnergy::applied(const Positions& x, const std::vector<Press>& presses) const
 {
-    Positions result = elastic_ * x;
+    Positions result = product(elastic_, x);
     for (Eigen::Index v = 0; v < x.rows(); ++v)
         result.row(v) += masses_[v] * inertia_ * x.row(v);
     for (const Press& press : presses) {
@@ -199,28 +217,26 @@ Positions ClothEnergy::applied(const Positions& x, const std::vector<Press>& pre
     return result;
 }
 
-Positions ClothEnergy::minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
+// Away from what the last step has seen to: conjugate to its direction, as far as the residual turns smoothly.
+void Descent::turn_direction(const Positions& residual)
 {
-    constexpr int k_gradient_steps = 3;  // the next local projection changes the system's right side anyway
-    constexpr double k_good_enough = 1e-4;  // of the first residual
-    Positions solution = x;
-    Positions residual = loads(x, inertial, presses) - applied(solution, presses);
-    Positions preconditioned = factor_.solve(residual), direction = preconditioned;
-    double square = residual.cwiseProduct(preconditioned).sum();
-    const double first = square;
-    for (int i = 0; i < k_gradient_steps && square > k_good_enough * k_good_enough * first; ++i) {
-        const Positions image = applied(direction, presses);
-        const double length = square / direction.cwiseProduct(image).sum();
-        solution += length * direction;
-        if (i + 1 == k_gradient_steps)
-            break;
-        residual -= length * image;
-        preconditioned = factor_.solve(residual);
-        const double next = residual.cwiseProduct(preconditioned).sum();
-        direction = preconditioned + next / square * direction;
-        square = next;
-    }
-    return solution;
+    const Positions steepest = energy_.factor_.solve(residual);
+    const double square = residual.cwiseProduct(steepest).sum();
+    const double kept = square_ > 0 ? std::max(0.0, (square - residual_.cwiseProduct(steepest).sum()) / square_) : 0.0;
+    direction_ = kept > 0 ? Positions(steepest + kept * direction_) : steepest;
+    if (residual.cwiseProduct(direction_).sum() <= 0)
+        direction_ = steepest;
+    square_ = square;
+}
+
+void Descent::step(const std::vector<Press>& presses)
+{
+    const Positions residual = energy_.loads(x_, inertial_, presses) - energy_.applied(x_, presses);
+    turn_direction(residual);
+    const double curvature = direction_.cwiseProduct(energy_.applied(direction_, presses)).sum();
+    if (curvature > 0)
+        x_ += residual.cwiseProduct(direction_).sum() / curvature * direction_;
+    residual_ = residual;
 }
 
 }  // namespace fit

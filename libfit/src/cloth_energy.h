@@ -3,7 +3,9 @@
 
 // The elastic energy of a garment and its implicit time step.
 //
-// Method   projective dynamics, Bouaziz et al. 2014: local projections, then one sparse linear system for all of them.
+// Method   the energies of projective dynamics [bouaziz_2014_projective_dynamics], minimised by nonlinear conjugate gradients
+//          (Polak and Ribiere) with the constant quadratic form of their global step as preconditioner; compare
+//          [liu_2017_quasi_newton].
 // Stretch  a spring along each edge that wants its rest length.
 // Bend     quadratic hinges, Bergou et al. 2006, that want the mean curvature vector they have at rest, turned along with the
 //          hinge: the garment's own folds stay.
@@ -37,13 +39,8 @@ public:
     /// @param ties  pairs of vertices held at their rest distance, beside the edges
     ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties, const ClothOptions& options);
 
-    /// Seconds. One factorisation for each new one: of all but contact, which is about as stiff as the cloth and so costs the
-    /// conjugate gradients little.
+    /// Seconds. One factorisation for each new one, of all but contact.
     void set_time_step(double time_step);
-
-    /// One local-global iteration from x towards the minimum of inertia (about `inertial`), stretch, bend and presses: local
-    /// projections, then a few steps of conjugate gradients on the global system, preconditioned by that factorisation.
-    Positions minimized(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
 
     /// Of springs and hinges, J.
     double elastic_energy(const Positions& x) const;
@@ -52,6 +49,8 @@ public:
     const std::vector<double>& masses() const { return masses_; }  ///< kg
 
 private:
+    friend class Descent;
+    using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
     struct Spring {
         int i, j;
         double length, stiffness;
@@ -62,6 +61,7 @@ private:
         Vec3 curvature;  // that vector at rest, in the hinge's own frame
         double stiffness;
     };
+    static Positions product(const SparseRows& matrix, const Positions& x);
     Positions projected(const Positions& x) const;
     Positions loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
     Positions applied(const Positions& x, const std::vector<Press>& presses) const;
@@ -70,9 +70,33 @@ private:
     std::vector<double> masses_;
     std::vector<Spring> springs_;
     std::vector<Hinge> hinges_;
-    Eigen::SparseMatrix<double> elastic_;  // constant part of the system, n x n, both triangles
+    SparseRows pulled_;  // n x elements: how springs, then hinges, pull at the vertices
+    SparseRows elastic_;  // constant part of the system, n x n, both triangles
     SinglePrecisionFactor factor_;
     double inertia_ = 0;  // 1 / h^2
+};
+
+/// A walk from positions (n x 3) down to the minimum of inertia (about `inertial`, n x 3), stretch, bend and presses.
+class Descent {
+public:
+    Descent(const ClothEnergy& energy, const Positions& start, const Positions& inertial) :
+        energy_(energy), inertial_(inertial), x_(start)
+    {
+    }
+
+    /// One step; presses may be others each time. Never up, while they stay.
+    void step(const std::vector<Press>& presses);
+
+    const Positions& positions() const { return x_; }
+
+private:
+    void turn_direction(const Positions& residual);
+
+    const ClothEnergy& energy_;
+    const Positions& inertial_;
+    Positions x_;
+    Positions residual_, direction_;  // of the last step
+    double square_ = 0;  // of that residual, in the preconditioner's measure
 };
 
 }  // namespace fit

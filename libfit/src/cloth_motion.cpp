@@ -2,17 +2,22 @@
 #include "cloth_motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "untangle.h"
 
 namespace fit {
 namespace {
 
-// Contact is this many times as stiff as the cloth, so that a tight garment presses less than a millimetre into its
-// contact zone.
-constexpr double k_contact_stiffness = 3;
+// Once nothing is held back any more, contact as stiff as the cloth will do: a tight garment still presses less than a
+// millimetre into its contact zone, and the forces find their balance in half the steps.
+constexpr double k_settling_contact_stiffness = 1;
 // Pairs this much beyond the contact distance may come into contact while a step is solved.
 constexpr double k_lookout = 1.5e-3;
+// Which touches press is asked anew after so many steps of descent: at each one, it would flicker, and nothing converge.
+constexpr int k_presses_stay = 3;
+// A search for pairs looks so much further that it lasts for several steps of cloth near its rest.
+constexpr double k_spare = 0.75e-3;
 
 // Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
 Untangled parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
@@ -37,22 +42,11 @@ std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossi
     return ties;
 }
 
-std::vector<double> lengths(const Positions& displacements)
-{
-    const Eigen::VectorXd norms = displacements.rowwise().norm();
-    return { norms.data(), norms.data() + norms.size() };
-}
-
-void shorten(Positions& displacements, const std::vector<double>& limits)
+void shorten(Positions& displacements, double longest)
 {
     for (Eigen::Index v = 0; v < displacements.rows(); ++v)
-        if (const double length = displacements.row(v).norm(); length > limits[v])
-            displacements.row(v) *= limits[v] / length;
-}
-
-bool covers(const std::vector<double>& reach, const std::vector<double>& way)
-{
-    return std::equal(reach.begin(), reach.end(), way.begin(), [](double r, double w) { return w <= r; });
+        if (const double length = displacements.row(v).norm(); length > longest)
+            displacements.row(v) *= longest / length;
 }
 
 }  // namespace
@@ -68,8 +62,8 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
                          const ClothOptions& options) :
     options_(made_of_fabric(options)),
     weld_(rest.positions), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
-    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles), x_(cloth_vertices_ + obstacle.positions.rows(), 3),
-    velocity_(Positions::Zero(cloth_vertices_, 3))
+    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles, k_spare),
+    x_(cloth_vertices_ + obstacle.positions.rows(), 3), velocity_(Positions::Zero(cloth_vertices_, 3))
 {
     const Untangled cloth = parted({ weld_.gathered(start), rest_.triangles }, obstacle);
     x_ << cloth.positions, obstacle.positions;
@@ -91,33 +85,25 @@ Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth
 
 // The one place where positions change. What locks itself (a pinched fold, sheets that cross as given) is held back though all of it
 // wants about the same way: the rest of the way it goes as one, as the rigid impact zones of Provot 1997 do.
-void ClothMotion::move(const Positions& displacements, const std::vector<double>& reach)
+void ClothMotion::move(const Positions& displacements)
 {
     const auto go = [&](const Positions& way) {
+        contact_.detect(x_, way, options_.smallest_gap);
         const std::vector<double> shares = contact_.free_shares(x_, way, options_.smallest_gap);
         return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal()
                          * way);
     };
     const Positions first = go(displacements);
     x_ += first;
-    if (first == displacements)
-        return;
-    const Positions second = contact_.joined(x_, displacements - first, options_.smallest_gap);
-    std::vector<double> room = lengths(first);
-    for (std::size_t v = 0; v < room.size(); ++v)
-        room[v] = reach[v] - room[v];
-    if (const std::vector<double> way = lengths(second); !covers(room, way))
-        contact_.detect(x_, way);
-    x_ += go(second);
+    if (first != displacements)
+        x_ += go(contact_.joined(x_, displacements - first, options_.smallest_gap));
 }
 
 void ClothMotion::carry(const Positions& cloth, const Positions& obstacle)
 {
     Positions displacements(x_.rows(), 3);
     displacements << weld_.gathered(cloth), obstacle;
-    const std::vector<double> reach = lengths(displacements);
-    contact_.detect(x_, reach);
-    move(displacements, reach);
+    move(displacements);
 }
 
 std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) const
@@ -145,16 +131,13 @@ std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) co
 
 // A touch that is too near wants its gap back along the normal, and holds against slipping with Coulomb's force.
 std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const Positions& wished,
-                                        double friction) const
+                                        const MotionStep& step) const
 {
+    const double contact_stiffness = step.contact_stiffness * options_.stretch_stiffness;
+    const double friction = step.friction_share * options_.friction;
     std::vector<Press> result;
     for (const Touch& touch : touches) {
-        Press press { touch.pair->vertices,
-                      touch.pair->at.weights,
-                      Vec3::Zero(),
-                      touch.normal,
-                      k_contact_stiffness * options_.stretch_stiffness,
-                      0 };
+        Press press { touch.pair->vertices, touch.pair->at.weights, Vec3::Zero(), touch.normal, contact_stiffness, 0 };
         Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
         for (int k = 0; k < 4; ++k) {
             const int v = press.vertices[k];
@@ -178,9 +161,19 @@ std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const
     return result;
 }
 
-void ClothMotion::carry_obstacle(const Positions& target)
+// A single motion uses up only part of the room to what it meets; as long as the next one gets nearer, it is worth making.
+double ClothMotion::carry_obstacle(const Positions& target)
 {
-    carry(Positions::Zero(vertices(), 3), target - obstacle());
+    constexpr int k_most_motions = 20;
+    constexpr double k_nearer = 0.95;
+    double lag = INFINITY, before;
+    int motions = 0;
+    do {
+        before = lag;
+        carry(Positions::Zero(vertices(), 3), target - obstacle());
+        lag = settle_obstacle(target);
+    } while (lag > 0 && lag < k_nearer * before && ++motions < k_most_motions);
+    return lag;
 }
 
 double ClothMotion::advance(const MotionStep& step)
@@ -188,29 +181,26 @@ double ClothMotion::advance(const MotionStep& step)
     const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
     Positions displacements = Positions::Zero(x_.rows(), 3);
     displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
-    shorten(displacements, std::vector<double>(x_.rows(), step.largest_obstacle_move));
-    std::vector<double> reach = lengths(displacements);
-    for (double& r : reach)
-        r = std::max(r, 0.5 * (options_.contact_distance + k_lookout));
-    contact_.detect(x_, reach);
+    shorten(displacements, step.largest_obstacle_move);
+    contact_.detect(x_, displacements, 0.5 * (options_.contact_distance + k_lookout));
 
     Positions wished = x_ + displacements;
     const std::vector<Touch> near = touches(wished);
     energy_->set_time_step(step.time_step);
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
-    for (int i = 0; i < step.iterations; ++i)
-        wished.topRows(cloth_vertices_) = energy_->minimized(
-            wished.topRows(cloth_vertices_), inertial, presses(near, wished, step.friction_share * options_.friction));
-    displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
-    shorten(displacements, std::vector<double>(x_.rows(), step.largest_move));
-    if (const std::vector<double> way = lengths(displacements); !covers(reach, way)) {
-        reach = way;
-        contact_.detect(x_, reach);
+    Descent descent(*energy_, x_.topRows(cloth_vertices_), inertial);
+    std::vector<Press> pressing;
+    for (int i = 0; i < step.iterations; ++i) {
+        if (i % k_presses_stay == 0)
+            pressing = presses(near, wished, step);
+        descent.step(pressing);
+        wished.topRows(cloth_vertices_) = descent.positions();
     }
-
+    displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
+    shorten(displacements, step.largest_move);
     const Positions before = x_.topRows(cloth_vertices_);
-    move(displacements, reach);
+    move(displacements);
     velocity_ = (x_.topRows(cloth_vertices_) - before) / step.time_step;
     return settle_obstacle(*step.obstacle_target);
 }
@@ -232,15 +222,21 @@ double ClothMotion::settle_obstacle(const Positions& target)
 Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)
 {
     constexpr int k_patience = 60;
+    constexpr double k_swinging = 0.7;  // share of the steps; then it comes to rest
     MotionStep step;
     step.obstacle_target = &target;
     step.gravity = k_gravity;
-    step.velocity_kept = 0.9;
     step.friction_share = 1;
-    double lag = 1;
+    step.iterations = 18;
+    const double pushing = step.contact_stiffness;
+    double lag = INFINITY;
     for (int i = 0; i < steps || (lag > 0 && i < steps + k_patience); ++i) {
         progress.at(double(i) / (steps + k_patience));
+        step.velocity_kept = i < k_swinging * steps ? 0.9 : 0.3;
+        step.contact_stiffness = lag > 0 ? pushing : k_settling_contact_stiffness;
         lag = motion.advance(step);
+        if (lag > 0)
+            lag = motion.carry_obstacle(target);
     }
     return { lag == 0, motion.speed() };
 }

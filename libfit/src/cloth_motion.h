@@ -26,7 +26,8 @@ struct MotionStep {
     double velocity_kept = 0;  ///< share of the cloth's velocity kept from the step before
     double gravity = 0;  ///< m/s^2, along -y
     double friction_share = 0;  ///< of the cloth's own friction
-    int iterations = 8;  ///< local-global iterations
+    double contact_stiffness = 3;  ///< times that of the cloth; more pushes harder, and takes longer to balance
+    int iterations = 6;  ///< steps of descent towards the minimum of the energy
 };
 
 class ClothMotion {
@@ -44,7 +45,8 @@ public:
     void carry(const Positions& cloth, const Positions& obstacle);
 
     /// Moves the obstacle towards a target, as far as each vertex freely may, while the cloth stands still.
-    void carry_obstacle(const Positions& target);
+    /// @return as advance()
+    double carry_obstacle(const Positions& target);
 
     /// Lets the obstacle go to its target and the cloth find its rest around it.
     /// @return the longest way that an obstacle vertex still has to its target, metres
@@ -57,10 +59,11 @@ public:
 
 private:
     struct Touch;
-    void move(const Positions& displacements, const std::vector<double>& reach);
+    void move(const Positions& displacements);
     double settle_obstacle(const Positions& target);
     std::vector<Touch> touches(const Positions& wished) const;
-    std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished, double friction) const;
+    std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished,
+                               const MotionStep& step) const;
 
     ClothOptions options_;
     Weld weld_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <optional>
 
 #include "fit/mesh.h"
 #include "joined_vertices.h"
@@ -18,16 +20,17 @@ Corners corners(const Positions& x, const std::array<int, 4>& v)
     return { Vec3(x.row(v[0])), Vec3(x.row(v[1])), Vec3(x.row(v[2])), Vec3(x.row(v[3])) };
 }
 
+// Encloses all that the vertices may do: go along their ways, and `margin` beside them.
 template <class Row>
-Box box_of(const Row& vertices, const Positions& x, const std::vector<double>& reach)
+Box box_of(const Row& vertices, const Positions& start, const Positions& way, double margin)
 {
     Box box;
     for (int k = 0; k < int(vertices.size()); ++k) {
-        const Vec3 p = x.row(vertices[k]), r = Vec3::Constant(reach[vertices[k]]);
-        box.extend(Vec3(p - r));
-        box.extend(Vec3(p + r));
+        const Vec3 from = start.row(vertices[k]), to = from + Vec3(way.row(vertices[k]));
+        box.extend(from);
+        box.extend(to);
     }
-    return box;
+    return { Vec3(box.min().array() - margin), Vec3(box.max().array() + margin) };
 }
 
 bool share_a_vertex(const std::array<int, 4>& v, int split)
@@ -39,12 +42,34 @@ bool share_a_vertex(const std::array<int, 4>& v, int split)
     return false;
 }
 
-double reach_of(const std::array<int, 4>& v, int begin, int end, const std::vector<double>& reach)
+// How much nearer two primitives can come when each vertex goes any share of its way: whatever the shares, the change of
+// their separation is a mean of single ways and of differences of two of them.
+double approach(const Positions& ways, const std::array<int, 4>& v, int split)
 {
-    double largest = 0;
-    for (int k = begin; k < end; ++k)
-        largest = std::max(largest, reach[v[k]]);
-    return largest;
+    double square = 0;
+    for (const int k : v)
+        square = std::max(square, ways.row(k).squaredNorm());
+    for (int i = 0; i < split; ++i)
+        for (int j = split; j < 4; ++j)
+            square = std::max(square, (ways.row(v[i]) - ways.row(v[j])).squaredNorm());
+    return std::sqrt(square);
+}
+
+// How much nearer two primitives can have come when their vertices have moved that far.
+double travel_bound(const Eigen::VectorXd& moved, PairKind kind, const std::array<int, 4>& v)
+{
+    const double last = std::max(moved[v[2]], moved[v[3]]);
+    return kind == PairKind::vertex_face ? moved[v[0]] + std::max(moved[v[1]], last)
+                                         : std::max(moved[v[0]], moved[v[1]]) + last;
+}
+
+int first_size(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
+
+double distance_to_segment(const Vec3& p, const Vec3& start, const Vec3& way)
+{
+    const double square = way.squaredNorm();
+    const double share = square > 0 ? std::clamp((p - start).dot(way) / square, 0.0, 1.0) : 0.0;
+    return (p - start - share * way).norm();
 }
 
 void lower(std::atomic<double>& value, double to)
@@ -81,66 +106,81 @@ Contact::Surface Contact::surface(const Triangles& triangles, int offset)
     return s;
 }
 
-Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle) :
-    cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices))
+Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, double spare) :
+    cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices)), spare_(spare)
 {
 }
 
-void Contact::renew(Surface& s, const Positions& x, const std::vector<double>& reach) const
+// A segment with a margin is convex: it holds a smaller one when it holds both of its ends.
+bool Contact::Room::contains(const Positions& x, const Positions& displacements, double least) const
 {
-    std::vector<Box> vertices(s.vertices.size()), edges(s.edges.rows()), triangles(s.triangles.rows());
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-        vertices[v] = box_of(std::array<int, 1> { s.vertices[v] }, x, reach);
-    for (std::size_t e = 0; e < edges.size(); ++e)
-        edges[e] = box_of(s.edges.row(e), x, reach);
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        triangles[t] = box_of(s.triangles.row(t), x, reach);
-    const auto put = [](BoxTree& tree, const std::vector<Box>& boxes) {
+    if (start.rows() != x.rows())
+        return false;
+    for (Eigen::Index v = 0; v < x.rows(); ++v) {
+        const Vec3 from = x.row(v), to = from + Vec3(displacements.row(v)), s = start.row(v), w = way.row(v);
+        if (distance_to_segment(from, s, w) + least > margin || distance_to_segment(to, s, w) + least > margin)
+            return false;
+    }
+    return true;
+}
+
+void Contact::renew_trees()
+{
+    const auto renew = [&](BoxTree& tree, Eigen::Index count, const auto& vertices_of) {
+        std::vector<Box> boxes(count);
+        for (Eigen::Index i = 0; i < count; ++i)
+            boxes[i] = box_of(vertices_of(i), room_.start, room_.way, room_.margin);
         if (tree.empty())
             tree = BoxTree(boxes);
         else
             tree.refit(boxes);
     };
-    put(s.vertex_tree, vertices);
-    put(s.edge_tree, edges);
-    put(s.triangle_tree, triangles);
+    parallel_for(6, [&](int i) {
+        Surface& s = i % 2 == 0 ? cloth_ : obstacle_;
+        if (i < 2)
+            renew(s.edge_tree, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
+        else if (i < 4)
+            renew(s.triangle_tree, s.triangles.rows(), [&](Eigen::Index t) { return s.triangles.row(t); });
+        else
+            renew(s.vertex_tree, Eigen::Index(s.vertices.size()),
+                  [&](Eigen::Index v) { return std::array<int, 1> { s.vertices[v] }; });
+    });
 }
 
-void Contact::detect(const Positions& x, const std::vector<double>& reach)
+void Contact::search()
 {
-    renew(cloth_, x, reach);
-    renew(obstacle_, x, reach);
+    renew_trees();
 
-    std::vector<std::vector<ContactPair>> found(BoxTree::k_parts);
-    std::vector<std::vector<std::uint64_t>> touching_faces(BoxTree::k_parts), touching_edges(BoxTree::k_parts);
-    const auto keep = [&](int part, PairKind kind, bool self, const std::array<int, 4>& v, std::uint64_t pair_key) {
-        const int split = kind == PairKind::vertex_face ? 1 : 2;
-        if (self && share_a_vertex(v, split))
+    std::vector<std::vector<Candidate>> found(BoxTree::k_parts), touching(BoxTree::k_parts);
+    const auto keep = [&](int part, Candidate c) {
+        const int split = first_size(c.kind);
+        if (c.self && (share_a_vertex(c.vertices, split) || passing(c.kind).count(c.key)))
             return;
-        const auto& passing = kind == PairKind::vertex_face ? passing_vertex_face_ : passing_edge_edge_;
-        if (self && passing.count(pair_key))
-            return;
-        const Closest at = closest(kind, corners(x, v));
-        if (at.distance > reach_of(v, 0, split, reach) + reach_of(v, split, 4, reach))
-            return;
-        if (at.distance > 0)
-            found[part].push_back({ kind, self, v, at });
-        else if (self)
-            (kind == PairKind::vertex_face ? touching_faces : touching_edges)[part].push_back(pair_key);
+        c.distance = closest(c.kind, corners(room_.start, c.vertices)).distance;
+        if (c.distance <= approach(room_.way, c.vertices, split) + 2 * room_.margin)
+            (c.distance > 0 ? found : touching)[part].push_back(c);
     };
     const auto vertex_faces = [&](const Surface& a, const Surface& b, bool self) {
         BoxTree::overlaps(a.vertex_tree, b.triangle_tree, [&](int part, int i, int t) {
             const int v = a.vertices[i];
-            keep(part, PairKind::vertex_face, self, { v, b.triangles(t, 0), b.triangles(t, 1), b.triangles(t, 2) },
-                 key(v, t));
+            keep(part,
+                 { PairKind::vertex_face,
+                   self,
+                   { v, b.triangles(t, 0), b.triangles(t, 1), b.triangles(t, 2) },
+                   key(v, t),
+                   0 });
         });
     };
     const auto edge_edges = [&](const Surface& a, const Surface& b, bool self) {
         BoxTree::overlaps(a.edge_tree, b.edge_tree, [&](int part, int i, int j) {
             if (self && j < i)
                 std::swap(i, j);
-            keep(part, PairKind::edge_edge, self, { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) },
-                 key(i, j));
+            keep(part,
+                 { PairKind::edge_edge,
+                   self,
+                   { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) },
+                   key(i, j),
+                   0 });
         });
     };
     vertex_faces(cloth_, obstacle_, false);
@@ -149,12 +189,32 @@ void Contact::detect(const Positions& x, const std::vector<double>& reach)
     vertex_faces(cloth_, cloth_, true);
     edge_edges(cloth_, cloth_, true);
 
-    pairs_.clear();
+    candidates_.clear();
     for (int part = 0; part < BoxTree::k_parts; ++part) {
-        pairs_.insert(pairs_.end(), found[part].begin(), found[part].end());
-        passing_vertex_face_.insert(touching_faces[part].begin(), touching_faces[part].end());
-        passing_edge_edge_.insert(touching_edges[part].begin(), touching_edges[part].end());
+        candidates_.insert(candidates_.end(), found[part].begin(), found[part].end());
+        for (const Candidate& c : touching[part])
+            if (c.self)
+                passing(c.kind).insert(c.key);
     }
+}
+
+void Contact::detect(const Positions& x, const Positions& displacements, double margin)
+{
+    if (!room_.contains(x, displacements, margin)) {
+        room_ = { x, displacements, margin + spare_ };
+        search();
+    }
+    const Eigen::VectorXd moved = (x - room_.start).rowwise().norm();
+    pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
+        const Candidate& c = candidates_[i];
+        const double near = approach(displacements, c.vertices, first_size(c.kind)) + 2 * margin;
+        if (c.distance - travel_bound(moved, c.kind, c.vertices) > near)
+            return {};
+        const Closest at = closest(c.kind, corners(x, c.vertices));
+        if (at.distance > near)
+            return {};
+        return ContactPair { c.kind, c.self, c.vertices, at };
+    });
 }
 
 std::vector<double> Contact::free_shares(const Positions& x, const Positions& displacements, double gap) const
@@ -175,6 +235,9 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
             Corners d = corners(displacements, v);
             for (int k = 0; k < 4; ++k)
                 d[k] *= shares[v[k]];
+            const double now = pairs_[p].at.distance;
+            if (relative_travel(pairs_[p].kind, d) <= now - kept_distance(now, gap))
+                return;
             const double share = free_share(pairs_[p].kind, corners(x, v), d, gap);
             if (share < 1)
                 for (int k = 0; k < 4; ++k)

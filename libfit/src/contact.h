@@ -30,17 +30,19 @@ public:
 
     /// @param cloth     triangles over [0, cloth_vertices)
     /// @param obstacle  triangles over the obstacle's vertices, numbered from 0
-    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle);
+    /// @param spare     metres that a search looks further than it is asked to: what it finds then serves later detections, too,
+    ///                  for as long as nothing leaves the room that was searched
+    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, double spare = 0);
 
-    /// Finds all pairs that may meet when no vertex moves further than its reach (metres). Pairs of cloth that touch (distance
-    /// 0) have no side to be kept on: from then on they are left to pass.
-    void detect(const Positions& x, const std::vector<double>& reach);
+    /// Finds all pairs that may meet when each vertex goes any share of its displacement, and up to `margin` (metres) from
+    /// there. Pairs of cloth that touch (distance 0) have no side to be kept on: from then on they are left to pass.
+    void detect(const Positions& x, const Positions& displacements, double margin);
 
     const std::vector<ContactPair>& pairs() const { return pairs_; }
 
     /// The share of its displacement, in [0, 1], that each vertex may go so that no pair comes nearer than `gap` (see
-    /// free_share). `x` may have moved since the detection: way and displacement together must keep within its reach. Same bits
-    /// for any number of threads.
+    /// free_share). `x` as at the last detection, the displacements among those given to it, its margin at least `gap`.
+    /// Same bits for any number of threads.
     std::vector<double> free_shares(const Positions& x, const Positions& displacements, double gap) const;
 
     /// Displacements in which vertices of pairs that cannot go their ways apart from each other go together, with their mean.
@@ -54,11 +56,30 @@ private:
         std::vector<int> vertices;  // those of triangles
         BoxTree vertex_tree, edge_tree, triangle_tree;
     };
+    /// Where each vertex may go: along its way from its start, and `margin` (metres) beside it.
+    struct Room {
+        Positions start, way;
+        double margin = -1;
+        bool contains(const Positions& x, const Positions& displacements, double margin) const;
+    };
+    /// A pair that may meet within the room searched.
+    struct Candidate {
+        PairKind kind;
+        bool self;
+        std::array<int, 4> vertices;
+        std::uint64_t key;  // of its two primitives
+        double distance;  // where the search began
+    };
     static Surface surface(const Triangles& triangles, int offset);
-    void renew(Surface& surface, const Positions& x, const std::vector<double>& reach) const;
+    void renew_trees();
+    void search();
+    std::unordered_set<std::uint64_t>& passing(PairKind kind) { return passing_[int(kind)]; }
 
     Surface cloth_, obstacle_;
-    std::unordered_set<std::uint64_t> passing_vertex_face_, passing_edge_edge_;
+    double spare_;
+    Room room_;
+    std::vector<Candidate> candidates_;  // all that may meet within room_
+    std::array<std::unordered_set<std::uint64_t>, 2> passing_;  // by kind: pairs of cloth that touched
     std::vector<ContactPair> pairs_;
 };
 

@@ -3,8 +3,11 @@
 
 // A loop whose turns run on all cores, in any order: the only place that knows how the work is shared out.
 
-#ifdef __SANITIZE_THREAD__
 #include <algorithm>
+#include <optional>
+#include <vector>
+
+#ifdef __SANITIZE_THREAD__
 #include <array>
 #include <atomic>
 #include <exception>
@@ -59,5 +62,22 @@ void parallel_for(Index count, const Turn& turn, Index grain = 1)
     });
 }
 #endif
+
+/// What turn(i), a std::optional<T>, gives for i in [0, count), without what is empty, in order.
+template <class T, class Turn>
+std::vector<T> parallel_collect(std::size_t count, const Turn& turn)
+{
+    constexpr std::size_t k_chunk = 1024;
+    std::vector<std::vector<T>> chunks((count + k_chunk - 1) / k_chunk);
+    parallel_for(chunks.size(), [&](std::size_t c) {
+        for (std::size_t i = c * k_chunk; i < std::min(count, (c + 1) * k_chunk); ++i)
+            if (const std::optional<T> one = turn(i))
+                chunks[c].push_back(*one);
+    });
+    std::vector<T> result;
+    for (const std::vector<T>& chunk : chunks)
+        result.insert(result.end(), chunk.begin(), chunk.end());
+    return result;
+}
 
 }  // namespace fit

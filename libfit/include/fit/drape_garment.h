@@ -24,7 +24,7 @@ namespace fit {
 struct DrapeOptions {
     ClothOptions cloth;
     int inflation_steps = 24;  ///< from the bones to full size
-    int settling_steps = 40;  ///< time steps under gravity
+    int settling_steps = 20;  ///< time steps under gravity
 };
 
 /// Cloth counts as settled when no vertex is faster than this, m/s.
