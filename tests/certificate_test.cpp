@@ -69,9 +69,11 @@ TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)
     const TriangleMesh body = ball(0.05, Vec3(0, 0, 2));
     EXPECT_GT(certify(body, rest, rest.positions).input_self_crossings, 0);
     EXPECT_TRUE(certify(body, rest, rest.positions).clean());
+    EXPECT_EQ(certify(body, rest, rest.positions).kept_self_crossings, self_crossings(two));
 
     const TriangleMesh apart = joined(ball(0.1), ball(0.1, Vec3(0.4, 0, 0)));
     EXPECT_GT(certify(body, { apart.positions, apart.triangles }, two.positions).self_crossings, 0);
+    EXPECT_TRUE(certify(body, { apart.positions, apart.triangles }, two.positions).kept_self_crossings.empty());
 }
 
 TEST(Certificate, KnowsNoCrossingWhereTheInputOnlyTouched)

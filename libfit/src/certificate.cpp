@@ -57,15 +57,24 @@ bool surely_crosses(const TriangleMesh& mesh, const Contact::Edges& edges, const
     return along > k_sure && along < 1 - k_sure && std::min({ share(0), share(1), share(2) }) > k_sure;
 }
 
-// Pairs that cross now and did not before, or only touched there.
-int new_self_crossings(const TriangleMesh& before, const std::vector<Crossing>& crossed_before, const TriangleMesh& now)
+/// What crosses now, by whether it did before, too; what only touched there did not.
+struct SelfCrossings {
+    std::vector<Crossing> kept;
+    int fresh = 0;
+};
+
+SelfCrossings sorted_out(const TriangleMesh& before, const std::vector<Crossing>& crossed_before,
+                         const TriangleMesh& now)
 {
     const auto edges = edges_of(now.triangles);
-    int count = 0;
+    SelfCrossings result;
     for (const Crossing& crossing : self_crossings(now))
-        count += !(std::binary_search(crossed_before.begin(), crossed_before.end(), crossing)
-                   && surely_crosses(before, edges, crossing));
-    return count;
+        if (std::binary_search(crossed_before.begin(), crossed_before.end(), crossing)
+            && surely_crosses(before, edges, crossing))
+            result.kept.push_back(crossing);
+        else
+            ++result.fresh;
+    return result;
 }
 
 // Vertices that belong to a face; a stray one is no cloth.
@@ -150,7 +159,9 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     const TriangleMesh given { rest.positions, rest.triangles };
     const std::vector<Crossing> crossed_before = self_crossings(given);
     result.input_self_crossings = int(crossed_before.size());
-    result.self_crossings = new_self_crossings(given, crossed_before, garment);
+    SelfCrossings self = sorted_out(given, crossed_before, garment);
+    result.self_crossings = self.fresh;
+    result.kept_self_crossings = std::move(self.kept);
     for (const TriangleMesh& layer : under)
         result.layer_crossings += crossing_count(garment, layer);
     result.vertices_inside = vertices_inside(body, garment, through_body);

@@ -58,12 +58,25 @@ Json body_of(const Session& session)
     return json;
 }
 
-void put_certificate(Json& json, const Certificate& c, double metres_per_unit)
+/// Each as the vertices of the edge and of the triangle that it passes through, counted from 0.
+Json pairs_of(const std::vector<Crossing>& crossings, const Triangles& triangles)
 {
+    const auto edges = edges_of(triangles);
+    Json pairs = Json::array();
+    for (const auto& [e, f] : crossings)
+        pairs.push_back({ { "edge", { edges(e, 0), edges(e, 1) } },
+                          { "triangle", { triangles(f, 0), triangles(f, 1), triangles(f, 2) } } });
+    return pairs;
+}
+
+void put_certificate(Json& json, const WornGarment& garment, double metres_per_unit)
+{
+    const Certificate& c = garment.certificate;
     json["crossings"] = { { "body", c.body_crossings },
                           { "self", c.self_crossings },
                           { "self_input", c.input_self_crossings },
                           { "layers", c.layer_crossings } };
+    json["self_kept"] = pairs_of(c.kept_self_crossings, garment.rest.triangles);
     json["vertices_inside"] = c.vertices_inside;
     json["smallest_gap"] = c.smallest_gap / metres_per_unit;
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
@@ -148,7 +161,7 @@ Json garment_of(const Session& session, std::size_t i)
     if (const Dressing* end = final_dressing(scene)) {
         json["worn"] = i < end->garments.size();
         if (i < end->garments.size()) {
-            put_certificate(json, end->garments[i].certificate, metres_per_unit);
+            put_certificate(json, end->garments[i], metres_per_unit);
             json["size"] = end->garments[i].size;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
             put_ease(json, *end, i, metres_per_unit);

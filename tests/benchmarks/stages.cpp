@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Seconds of rigging, fitting and draping by the number of vertices: the samples, each triangle cut into four once or twice.
+// Seconds of rigging, fitting, draping and recovering by the number of vertices: the samples, refined.
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 #include "fit/drape_garment.h"
 #include "fit/fit_skeleton.h"
 #include "fit/io.h"
+#include "fit/recover_pose.h"
 #include "fit/rig_body.h"
 
 namespace {
@@ -165,17 +166,46 @@ void fit_to_garment(benchmark::State& state)
 }
 BENCHMARK(fit_to_garment)->DenseRange(0, 2)->Unit(benchmark::kSecond);
 
+/// A skirt of so many vertices in which a body is rigged and posed.
+struct Skirt {
+    BodyMesh woman = body();
+    Rig rigged = rig_body(woman);
+    GarmentMesh garment;
+    Pose pose;
+
+    explicit Skirt(benchmark::State& state)
+    {
+        const TriangleMesh mesh = refined(read(FIT_SAMPLES "/skirt.ply"), std::size_t(state.range(0)));
+        garment = make_garment(mesh.positions, mesh.triangles);
+        pose = fit_skeleton(rigged, garment).pose;
+        count_vertices(state, garment.positions);
+        state.SetComplexityN(garment.positions.rows());
+    }
+};
+
 void drape(benchmark::State& state)
 {
-    const BodyMesh woman = body();
-    const Rig rigged = rig_body(woman);
-    const GarmentMesh garment = coat(int(state.range(0)));
-    const Pose pose = fit_skeleton(rigged, garment, as_coat()).pose;
+    const Skirt skirt(state);
     for (auto _ : state)
-        benchmark::DoNotOptimize(drape_garment(rigged, woman, pose, garment));
-    count_vertices(state, garment.positions);
+        benchmark::DoNotOptimize(drape_garment(skirt.rigged, skirt.woman, skirt.pose, skirt.garment));
 }
-BENCHMARK(drape)->DenseRange(0, 1)->Unit(benchmark::kSecond);
+
+void recover(benchmark::State& state)
+{
+    const Skirt skirt(state);
+    const DrapeResult draped = drape_garment(skirt.rigged, skirt.woman, skirt.pose, skirt.garment);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(recover_pose(skirt.rigged, skirt.woman, skirt.pose, Pose(), draped.garments));
+}
+
+void cloth_sizes(benchmark::internal::Benchmark* run)
+{
+    for (const int vertices : { 3055, 4000, 8000, 15000, 30000, 60000 })
+        run->Arg(vertices);
+    run->Unit(benchmark::kSecond)->Complexity();
+}
+BENCHMARK(drape)->Apply(cloth_sizes);
+BENCHMARK(recover)->Apply(cloth_sizes);
 
 }  // namespace
 

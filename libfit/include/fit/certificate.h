@@ -34,6 +34,7 @@ struct Certificate {
     int body_crossings = 0;  ///< between garment and body, both ways
     int self_crossings = 0;  ///< of the garment with itself, pairs that the input did not have
     int input_self_crossings = 0;  ///< that the garment was given with
+    std::vector<Crossing> kept_self_crossings;  ///< those of them that it still has
     int layer_crossings = 0;  ///< with the garments worn under it
     int vertices_inside = 0;  ///< garment vertices inside the body
     double smallest_gap = 0;  ///< m, between garment and body
