@@ -117,7 +117,7 @@ TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
     for (int step = 0; step < 30; ++step) {
         Positions push = 0.02 * Positions::Random(n + m, 3);
         push.topRows(n) -= 0.1 * x.topRows(n);  // the cloth is crushed onto the ball and itself
-        contact.detect(x, push, 1e-4);
+        contact.detect(x, push, { 1e-4, 1e-4 });
         const std::vector<double> shares = contact.free_shares(x, push, 1e-4);
         for (int v = 0; v < n + m; ++v)
             x.row(v) += shares[v] * push.row(v);
@@ -132,7 +132,7 @@ TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
     const GarmentMesh cloth = tube(0.11);
     const TriangleMesh obstacle = ball(0.1);
     const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
-    Contact lasting(cloth.triangles, n, obstacle.triangles, 5e-3);
+    Contact lasting(cloth.triangles, n, obstacle.triangles, { 5e-3, 8e-3 });
     Positions x(n + m, 3);
     x << cloth.positions, obstacle.positions;
     const auto meeting = [](const Contact& contact) {
@@ -144,8 +144,8 @@ TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
     std::srand(4);
     for (int step = 0; step < 30; ++step) {
         Contact fresh(cloth.triangles, n, obstacle.triangles);
-        fresh.detect(x, Positions::Zero(n + m, 3), 5e-3);
-        lasting.detect(x, Positions::Zero(n + m, 3), 5e-3);
+        fresh.detect(x, Positions::Zero(n + m, 3), { 3e-3, 7e-3 });
+        lasting.detect(x, Positions::Zero(n + m, 3), { 3e-3, 7e-3 });
         EXPECT_FALSE(fresh.pairs().empty());
         EXPECT_EQ(meeting(lasting), meeting(fresh)) << "step " << step;
         x += 5e-4 * Positions::Random(n + m, 3);
@@ -167,7 +167,7 @@ TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
     Triangles triangles(3, 3);
     triangles << 0, 1, 2, 3, 4, 5, 6, 7, 8;
     Contact contact(triangles, 9, Triangles(0, 3));
-    contact.detect(x, push, 1e-4);
+    contact.detect(x, push, { 1e-4, 1e-4 });
     const Positions together = contact.joined(x, push, 1e-4);
     for (int v = 0; v < 6; ++v)
         EXPECT_LT((together.row(v) - Eigen::RowVector3d(0, 0, 0.1)).norm(), 1e-12) << v;

@@ -123,7 +123,7 @@ double smallest_gap(const TriangleMesh& a, const TriangleMesh& b)
     Positions x(a.positions.rows() + b.positions.rows(), 3);
     x << a.positions, b.positions;
     Contact contact(a.triangles, int(a.positions.rows()), b.triangles);
-    contact.detect(x, Positions::Zero(x.rows(), 3), 0.5 * bound);
+    contact.detect(x, Positions::Zero(x.rows(), 3), { 0, bound });
     for (const ContactPair& pair : contact.pairs())
         if (!pair.self)
             bound = std::min(bound, pair.at.distance);

@@ -12,12 +12,24 @@ namespace {
 // Once nothing is held back any more, contact as stiff as the cloth will do: a tight garment still presses less than a
 // millimetre into its contact zone, and the forces find their balance in half the steps.
 constexpr double k_settling_contact_stiffness = 1;
-// Pairs this much beyond the contact distance may come into contact while a step is solved.
-constexpr double k_lookout = 1.5e-3;
+// Pairs up to so many contact distances apart may come into contact while a step is solved.
+constexpr double k_lookout = 1.6;
 // Which touches press is asked anew after so many steps of descent: at each one, it would flicker, and nothing converge.
 constexpr int k_presses_stay = 3;
-// A search for pairs looks so much further that it lasts for several steps of cloth near its rest.
-constexpr double k_spare = 0.75e-3;
+// A search for pairs looks this share further that it lasts for several steps of cloth near its rest.
+constexpr double k_spare = 0.375;
+// Cloth keeps off itself by no more than this share of its edges' mean length: else pairs of neighbours within one smooth sheet,
+// which grow with the square of the vertices, are all that is ever looked at.
+constexpr double k_off_itself = 0.3;
+
+double mean_edge(const GarmentMesh& mesh)
+{
+    const auto edges = edges_of(mesh.triangles);
+    double sum = 0;
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+        sum += (mesh.positions.row(edges(e, 0)) - mesh.positions.row(edges(e, 1))).norm();
+    return sum / double(std::max<Eigen::Index>(1, edges.rows()));
+}
 
 // Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
 Untangled parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
@@ -62,13 +74,22 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
                          const ClothOptions& options) :
     options_(made_of_fabric(options)),
     weld_(rest.positions), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
-    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles, k_spare),
+    off_itself_(std::min(options_.contact_distance, k_off_itself * mean_edge(rest_))),
+    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles,
+             { k_spare * touching().cloth, k_spare * touching().obstacle }),
     x_(cloth_vertices_ + obstacle.positions.rows(), 3), velocity_(Positions::Zero(cloth_vertices_, 3))
 {
     const Untangled cloth = parted({ weld_.gathered(start), rest_.triangles }, obstacle);
     x_ << cloth.positions, obstacle.positions;
     ties_ = ties_across(cloth.left, rest_.triangles);
     energy_.emplace(rest_, ties_, options_);
+}
+
+// Half of the lookout of cloth for itself, and what is then left to the obstacle of that between both.
+Margins ClothMotion::touching() const
+{
+    const double cloth = 0.5 * k_lookout * off_itself_;
+    return { cloth, k_lookout * options_.contact_distance - cloth };
 }
 
 void ClothMotion::set_rest(const GarmentMesh& rest)
@@ -88,7 +109,7 @@ Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth
 void ClothMotion::move(const Positions& displacements)
 {
     const auto go = [&](const Positions& way) {
-        contact_.detect(x_, way, options_.smallest_gap);
+        contact_.detect(x_, way, { options_.smallest_gap, options_.smallest_gap });
         const std::vector<double> shares = contact_.free_shares(x_, way, options_.smallest_gap);
         return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal()
                          * way);
@@ -116,9 +137,9 @@ std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) co
             next[k] = wished.row(pair.vertices[k]);
         }
         const Vec3 normal = separation(pair.at.weights, now) / pair.at.distance;
-        if (normal.dot(separation(pair.at.weights, next)) > options_.contact_distance + k_lookout)
+        double wanted = pair.self ? off_itself_ : options_.contact_distance;
+        if (normal.dot(separation(pair.at.weights, next)) > k_lookout * wanted)
             continue;
-        double wanted = options_.contact_distance;
         if (pair.self) {  // sheets that lie closer at rest are left as they are
             for (int k = 0; k < 4; ++k)
                 rest[k] = rest_.positions.row(pair.vertices[k]);
@@ -182,7 +203,7 @@ double ClothMotion::advance(const MotionStep& step)
     Positions displacements = Positions::Zero(x_.rows(), 3);
     displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
     shorten(displacements, step.largest_obstacle_move);
-    contact_.detect(x_, displacements, 0.5 * (options_.contact_distance + k_lookout));
+    contact_.detect(x_, displacements, touching());
 
     Positions wished = x_ + displacements;
     const std::vector<Touch> near = touches(wished);

@@ -60,6 +60,7 @@ public:
 private:
     struct Touch;
     void move(const Positions& displacements);
+    Margins touching() const;
     double settle_obstacle(const Positions& target);
     std::vector<Touch> touches(const Positions& wished) const;
     std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished,
@@ -69,6 +70,7 @@ private:
     Weld weld_;
     GarmentMesh rest_;  // welded
     int cloth_vertices_;
+    double off_itself_;  // m; the contact distance of cloth and cloth
     Contact contact_;
     Positions x_;  // cloth, then obstacle
     std::vector<std::pair<int, int>> ties_;  // across what crosses at the start

@@ -63,6 +63,8 @@ double travel_bound(const Eigen::VectorXd& moved, PairKind kind, const std::arra
                                          : std::max(moved[v[0]], moved[v[1]]) + last;
 }
 
+double both(const Margins& margins, bool self) { return margins.cloth + (self ? margins.cloth : margins.obstacle); }
+
 int first_size(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
 
 double distance_to_segment(const Vec3& p, const Vec3& start, const Vec3& way)
@@ -106,19 +108,23 @@ Contact::Surface Contact::surface(const Triangles& triangles, int offset)
     return s;
 }
 
-Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, double spare) :
-    cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices)), spare_(spare)
+Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, const Margins& spare) :
+    cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices)), cloth_vertices_(cloth_vertices),
+    spare_(spare)
 {
 }
 
 // A segment with a margin is convex: it holds a smaller one when it holds both of its ends.
-bool Contact::Room::contains(const Positions& x, const Positions& displacements, double least) const
+bool Contact::searched(const Room& room) const
 {
-    if (start.rows() != x.rows())
+    if (room_.start.rows() != room.start.rows())
         return false;
-    for (Eigen::Index v = 0; v < x.rows(); ++v) {
-        const Vec3 from = x.row(v), to = from + Vec3(displacements.row(v)), s = start.row(v), w = way.row(v);
-        if (distance_to_segment(from, s, w) + least > margin || distance_to_segment(to, s, w) + least > margin)
+    for (Eigen::Index v = 0; v < room.start.rows(); ++v) {
+        const Vec3 from = room.start.row(v), to = from + Vec3(room.way.row(v)), s = room_.start.row(v),
+                   w = room_.way.row(v);
+        const double spare = v < cloth_vertices_ ? room_.margins.cloth - room.margins.cloth
+                                                 : room_.margins.obstacle - room.margins.obstacle;
+        if (distance_to_segment(from, s, w) > spare || distance_to_segment(to, s, w) > spare)
             return false;
     }
     return true;
@@ -126,10 +132,10 @@ bool Contact::Room::contains(const Positions& x, const Positions& displacements,
 
 void Contact::renew_trees()
 {
-    const auto renew = [&](BoxTree& tree, Eigen::Index count, const auto& vertices_of) {
+    const auto renew = [&](BoxTree& tree, double margin, Eigen::Index count, const auto& vertices_of) {
         std::vector<Box> boxes(count);
         for (Eigen::Index i = 0; i < count; ++i)
-            boxes[i] = box_of(vertices_of(i), room_.start, room_.way, room_.margin);
+            boxes[i] = box_of(vertices_of(i), room_.start, room_.way, margin);
         if (tree.empty())
             tree = BoxTree(boxes);
         else
@@ -137,12 +143,13 @@ void Contact::renew_trees()
     };
     parallel_for(6, [&](int i) {
         Surface& s = i % 2 == 0 ? cloth_ : obstacle_;
+        const double margin = i % 2 == 0 ? room_.margins.cloth : room_.margins.obstacle;
         if (i < 2)
-            renew(s.edge_tree, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
+            renew(s.edge_tree, margin, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
         else if (i < 4)
-            renew(s.triangle_tree, s.triangles.rows(), [&](Eigen::Index t) { return s.triangles.row(t); });
+            renew(s.triangle_tree, margin, s.triangles.rows(), [&](Eigen::Index t) { return s.triangles.row(t); });
         else
-            renew(s.vertex_tree, Eigen::Index(s.vertices.size()),
+            renew(s.vertex_tree, margin, Eigen::Index(s.vertices.size()),
                   [&](Eigen::Index v) { return std::array<int, 1> { s.vertices[v] }; });
     });
 }
@@ -157,7 +164,7 @@ void Contact::search()
         if (c.self && (share_a_vertex(c.vertices, split) || passing(c.kind).count(c.key)))
             return;
         c.distance = closest(c.kind, corners(room_.start, c.vertices)).distance;
-        if (c.distance <= approach(room_.way, c.vertices, split) + 2 * room_.margin)
+        if (c.distance <= approach(room_.way, c.vertices, split) + both(room_.margins, c.self))
             (c.distance > 0 ? found : touching)[part].push_back(c);
     };
     const auto vertex_faces = [&](const Surface& a, const Surface& b, bool self) {
@@ -198,16 +205,16 @@ void Contact::search()
     }
 }
 
-void Contact::detect(const Positions& x, const Positions& displacements, double margin)
+void Contact::detect(const Positions& x, const Positions& displacements, const Margins& margins)
 {
-    if (!room_.contains(x, displacements, margin)) {
-        room_ = { x, displacements, margin + spare_ };
+    if (!searched({ x, displacements, margins })) {
+        room_ = { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
         search();
     }
     const Eigen::VectorXd moved = (x - room_.start).rowwise().norm();
     pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
         const Candidate& c = candidates_[i];
-        const double near = approach(displacements, c.vertices, first_size(c.kind)) + 2 * margin;
+        const double near = approach(displacements, c.vertices, first_size(c.kind)) + both(margins, c.self);
         if (c.distance - travel_bound(moved, c.kind, c.vertices) > near)
             return {};
         const Closest at = closest(c.kind, corners(x, c.vertices));

@@ -24,24 +24,30 @@ struct ContactPair {
     Closest at;  ///< where the pair was detected
 };
 
+/// How far (metres) beside their ways vertices may go.
+struct Margins {
+    double cloth, obstacle;
+};
+
 class Contact {
 public:
     using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
     /// @param cloth     triangles over [0, cloth_vertices)
     /// @param obstacle  triangles over the obstacle's vertices, numbered from 0
-    /// @param spare     metres that a search looks further than it is asked to: what it finds then serves later detections, too,
+    /// @param spare     a search looks so much further than it is asked to: what it finds then serves later detections, too,
     ///                  for as long as nothing leaves the room that was searched
-    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, double spare = 0);
+    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, const Margins& spare = { 0, 0 });
 
-    /// Finds all pairs that may meet when each vertex goes any share of its displacement, and up to `margin` (metres) from
-    /// there. Pairs of cloth that touch (distance 0) have no side to be kept on: from then on they are left to pass.
-    void detect(const Positions& x, const Positions& displacements, double margin);
+    /// Finds all pairs that may meet when each vertex goes any share of its displacement, and up to its margin from there.
+    /// Cost O(n + c log n) where a search is due, c pairs of overlapping boxes; it grows with the square of the margins once
+    /// they are longer than the edges. Pairs of cloth that touch (distance 0) have no side to be kept on: from then on they are left to pass.
+    void detect(const Positions& x, const Positions& displacements, const Margins& margins);
 
     const std::vector<ContactPair>& pairs() const { return pairs_; }
 
     /// The share of its displacement, in [0, 1], that each vertex may go so that no pair comes nearer than `gap` (see
-    /// free_share). `x` as at the last detection, the displacements among those given to it, its margin at least `gap`.
+    /// free_share). `x` as at the last detection, the displacements among those given to it, its margins at least `gap`.
     /// Same bits for any number of threads.
     std::vector<double> free_shares(const Positions& x, const Positions& displacements, double gap) const;
 
@@ -56,11 +62,10 @@ private:
         std::vector<int> vertices;  // those of triangles
         BoxTree vertex_tree, edge_tree, triangle_tree;
     };
-    /// Where each vertex may go: along its way from its start, and `margin` (metres) beside it.
+    /// Where vertices may go: along their ways from their starts, and beside them.
     struct Room {
         Positions start, way;
-        double margin = -1;
-        bool contains(const Positions& x, const Positions& displacements, double margin) const;
+        Margins margins;
     };
     /// A pair that may meet within the room searched.
     struct Candidate {
@@ -71,14 +76,16 @@ private:
         double distance;  // where the search began
     };
     static Surface surface(const Triangles& triangles, int offset);
+    bool searched(const Room& room) const;
     void renew_trees();
     void search();
     std::unordered_set<std::uint64_t>& passing(PairKind kind) { return passing_[int(kind)]; }
 
     Surface cloth_, obstacle_;
-    double spare_;
+    Eigen::Index cloth_vertices_;
+    Margins spare_;
     Room room_;
-    std::vector<Candidate> candidates_;  // all that may meet within room_
+    std::vector<Candidate> candidates_;  // all that may meet in that room
     std::array<std::unordered_set<std::uint64_t>, 2> passing_;  // by kind: pairs of cloth that touched
     std::vector<ContactPair> pairs_;
 };

@@ -2,13 +2,7 @@
 
 // Seconds of rigging, fitting, draping and recovering by the number of vertices: the samples, refined.
 
-#include <algorithm>
-#include <array>
 #include <limits>
-#include <map>
-#include <set>
-#include <utility>
-#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -17,6 +11,7 @@
 #include "fit/io.h"
 #include "fit/recover_pose.h"
 #include "fit/rig_body.h"
+#include "resampled.h"
 
 namespace {
 
@@ -26,82 +21,6 @@ TriangleMesh read(const char* path)
 {
     const MeshFile file = MeshFile::read(path);
     return { file.positions(), file.triangles() };
-}
-
-/// Cuts triangles at the middles of their longest edges until there are so many vertices; no edge twice in a round.
-class Refinement {
-public:
-    explicit Refinement(const TriangleMesh& mesh) : points_(mesh.positions.rows())
-    {
-        for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
-            points_[v] = mesh.positions.row(v);
-        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-            faces_.push_back({ mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2) });
-    }
-
-    std::size_t vertices() const { return points_.size(); }
-
-    /// @return the mesh with at most so many vertices: fewer, where each edge is already cut
-    TriangleMesh round(std::size_t most)
-    {
-        cut_longest_edges(most - points_.size());
-        std::vector<Face> faces;
-        std::swap(faces, faces_);
-        for (const Face& face : faces)
-            split(face);
-        TriangleMesh mesh { Positions(points_.size(), 3), Triangles(faces_.size(), 3) };
-        for (std::size_t v = 0; v < points_.size(); ++v)
-            mesh.positions.row(Eigen::Index(v)) = points_[v];
-        for (std::size_t f = 0; f < faces_.size(); ++f)
-            mesh.triangles.row(Eigen::Index(f)) << faces_[f][0], faces_[f][1], faces_[f][2];
-        return mesh;
-    }
-
-private:
-    using Face = std::array<int, 3>;
-
-    void cut_longest_edges(std::size_t count)
-    {
-        std::set<std::pair<int, int>> edges;
-        for (const Face& f : faces_)
-            for (int k = 0; k < 3; ++k)
-                edges.insert(std::minmax({ f[k], f[(k + 1) % 3] }));
-        std::vector<std::pair<int, int>> longest(edges.begin(), edges.end());
-        const auto length = [&](const auto& e) { return (points_[e.first] - points_[e.second]).norm(); };
-        std::stable_sort(longest.begin(), longest.end(),
-                         [&](const auto& a, const auto& b) { return length(a) > length(b); });
-        longest.resize(std::min(count, longest.size()));
-        middles_.clear();
-        for (const auto& e : longest) {
-            middles_[e] = int(points_.size());
-            points_.push_back(0.5 * (points_[e.first] + points_[e.second]));
-        }
-    }
-
-    void split(const Face& f)
-    {
-        for (int k = 0; k < 3; ++k) {
-            const int a = f[k], b = f[(k + 1) % 3], c = f[(k + 2) % 3];
-            if (const auto middle = middles_.find(std::minmax({ a, b })); middle != middles_.end()) {
-                split({ c, a, middle->second });
-                split({ c, middle->second, b });
-                return;
-            }
-        }
-        faces_.push_back(f);
-    }
-
-    std::vector<Vec3> points_;
-    std::vector<Face> faces_;
-    std::map<std::pair<int, int>, int> middles_;
-};
-
-TriangleMesh refined(const TriangleMesh& mesh, std::size_t vertices)
-{
-    TriangleMesh result = mesh;
-    for (Refinement refinement(mesh); refinement.vertices() < vertices;)
-        result = refinement.round(vertices);
-    return result;
 }
 
 /// Each triangle cut into four, so many times.
@@ -166,18 +85,18 @@ void fit_to_garment(benchmark::State& state)
 }
 BENCHMARK(fit_to_garment)->DenseRange(0, 2)->Unit(benchmark::kSecond);
 
-/// A skirt of so many vertices in which a body is rigged and posed.
-struct Skirt {
+/// A coat of so many vertices, and a body rigged and posed for it.
+struct Fitted {
     BodyMesh woman = body();
     Rig rigged = rig_body(woman);
     GarmentMesh garment;
     Pose pose;
 
-    explicit Skirt(benchmark::State& state)
+    explicit Fitted(benchmark::State& state)
     {
-        const TriangleMesh mesh = refined(read(FIT_SAMPLES "/skirt.ply"), std::size_t(state.range(0)));
+        const TriangleMesh mesh = resampled(read(FIT_SAMPLES "/coat.ply"), std::size_t(state.range(0)));
         garment = make_garment(mesh.positions, mesh.triangles);
-        pose = fit_skeleton(rigged, garment).pose;
+        pose = fit_skeleton(rigged, garment, as_coat()).pose;
         count_vertices(state, garment.positions);
         state.SetComplexityN(garment.positions.rows());
     }
@@ -185,22 +104,22 @@ struct Skirt {
 
 void drape(benchmark::State& state)
 {
-    const Skirt skirt(state);
+    const Fitted coat(state);
     for (auto _ : state)
-        benchmark::DoNotOptimize(drape_garment(skirt.rigged, skirt.woman, skirt.pose, skirt.garment));
+        benchmark::DoNotOptimize(drape_garment(coat.rigged, coat.woman, coat.pose, coat.garment));
 }
 
 void recover(benchmark::State& state)
 {
-    const Skirt skirt(state);
-    const DrapeResult draped = drape_garment(skirt.rigged, skirt.woman, skirt.pose, skirt.garment);
+    const Fitted coat(state);
+    const DrapeResult draped = drape_garment(coat.rigged, coat.woman, coat.pose, coat.garment);
     for (auto _ : state)
-        benchmark::DoNotOptimize(recover_pose(skirt.rigged, skirt.woman, skirt.pose, Pose(), draped.garments));
+        benchmark::DoNotOptimize(recover_pose(coat.rigged, coat.woman, coat.pose, Pose(), draped.garments));
 }
 
 void cloth_sizes(benchmark::internal::Benchmark* run)
 {
-    for (const int vertices : { 3055, 4000, 8000, 15000, 30000, 60000 })
+    for (const int vertices : { 2000, 4000, 8000, 15000, 30000, 60000 })
         run->Arg(vertices);
     run->Unit(benchmark::kSecond)->Complexity();
 }
