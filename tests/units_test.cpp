@@ -166,4 +166,13 @@ TEST(Units, AGarmentOfOtherUnitsOrAxesIsNoticed)
         }
 }
 
+TEST(Units, ATriangleThatNamesNoVertexIsRefusedNotRead)
+{
+    TriangleMesh mesh = shirt();
+    mesh.triangles(4, 1) = 1000000;
+    fixtures::expect_invalid([&] { guess_body_frame(mesh.positions, mesh.triangles); }, "triangle 4");
+    mesh.triangles(4, 1) = -1;
+    fixtures::expect_invalid([&] { guess_garment_frame(mesh.positions, mesh.triangles, {}); }, "triangle 4");
+}
+
 }  // namespace

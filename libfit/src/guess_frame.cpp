@@ -7,6 +7,7 @@
 
 #include "fit/units.h"
 #include "known_units.h"
+#include "named_vertices.h"
 
 namespace fit {
 namespace {
@@ -190,6 +191,7 @@ double preference(const Shape& shape, const Vec3& up, const Vec3& other)
 
 FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles)
 {
+    require_named_vertices("body", positions.rows(), triangles);
     const Samples samples = samples_of(positions, triangles);
     if (!has_size(samples))
         return { {}, 0, 0, "a flat or empty mesh has no size to judge by: taken for metres with +y up" };
@@ -212,6 +214,7 @@ FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangl
 
 FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body)
 {
+    require_named_vertices("garment", positions.rows(), triangles);
     const Samples samples = samples_of(positions, triangles);
     if (!has_size(samples))
         return { body, 0, 0, "a flat or empty mesh has no size to judge by: taken for the units and axes of the body" };

@@ -8,6 +8,7 @@
 
 #include "closed_surface.h"
 #include "fit/error.h"
+#include "named_vertices.h"
 
 namespace fit {
 namespace {
@@ -20,10 +21,7 @@ void check(const char* what, const Positions& positions, const Triangles& triang
     for (Eigen::Index v = 0; v < positions.rows(); ++v)
         if (!positions.row(v).allFinite())
             throw InvalidInput(name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (triangles.row(f).minCoeff() < 0 || triangles.row(f).maxCoeff() >= positions.rows())
-            throw InvalidInput(name + ": triangle " + std::to_string(f) + " names a vertex outside 0.."
-                               + std::to_string(positions.rows() - 1) + "; repair the file");
+    require_named_vertices(name, positions.rows(), triangles);
 }
 
 Vec3 area_vector(const Positions& p, const Triangles& t, Eigen::Index f)

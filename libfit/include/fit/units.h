@@ -34,7 +34,7 @@ struct FrameGuess {
     std::string why;  ///< one sentence for the user
 };
 
-/// Guesses units and up axis of a human body from its size and shape.
+/// Guesses units and up axis of a human body from its size and shape. @throws InvalidInput: index out of range.
 FIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles);
 /// Guesses those of a garment, given the body's: same frame unless size or shape speak against it.
 FIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body);

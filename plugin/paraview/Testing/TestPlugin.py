@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loads the plugin into pvpython, dresses, goes through time, draws.   pvpython TestPlugin.py PLUGIN.so SAMPLES FOLDER"""
+"""Loads the plugin into pvpython, dresses, goes through time, keeps that as a series, draws.
+
+    pvpython TestPlugin.py PLUGIN.so BODY.ply SKIRT.ply FOLDER
+"""
 import os
 import sys
 
 from paraview import servermanager
 from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and ours arrive here)
 
-plugin, samples, folder = sys.argv[1:4]
+plugin, body_file, skirt_file, folder = sys.argv[1:5]
 LoadPlugin(plugin, ns=globals())
 
-body = PLYReader(FileNames=[os.path.join(samples, "walking_woman.ply")])
-skirt = PLYReader(FileNames=[os.path.join(samples, "skirt.ply")])
+body = PLYReader(FileNames=[body_file])
+skirt = PLYReader(FileNames=[skirt_file])
 dress = DressBody(Body=body, Garments=skirt, Type="skirt", SettlingSteps=2, RecoverySettlingSteps=2, Frames=3)
 assert list(dress.TimestepValues) == [0, 0.5, 1], dress.TimestepValues
 assert dress.ContactDistance == 0.0025
@@ -23,6 +26,19 @@ assert dressed.GetPointData().GetArray("Ease") is not None
 at_end = dressed.GetPoint(0)
 dress.UpdatePipeline(0)
 assert servermanager.Fetch(dress, idx=1).GetPoint(0) != at_end
+
+series = os.path.join(folder, "skirt.pvd")
+SaveData(series, proxy=OutputPort(dress, 1), WriteTimeSteps=1, DataMode="Binary")
+back = PVDReader(FileName=series)
+assert list(back.TimestepValues) == [0, 0.5, 1], back.TimestepValues
+for time in back.TimestepValues:
+    dress.UpdatePipeline(time)
+    back.UpdatePipeline(time)
+    written, read = servermanager.Fetch(dress, idx=1), servermanager.Fetch(back)
+    assert memoryview(written.GetPoints().GetData()).tobytes() == memoryview(read.GetPoints().GetData()).tobytes(), time
+    for name in ("Ease", "RestPosition"):
+        kept = [memoryview(data.GetPointData().GetArray(name)).tobytes() for data in (written, read)]
+        assert kept[0] == kept[1], name
 
 rig = RigBody(Body=body)
 rig.UpdatePipeline()

@@ -4,6 +4,7 @@
 // twice, and usable after whatever went wrong.
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -358,6 +359,42 @@ TEST(Chain, DoesNotRigAgainWhenTheFitChanges)
     EXPECT_FALSE(fitted.seen.empty());
 }
 
+/// Two triangles each that share an edge become a quad, whose first fan they are.
+vtkSmartPointer<vtkCellArray> quads_of(const TriangleMesh& mesh)
+{
+    std::map<std::pair<int, int>, Eigen::Index> begins;  // the last edge of each triangle, turned round
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        begins[{ mesh.triangles(f, 0), mesh.triangles(f, 2) }] = f;
+    std::set<Eigen::Index> done;
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        if (!done.insert(f).second)
+            continue;
+        const Eigen::RowVector3i t = mesh.triangles.row(f);
+        const auto found = begins.find({ t[2], t[0] });
+        if (found != begins.end() && done.insert(found->second).second)
+            cells->InsertNextCell({ t[0], t[1], t[2], mesh.triangles(found->second, 1) });
+        else
+            cells->InsertNextCell({ t[0], t[1], t[2] });
+    }
+    return cells;
+}
+
+TEST(DressBody, TakesQuadsAndGivesThemBackAsQuads)
+{
+    auto garment = shorts();
+    garment->SetPolys(quads_of(shorts_mesh(0.02)));
+    ASSERT_LT(garment->GetNumberOfPolys(), shorts_mesh(0.02).triangles.rows());
+    vtkNew<vtkDressBody> dress;
+    dress->SetInputData(0, body());
+    dress->SetInputData(1, garment);
+    hurry(*dress);
+    dress->Update();
+    EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 1);
+    EXPECT_EQ(polydata(*dress, 1)->GetPolys(), garment->GetPolys());
+    EXPECT_EQ(polydata(*dress, 1)->GetPointData()->GetArray("Ease")->GetNumberOfTuples(), garment->GetNumberOfPoints());
+}
+
 TEST(DressBody, SaysThatAGarmentIsTooSmallAndGoesOn)
 {
     vtkNew<vtkDressBody> dress;
@@ -392,6 +429,13 @@ vtkSmartPointer<vtkPolyData> not_finite()
     return data;
 }
 
+vtkSmartPointer<vtkPolyData> naming_a_point_that_is_not_there()
+{
+    auto data = body();
+    data->GetPolys()->InsertNextCell({ 0, 1, 1000000 });
+    return data;
+}
+
 vtkSmartPointer<vtkPolyData> sphere()
 {
     vtkNew<vtkSphereSource> source;
@@ -407,6 +451,7 @@ TEST(RigBody, RefusesBadInputInOneLineAndWorksAfterwards)
         = { { vtkSmartPointer<vtkPolyData>::New(), "0 polygons" },
             { lines_only(), "1 lines" },
             { not_finite(), "7" },
+            { naming_a_point_that_is_not_there(), "names a vertex outside" },
             { sphere(), "" } };
     for (const auto& [data, part] : bad) {
         rig->SetInputData(data);

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders how a body goes back to its own pose, the garment along: one picture for each time step, and one with four of them.
+
+    xvfb-run -a -s "-noreset -screen 0 1280x1024x24" pvbatch dressing_animation.py PLUGIN.so BODY.ply GARMENT.ply TYPE FOLDER
+"""
+import os
+import sys
+
+from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and ours arrive here)
+from vtkmodules.vtkImagingCore import vtkImageAppend
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+FRAMES, SHOWN = 10, (0, 3, 6, 9)
+
+
+def pipeline(body, garment, garment_type):
+    return DressBody(Body=PLYReader(FileNames=[body]), Garments=PLYReader(FileNames=[garment]), Type=garment_type,
+                     Frames=FRAMES)
+
+
+def view_of(dress):
+    view = CreateView("RenderView")
+    view.ViewSize = [420, 700]
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1, 1, 1]
+    view.OrientationAxesVisibility = 0
+    Show(OutputPort(dress, 0), view).DiffuseColor = [0.87, 0.72, 0.6]
+    ColorBy(Show(OutputPort(dress, 1), view), ("POINTS", "Ease"))
+    GetColorTransferFunction("Ease").RescaleTransferFunction(0, 0.05)  # m
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [1.2, 1.0, 3.4], [0, 0.8, 0], [0, 1, 0]
+    return view
+
+
+def render(view, times, folder):
+    pictures = []
+    for i, time in enumerate(times):
+        view.ViewTime = time
+        pictures.append(os.path.join(folder, f"dressing_{i:02}.png"))
+        SaveScreenshot(pictures[-1], view)
+    return pictures
+
+
+def side_by_side(pictures, path):
+    row, writer = vtkImageAppend(), vtkPNGWriter()
+    readers = []  # VTK's Python does not keep what nobody holds
+    for picture in pictures:
+        readers.append(vtkPNGReader())
+        readers[-1].SetFileName(picture)
+        row.AddInputConnection(readers[-1].GetOutputPort())
+    writer.SetInputConnection(row.GetOutputPort())
+    writer.SetFileName(path)
+    writer.Write()
+
+
+def main(plugin, body, garment, garment_type, folder):
+    LoadPlugin(plugin, ns=globals())
+    dress = pipeline(body, garment, garment_type)
+    pictures = render(view_of(dress), dress.TimestepValues, folder)
+    side_by_side([pictures[i] for i in SHOWN], os.path.join(folder, "dressing.png"))
+
+
+main(*sys.argv[1:])
