@@ -6,8 +6,10 @@
 import os
 import sys
 
+import numpy as np
 from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and ours arrive here)
-from vtkmodules.vtkImagingCore import vtkImageAppend
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 FRAMES, SHOWN = 10, (0, 3, 6, 9)
@@ -40,14 +42,21 @@ def render(view, times, folder):
     return pictures
 
 
+def pixels_of(picture):
+    reader = vtkPNGReader()
+    reader.SetFileName(picture)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)
+
+
 def side_by_side(pictures, path):
-    row, writer = vtkImageAppend(), vtkPNGWriter()
-    readers = []  # VTK's Python does not keep what nobody holds
-    for picture in pictures:
-        readers.append(vtkPNGReader())
-        readers[-1].SetFileName(picture)
-        row.AddInputConnection(readers[-1].GetOutputPort())
-    writer.SetInputConnection(row.GetOutputPort())
+    row = np.hstack([pixels_of(picture) for picture in pictures])
+    image, writer = vtkImageData(), vtkPNGWriter()
+    image.SetDimensions(row.shape[1], row.shape[0], 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(row.reshape(-1, row.shape[2]), deep=1))
+    writer.SetInputData(image)
     writer.SetFileName(path)
     writer.Write()
 
