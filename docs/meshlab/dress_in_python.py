@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dresses bodies in garments with PyMeshLab, saves what came of it and plots the ease.
+"""Dresses bodies in garments with PyMeshLab, saves what came of it and draws the ease.
 
-    dress_in_python.py PLUGIN -o FOLDER --bodies woman.ply man.ply --garments tshirt.ply skirt.ply coat.ply
+    dress_in_python.py PLUGIN -o FOLDER --bodies woman.ply man.ply --garments tshirt.ply trousers.ply skirt.ply
 """
 
 import argparse
@@ -12,30 +12,88 @@ import numpy
 import pymeshlab
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402  (the backend must be chosen first)
+from matplotlib import cm, collections, colors, pyplot  # noqa: E402  (the backend must be chosen first)
+
+WIDEST_SHARE = 0.03  # of the body's height: ease from here on is shown in the last colour
 
 
-def dress(body, garment, folder):
-    """Ease at each vertex in the body's unit, or the reason why there is none."""
-    meshes = pymeshlab.MeshSet()
-    meshes.load_new_mesh(str(body))
-    meshes.load_new_mesh(str(garment))
-    try:
-        meshes.apply_filter("generate_garment_fitting_dress", body=0, garment=1)
-    except pymeshlab.PyMeshLabException as error:
-        return meshes, str(error).split("Details: ")[-1]
-    meshes.set_current_mesh(len(meshes) - 1)  # the last layer is the dressed garment
-    meshes.save_current_mesh(str(folder / f"{garment.stem}_on_{body.stem}.ply"))
-    return meshes, meshes.current_mesh().vertex_custom_scalar_attribute_array("ease")
+class Dressed:
+    """One garment on one body, or the reason why it is not on."""
+
+    def __init__(self, body, garment):
+        self.meshes = pymeshlab.MeshSet()  # kept: PyMeshLab must not destroy a MeshSet in which a filter has failed
+        self.meshes.load_new_mesh(str(body))
+        self.meshes.load_new_mesh(str(garment))
+        self.failure = ""
+        try:
+            self.meshes.apply_filter("generate_garment_fitting_dress", body=0, garment=1)
+        except pymeshlab.PyMeshLabException as error:
+            self.failure = str(error).split("Details: ")[-1].strip()
+        self.meshes.set_current_mesh(len(self.meshes) - 1)  # the last layer is the dressed garment
+
+    @property
+    def body(self):
+        return self.meshes.mesh(0)
+
+    @property
+    def garment(self):
+        return self.meshes.current_mesh()
+
+    @property
+    def ease(self):
+        """At each vertex of the garment, in the body's unit."""
+        return self.garment.vertex_custom_scalar_attribute_array("ease")
+
+    def in_words(self):
+        return self.failure or f"ease {numpy.median(self.ease):.3f} (median), {numpy.quantile(self.ease, 0.95):.3f} (95%)"
 
 
-def plot(axes, body, results):
-    shown = {garment: ease for garment, ease in results.items() if not isinstance(ease, str)}
-    if shown:
-        axes.violinplot([numpy.asarray(ease) for ease in shown.values()], showmedians=True)
-    axes.set_xticks(range(1, len(shown) + 1), shown.keys())
-    axes.set_title(body)
-    axes.set_ylabel("ease, in the body's unit")
+def corners(mesh):
+    return mesh.vertex_matrix()[mesh.face_matrix()]
+
+
+def shaded(triangles, rgb):
+    """Faces lit from the front."""
+    normals = numpy.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    light = numpy.abs(normals[:, 2]) / numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-30)
+    return numpy.asarray(rgb) * (0.35 + 0.65 * light)[:, None]
+
+
+def draw(axes, dressed, scale):
+    """The body and what it wears, from the front: +y up, facing +z."""
+    triangles, rgb = corners(dressed.body), [(0.75, 0.75, 0.75)] * dressed.body.face_number()
+    if not dressed.failure:
+        ease = dressed.ease[dressed.garment.face_matrix()].mean(axis=1)
+        triangles = numpy.concatenate([triangles, corners(dressed.garment)])
+        rgb = numpy.concatenate([rgb, scale.to_rgba(ease)[:, :3]])
+    order = numpy.argsort(triangles[:, :, 2].mean(axis=1))  # far ones first
+    axes.add_collection(
+        collections.PolyCollection(triangles[order][:, :, :2], facecolors=shaded(triangles, rgb)[order], edgecolors="face")
+    )
+    axes.autoscale()
+    axes.set_aspect("equal")
+    axes.axis("off")
+
+
+def height(body):
+    return numpy.ptp(body.vertex_matrix()[:, 1])
+
+
+def draw_all(results, path):
+    """One row for each body, one column for each garment."""
+    bodies = list(dict.fromkeys(body for body, _ in results))
+    garments = list(dict.fromkeys(garment for _, garment in results))
+    widest = WIDEST_SHARE * max(height(dressed.body) for dressed in results.values())
+    scale = cm.ScalarMappable(colors.Normalize(0, widest), "turbo_r")
+    figure, grid = pyplot.subplots(
+        len(bodies), len(garments), figsize=(3 * len(garments) + 1, 4 * len(bodies)), squeeze=False, layout="constrained"
+    )
+    for (body, garment), dressed in results.items():
+        axes = grid[bodies.index(body), garments.index(garment)]
+        draw(axes, dressed, scale)
+        axes.set_title(f"{garment} on {body}\n{dressed.in_words()}", fontsize=9, wrap=True)
+    figure.colorbar(scale, ax=grid, label="ease, in the body's unit", extend="max")
+    figure.savefig(path, dpi=80)
 
 
 def main():
@@ -48,18 +106,14 @@ def main():
 
     pymeshlab.load_plugin(str(call.plugin.resolve()))
     call.output.mkdir(parents=True, exist_ok=True)
-    kept = []  # PyMeshLab must not destroy a MeshSet in which a filter has failed
-    figure, rows = pyplot.subplots(1, len(call.bodies), figsize=(5 * len(call.bodies), 4), sharey=True, squeeze=False)
-    for axes, body in zip(rows[0], call.bodies):
-        results = {}
+    results = {}
+    for body in call.bodies:
         for garment in call.garments:
-            meshes, ease = dress(body, garment, call.output)
-            kept.append(meshes)
-            results[garment.stem] = ease
-            print(f"{garment.stem} on {body.stem}:", ease if isinstance(ease, str) else f"ease {numpy.median(ease):.3f}")
-        plot(axes, body.stem, results)
-    figure.tight_layout()
-    figure.savefig(call.output / "ease.png", dpi=100)
+            dressed = results[body.stem, garment.stem] = Dressed(body, garment)
+            print(f"{garment.stem} on {body.stem}: {dressed.in_words()}", flush=True)
+            if not dressed.failure:
+                dressed.meshes.save_current_mesh(str(call.output / f"{garment.stem}_on_{body.stem}.ply"))
+    draw_all(results, call.output / "ease.png")
 
 
 if __name__ == "__main__":
