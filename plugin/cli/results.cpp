@@ -2,10 +2,10 @@
 #include "results.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 
+#include "filters/doubts.h"
 #include "filters/outcome.h"
 #include "filters/rig_file.h"
 #include "fit/animated_gltf.h"
@@ -16,8 +16,6 @@ namespace fit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a warning
 
 // ---- writing ---------------------------------------------------------------------------------------------------
 
@@ -176,43 +174,25 @@ void write_fitted_body(const Session& session, const fs::path& folder)
 
 // ---- doubts ----------------------------------------------------------------------------------------------------
 
-void doubt_frame(std::vector<std::string>& warnings, const std::string& file, const FrameGuess& guess,
-                 const std::string& flags)
+/// "give --swap-sides" for "swap_sides".
+std::string give_flag(std::string_view parameter)
 {
-    if (guess.unit_margin < k_doubt)
-        warnings.push_back("the unit of " + file + " is hardly more than a guess (" + guess.why + "); give --" + flags
-                           + "unit");
-    if (guess.up_margin < k_doubt)
-        warnings.push_back("the up axis of " + file + " is hardly more than a guess (" + guess.why + "); give --"
-                           + flags + "up");
+    std::string flag(parameter);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return "give --" + flag;
 }
 
 }  // namespace
 
 void add_doubts(Session& session)
 {
-    const Scene& scene = session.scene;
-    for (std::string& line : explain(scene.conflicts, session.garment_names()))
-        session.warnings.push_back(std::move(line));
-    doubt_frame(session.warnings, session.body.path.filename().string(), session.body.frame, "");
-    if (scene.rig && scene.rig->side_margin < k_doubt)
-        session.warnings.emplace_back(
-            "left and right of the body are hardly more than a guess; look, and give --swap-sides");
-    if (const Dressing* end = final_dressing(scene); end && end->speed >= k_at_rest)
-        session.warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * end->speed))
-                                   + " mm/s); give more settling steps");
-    for (std::size_t i = 0; i < session.garments.size(); ++i) {
-        const std::string name = session.garments[i].name();
-        doubt_frame(session.warnings, name, session.garments[i].frame, "garment-");
-        if (i < scene.fits.size() && scene.fits[i].type_margin < k_doubt)
-            session.warnings.push_back("the type of " + name + " is hardly more than a guess, "
-                                       + std::string(name_of(scene.fits[i].type)) + "; give --type");
-        if (const Dressing* end = final_dressing(scene); end && i < end->garments.size() && end->garments[i].size > 1)
-            session.warnings.push_back(name + " was made "
-                                       + std::to_string(std::lround(100 * (end->garments[i].size - 1))) + "% larger");
-        if (const Dressing* end = final_dressing(scene); end && i >= end->garments.size())
-            session.warnings.push_back(name + " was not put on, for what is under it was not certified");
-    }
+    const auto add = [&](const std::vector<std::string>& doubts) {
+        session.warnings.insert(session.warnings.end(), doubts.begin(), doubts.end());
+    };
+    add(doubts_about_frame(session.body.path.filename().string(), session.body.frame, "", give_flag));
+    for (const GarmentFile& garment : session.garments)
+        add(doubts_about_frame(garment.name(), garment.frame, "garment_", give_flag));
+    add(doubts_about_scene(session.scene, session.garment_names(), give_flag));
 }
 
 void write_results(Session& session, std::string_view command, const fs::path& folder)

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/doubts.h"
+
+#include <cmath>
+
+#include "filters/outcome.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a line
+
+constexpr const char* k_guess = " hardly more than a guess";
+
+void doubt_type(std::vector<std::string>& doubts, const std::string& name, const FitResult& fit, const HowToSet& set)
+{
+    if (fit.type_margin < k_doubt)
+        doubts.push_back("the type of " + name + " is" + k_guess + ", " + std::string(name_of(fit.type)) + "; "
+                         + set("type"));
+}
+
+void doubt_dressing(std::vector<std::string>& doubts, const Dressing& end, const std::vector<std::string>& names)
+{
+    if (end.speed >= k_at_rest)
+        doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * end.speed))
+                         + " mm/s); give more settling steps");
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (i >= end.garments.size())
+            doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
+        else if (end.garments[i].size > 1)
+            doubts.push_back(names[i] + " was made " + std::to_string(std::lround(100 * (end.garments[i].size - 1)))
+                             + "% larger");
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
+                                            const HowToSet& set)
+{
+    std::vector<std::string> doubts;
+    if (guess.unit_margin < k_doubt)
+        doubts.push_back("the unit of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "unit"));
+    if (guess.up_margin < k_doubt)
+        doubts.push_back("the up axis of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "up"));
+    return doubts;
+}
+
+std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vector<std::string>& names,
+                                            const HowToSet& set)
+{
+    std::vector<std::string> doubts = explain(scene.conflicts, names);
+    if (scene.rig && scene.rig->side_margin < k_doubt)
+        doubts.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
+    for (std::size_t i = 0; i < scene.fits.size(); ++i)
+        doubt_type(doubts, names[i], scene.fits[i], set);
+    if (const Dressing* end = final_dressing(scene))
+        doubt_dressing(doubts, *end, names);
+    return doubts;
+}
+
+}  // namespace fit

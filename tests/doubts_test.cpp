@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/doubts.h"
+
+#include <gtest/gtest.h>
+
+namespace fit {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+std::string set(std::string_view parameter) { return "set " + std::string(parameter); }
+
+/// Two garments worn, nothing doubtful about either.
+Scene worn_scene()
+{
+    Scene scene;
+    scene.rig.emplace().side_margin = 1;
+    scene.fits.resize(2);
+    for (FitResult& fit : scene.fits)
+        fit.type_margin = 1;
+    scene.draped.emplace().garments.resize(2);
+    return scene;
+}
+
+Lines doubts_about(const Scene& scene) { return doubts_about_scene(scene, { "skirt", "coat" }, set); }
+
+TEST(Doubts, AreNoneWhereEverythingIsSure)
+{
+    EXPECT_EQ(doubts_about(worn_scene()), Lines());
+    EXPECT_EQ(doubts_about_frame("man", { {}, 1, 1, "" }, "", set), Lines());
+}
+
+TEST(Doubts, SayWhichParameterSettlesThem)
+{
+    Scene scene = worn_scene();
+    scene.rig->side_margin = 0.1;
+    scene.fits[1].type = GarmentType::coat;
+    scene.fits[1].type_margin = 0.1;
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "left and right of the body are hardly more than a guess; look, and set swap_sides",
+                       "the type of coat is hardly more than a guess, coat; set type" }));
+    EXPECT_EQ(doubts_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
+              (Lines { "the unit of coat is hardly more than a guess (it is wide); set garment_unit",
+                       "the up axis of coat is hardly more than a guess (it is wide); set garment_up" }));
+}
+
+TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
+{
+    Scene scene = worn_scene();
+    scene.draped->speed = 1.5;
+    scene.draped->garments.pop_back();
+    scene.draped->garments[0].size = 1.08;
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "the cloth is not at rest yet (1500 mm/s); give more settling steps", "skirt was made 8% larger",
+                       "coat was not put on, for what is under it was not certified" }));
+}
+
+}  // namespace
+}  // namespace fit
