@@ -63,6 +63,14 @@ TriangleMesh mesh_of(const MeshModel& layer)
     return result;
 }
 
+std::vector<TriangleMesh> meshes_of(const std::vector<MeshModel*>& layers)
+{
+    std::vector<TriangleMesh> meshes;
+    for (const MeshModel* layer : layers)
+        meshes.push_back(mesh_of(*layer));
+    return meshes;
+}
+
 std::string name_of(const MeshModel& layer)
 {
     const QFileInfo label(layer.label());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/error.h"
 #include "fit/skeleton.h"
 #include "fit/types.h"
 #include "host_api.h"
@@ -16,8 +17,21 @@ namespace fit::meshlab {
 /// Vertices and faces that are not deleted, in their order.
 TriangleMesh mesh_of(const MeshModel& layer);
 
+std::vector<TriangleMesh> meshes_of(const std::vector<MeshModel*>& layers);
+
 /// The layer's name without a file's extension.
 std::string name_of(const MeshModel& layer);
+
+/// What `make` returns. @throws InvalidInput in its words, after the layer's name.
+template <class Make>
+auto with_name(const MeshModel& layer, const Make& make)
+{
+    try {
+        return make();
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(name_of(layer) + ": " + error.what());
+    }
+}
 
 /// As many digits as a layer keeps.
 Positions as_kept(const Positions& positions);

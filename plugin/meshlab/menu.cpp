@@ -6,8 +6,6 @@
 namespace fit::meshlab {
 namespace {
 
-const std::string k_prefix = "Garment Fitting: ";
-
 const char* const k_citation
     = "<br><br>See: <br><i>N. Wu, Z. Deng, Y. Huang, C. Liu, D. Zhang, X. Jin</i>, <b>\"A fast garment fitting "
       "algorithm "
@@ -32,9 +30,11 @@ const char* layers_of_filter(std::string_view name)
     return "Makes the layers of the four filters; those on the way are hidden.";
 }
 
+std::string entry_name(std::string_view label) { return std::string(k_title) + std::string(label); }
+
 MenuEntry stages_entry(const Filter& filter)
 {
-    return { k_prefix + std::string(filter.label), "generate_garment_fitting_" + std::string(filter.name),
+    return { entry_name(filter.label), "generate_garment_fitting_" + std::string(filter.name),
              std::string(filter.help) + ". " + layers_of_filter(filter.name)
                  + " Layers that were there stay as they are. Choose body and garments as they were given, also when "
                    "you run the filters one by one."
@@ -47,17 +47,17 @@ std::vector<MenuEntry> make_menu()
     std::vector<MenuEntry> entries;
     for (const Filter& filter : filters())
         entries.push_back(stages_entry(filter));
-    entries.push_back({ k_prefix + "Save Rig", "save_garment_fitting_rig",
+    entries.push_back({ entry_name("Save Rig"), "save_garment_fitting_rig",
                         "Writes a body's skeleton, skin weights and fitted poses into one JSON file. Filters find it "
                         "again when it lies beside the body's file and is called like it, man.rig.json beside man.ply: "
                         "MeshLab's own formats drop skeletons and weights. garmentfit reads it with --rig.",
                         Task::save_rig, nullptr });
     entries.push_back(
-        { k_prefix + "Load Rig", "load_garment_fitting_rig",
+        { entry_name("Load Rig"), "load_garment_fitting_rig",
           "Reads what Save Rig or the program garmentfit wrote for this body, and makes the layers of Rig "
           "Body.",
           Task::load_rig, nullptr });
-    entries.push_back({ k_prefix + "Body Measurements and Ease", "get_garment_fitting_measurements",
+    entries.push_back({ entry_name("Body Measurements and Ease"), "get_garment_fitting_measurements",
                         std::string("Measures how a garment sits on a body in the body's own pose: girths of both into "
                                     "the log, and a new layer with ease, strain and pressure as vertex attributes and "
                                     "one of them as quality. Needs a rigged body.")

@@ -4,11 +4,14 @@
 // The filters as MeshLab shows them. Names are the keys of its scripts: they are never changed.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "filters/filters.h"
 
 namespace fit::meshlab {
+
+constexpr std::string_view k_title = "Garment Fitting: ";  ///< what the name of every entry begins with
 
 enum class Task { run_stages, save_rig, load_rig, measure };
 

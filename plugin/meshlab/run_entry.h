@@ -3,21 +3,12 @@
 
 // One filter, from layers in to layers out.
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "fit/progress.h"
 #include "host_api.h"
 #include "menu.h"
+#include "report.h"
 
 namespace fit::meshlab {
-
-/// What a filter tells its user.
-struct Report {
-    std::vector<std::string> lines, warnings;
-    std::map<std::string, double> numbers;  ///< for scripts
-};
 
 /// Everything that can go wrong goes wrong before the document changes; layers are only added, and the current one stays.
 /// @throws InvalidInput, SolverFailure, Cancelled.

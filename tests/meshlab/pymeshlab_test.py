@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin in PyMeshLab: pymeshlab_test.py PLUGIN SAMPLES PROGRAM"""
+"""The plugin in PyMeshLab: pymeshlab_test.py PLUGIN SAMPLES BODIES PROGRAM"""
 
+import ctypes
+import gc
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -10,8 +13,9 @@ import unittest
 import numpy
 import pymeshlab
 
-PLUGIN, SAMPLES, PROGRAM = sys.argv[1:4]
+PLUGIN, SAMPLES, BODIES, PROGRAM = sys.argv[1:5]
 BODY, SKIRT = os.path.join(SAMPLES, "walking_woman.ply"), os.path.join(SAMPLES, "skirt.ply")
+SMALL_BODY = os.path.join(BODIES, "man_a_pose.ply")
 Percent = getattr(pymeshlab, "PercentageValue", getattr(pymeshlab, "Percentage", None))  # its name since 2023, and before
 
 
@@ -21,7 +25,6 @@ KEPT = []
 
 def opened(*paths):
     meshes = pymeshlab.MeshSet()
-    KEPT.append(meshes)
     for path in paths:
         meshes.load_new_mesh(path)
     return meshes
@@ -31,8 +34,11 @@ def labels(meshes):
     return [meshes.mesh(layer).label() for layer in range(len(meshes))]
 
 
-def layer_called(meshes, label):
-    return labels(meshes).index(label)
+def resident_bytes():
+    gc.collect()
+    ctypes.CDLL(None).malloc_trim(0)
+    with open("/proc/self/statm", encoding="ascii") as pages:
+        return int(pages.read().split()[1]) * resource.getpagesize()
 
 
 class GarmentFitting(unittest.TestCase):
@@ -41,10 +47,14 @@ class GarmentFitting(unittest.TestCase):
         pymeshlab.load_plugin(PLUGIN)
 
     def refusal(self, meshes, name, **parameters):
-        before = labels(meshes)
+        """Why a filter failed; it changed nothing."""
+        KEPT.append(meshes)
+        before, given = labels(meshes), [meshes.mesh(layer).vertex_matrix() for layer in range(len(meshes))]
         with self.assertRaises(pymeshlab.PyMeshLabException) as raised:
             meshes.apply_filter(name, **parameters)
         self.assertEqual(labels(meshes), before)
+        for layer, positions in enumerate(given):
+            numpy.testing.assert_array_equal(meshes.mesh(layer).vertex_matrix(), positions)
         return str(raised.exception)
 
     def test_rigs_a_body_into_two_new_layers(self):
@@ -53,7 +63,7 @@ class GarmentFitting(unittest.TestCase):
         numbers = meshes.apply_filter("generate_garment_fitting_rig", body=0)
         self.assertEqual(labels(meshes), ["walking_woman.ply", "walking_woman rigged", "walking_woman skeleton"])
         self.assertEqual(meshes.current_mesh_id(), 0)
-        self.assertTrue(numpy.array_equal(meshes.mesh(0).vertex_matrix(), given))
+        numpy.testing.assert_array_equal(meshes.mesh(0).vertex_matrix(), given)
         self.assertGreater(numbers["side_margin"], 0.5)
         self.assertEqual(meshes.mesh(2).edge_number(), 22)
         weights = [meshes.mesh(1).vertex_custom_scalar_attribute_array(f"weight{slot}") for slot in range(4)]
@@ -70,6 +80,18 @@ class GarmentFitting(unittest.TestCase):
         self.assertIn("at least one mesh", self.refusal(opened(), "generate_garment_fitting_rig"))
         self.assertIn("out of range", self.refusal(opened(BODY), "generate_garment_fitting_rig", proxy_vertices=3))
         self.assertIn("is the body already", self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=0))
+        self.assertIn("give a human body", self.refusal(opened(SKIRT), "generate_garment_fitting_rig"))
+        self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=7)  # in words of PyMeshLab's own
+
+    def test_says_where_a_garment_is_too_small(self):
+        meshes = opened(SMALL_BODY, SKIRT)
+        meshes.set_current_mesh(1)
+        garment = meshes.mesh(1)
+        centre = garment.vertex_matrix().mean(axis=0)
+        narrow = centre + (garment.vertex_matrix() - centre) * [0.72, 1, 0.72]
+        meshes.add_mesh(pymeshlab.Mesh(narrow, garment.face_matrix()), "narrow")
+        words = self.refusal(meshes, "generate_garment_fitting_dress", body=0, garment=2, second_garment=2, third_garment=2)
+        self.assertIn("narrow is too small", words)
 
     def test_takes_lengths_as_a_share_of_the_bodys_box(self):
         meshes = opened(BODY, SKIRT)
@@ -77,20 +99,37 @@ class GarmentFitting(unittest.TestCase):
         self.assertIn("contact_distance: 0.95", words)
 
     def test_dresses_to_the_numbers_of_the_command_line(self):
-        meshes = opened(BODY, SKIRT)
+        meshes = opened(SMALL_BODY, SKIRT)
         numbers = meshes.apply_filter("generate_garment_fitting_dress", body=0, garment=1)
         self.assertGreater(numbers["smallest_gap"], 0)
-        worn = layer_called(meshes, "skirt on walking_woman")
+        worn = labels(meshes).index("skirt on man_a_pose")
         dressed = meshes.mesh(worn)
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([PROGRAM, "dress", BODY, SKIRT, "--quiet", "-o", folder + "/out"], check=True)
+            subprocess.run([PROGRAM, "dress", SMALL_BODY, SKIRT, "--quiet", "-o", folder + "/out"], check=True)
             by_program = opened(folder + "/out/skirt.ply").current_mesh()  # whose file holds floats
-            numpy.testing.assert_allclose(dressed.vertex_matrix(), by_program.vertex_matrix(), rtol=0, atol=1e-7)
+            numpy.testing.assert_array_equal(
+                dressed.vertex_matrix().astype(numpy.float32), by_program.vertex_matrix().astype(numpy.float32)
+            )
         ease = dressed.vertex_custom_scalar_attribute_array("ease")
         numpy.testing.assert_allclose(dressed.vertex_scalar_array(), ease, atol=1e-6)
 
         girths = meshes.apply_filter("get_garment_fitting_measurements", body=0, garment=1, worn=worn)
         self.assertGreater(girths["hips garment"], girths["hips body"])
+
+    def test_keeps_memory_level_over_twenty_runs(self):
+        def run():
+            meshes = opened(SMALL_BODY, SKIRT)
+            meshes.apply_filter("generate_garment_fitting_rig", body=0)
+            meshes.apply_filter("generate_garment_fitting_fit", body=0, garment=1)
+
+        for _ in range(5):
+            run()
+        before = resident_bytes()
+        for _ in range(20):
+            run()
+        growth = (resident_bytes() - before) / 2**20
+        print(f"resident memory grew by {growth:.1f} MB over 20 runs")
+        self.assertLess(growth, 8)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 #include "dialog.h"
 #include "menu.h"
 #include "run_entry.h"
+#include "scrolling_dialogs.h"
 
 using namespace fit::meshlab;
 
@@ -13,6 +14,7 @@ FilterGarmentFit::FilterGarmentFit()
         typeList << FilterIDType(id);
         actionList << new QAction(filterName(FilterIDType(id)), this);
     }
+    new ScrollingDialogs(QString::fromUtf8(k_title.data(), int(k_title.size())), this);
 }
 
 QString FilterGarmentFit::pluginName() const { return "FilterGarmentFit"; }
@@ -20,10 +22,8 @@ QString FilterGarmentFit::filterName(FilterIDType id) const { return QString::fr
 QString FilterGarmentFit::filterInfo(FilterIDType id) const { return QString::fromStdString(menu().at(id).help); }
 MeshFilterInterface::FilterClass FilterGarmentFit::getClass(QAction*) { return Layer; }
 MeshFilterInterface::FILTER_ARITY FilterGarmentFit::filterArity(QAction*) const { return FIXED; }
-int FilterGarmentFit::postCondition(QAction*) const
-{
-    return MeshModel::MM_NONE;
-}  // layers that were there stay the same
+// layers that were there stay the same
+int FilterGarmentFit::postCondition(QAction*) const { return MeshModel::MM_NONE; }
 
 void FilterGarmentFit::initParameterSet(QAction* action, MeshDocument& document, RichParameterList& list)
 {

@@ -21,10 +21,8 @@ QString FilterGarmentFit::filterName(ActionIDType id) const { return QString::fr
 QString FilterGarmentFit::filterInfo(ActionIDType id) const { return QString::fromStdString(menu().at(id).help); }
 FilterPlugin::FilterClass FilterGarmentFit::getClass(const QAction*) const { return Layer; }
 FilterPlugin::FilterArity FilterGarmentFit::filterArity(const QAction*) const { return FIXED; }
-int FilterGarmentFit::postCondition(const QAction*) const
-{
-    return MeshModel::MM_NONE;
-}  // layers that were there stay the same
+// layers that were there stay the same
+int FilterGarmentFit::postCondition(const QAction*) const { return MeshModel::MM_NONE; }
 
 QString FilterGarmentFit::pythonFilterName(ActionIDType id) const
 {

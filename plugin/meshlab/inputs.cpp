@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "inputs.h"
+
+#include "filters/doubts.h"
+#include "filters/frame_choice.h"
+#include "layers.h"
+
+namespace fit::meshlab {
+namespace {
+
+Fitting new_fitting(const Choice& choice, Report& report)
+{
+    const TriangleMesh mesh = mesh_of(*choice.body);
+    if (mesh.triangles.rows() == 0)
+        throw InvalidInput(name_of(*choice.body) + " has no faces; choose the body's layer");
+    Fitting fitting;
+    fitting.body_name = name_of(*choice.body);
+    with_name(*choice.body, [&] {
+        const FrameGuess guess = body_frame(mesh.positions, mesh.triangles, choice.body_frame);
+        fitting.body_frame = guess.frame;
+        fitting.scene.body = make_body(guess.frame.to_metres(mesh.positions), mesh.triangles);
+        report.lines.push_back(fitting.body_name + ": " + guess.why);
+        report.warn(doubts_about_frame(fitting.body_name, guess, "", set_field));
+    });
+    if (fitting.scene.body->repaired)
+        report.warnings.push_back(fitting.body_name
+                                  + " is not one closed surface; its geometry was read from a repaired copy");
+    return fitting;
+}
+
+/// Garments new to the scene; what was known of others goes.
+void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
+{
+    Scene scene;
+    scene.body = std::move(fitting.scene.body);
+    scene.rig = std::move(fitting.scene.rig);
+    fitting.garment_names.clear();
+    fitting.garment_frames.clear();
+    for (std::size_t i = 0; i < choice.garments.size(); ++i)
+        with_name(*choice.garments[i], [&] {
+            const TriangleMesh mesh = mesh_of(*choice.garments[i]);
+            const FrameGuess guess
+                = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, choice.garment_frame);
+            scene.garments.push_back(
+                { make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles), choice.types[i] });
+            fitting.garment_names.push_back(name_of(*choice.garments[i]));
+            fitting.garment_frames.push_back(guess.frame);
+            report.warn(doubts_about_frame(fitting.garment_names.back(), guess, "garment_", set_field));
+        });
+    fitting.scene = std::move(scene);
+}
+
+/// Garments whose fits stand in a rig file. @throws InvalidInput unless they are the chosen ones.
+void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
+{
+    std::vector<std::string> names;
+    for (const MeshModel* garment : choice.garments)
+        names.push_back(name_of(*garment));
+    if (names != fitting.garment_names)
+        throw InvalidInput("no pose of " + fitting.body_name + " in " + names.front()
+                           + " is known; run Garment Fitting: Fit Skeleton with the same garments first");
+    for (std::size_t i = 0; i < choice.garments.size(); ++i) {
+        const TriangleMesh mesh = mesh_of(*choice.garments[i]);
+        fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
+            return GarmentInput { make_garment(fitting.garment_frames[i].to_metres(mesh.positions), mesh.triangles),
+                                  fitting.scene.fits[i].type };
+        }));
+    }
+}
+
+/// The newest fitting in the document that has what the filter reads, else one of the body, else the file beside the body.
+Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDocument& document)
+{
+    const TriangleMesh body = mesh_of(*choice.body);
+    const std::vector<TriangleMesh> garments = meshes_of(choice.garments);
+    const auto is_of_body = [&](const Fitting& fitting) { return fitting.is_of_body(body); };
+    const auto has_inputs = [&](const Fitting& fitting) {
+        return is_of_body(fitting) && fitting.is_of_garments(garments)
+            && (fitting.scene.draped || !entry.reads(Data::draped));
+    };
+    if (const SharedFitting found = find_fitting(document, has_inputs))
+        return *found;
+    if (const SharedFitting found = find_fitting(document, is_of_body))
+        return *found;
+    const std::filesystem::path file = rig_file_beside(*choice.body);
+    if (!file.empty() && std::filesystem::exists(file))
+        return fitting_from_file(file, name_of(*choice.body), body);
+    throw InvalidInput(name_of(*choice.body)
+                       + " is not rigged, or was changed since; run Garment Fitting: Rig Body or Load Rig first");
+}
+
+}  // namespace
+
+Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocument& document, Report& report)
+{
+    Fitting fitting = entry.begins_with_body() ? new_fitting(choice, report) : known_fitting(entry, choice, document);
+    if (!entry.filter || !entry.reads(Data::garments))
+        return fitting;
+    if (entry.filter->has(Stage::fit))
+        put_on_garments(fitting, choice, report);
+    else if (fitting.scene.garments.empty())
+        put_on_fitted_garments(fitting, choice);
+    else if (!fitting.is_of_garments(meshes_of(choice.garments)))
+        throw InvalidInput(
+            fitting.body_name + " was not fitted into " + name_of(*choice.garments.front())
+            + ", or that was changed since; run Garment Fitting: Fit Skeleton with the same garments first");
+    return fitting;
+}
+
+}  // namespace fit::meshlab

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include "filters/doubts.h"
+#include "filters/outcome.h"
+
+namespace fit::meshlab {
+
+void Report::warn(const std::vector<std::string>& doubts)
+{
+    warnings.insert(warnings.end(), doubts.begin(), doubts.end());
+}
+
+std::string set_field(std::string_view parameter) { return "set " + std::string(parameter); }
+
+void report_scene(Report& report, const Fitting& fitting)
+{
+    const Scene& scene = fitting.scene;
+    report.warn(doubts_about_scene(scene, fitting.garment_names, set_field));
+    report.numbers["side_margin"] = scene.rig->side_margin;
+    const Dressing* end = final_dressing(scene);
+    for (std::size_t i = 0; i < scene.fits.size(); ++i) {
+        const std::string& name = fitting.garment_names[i];
+        const GarmentType type = scene.fits[i].type;
+        report.lines.push_back(end ? in_one_line(name, type, end->garments[i])
+                                   : name + " (" + std::string(name_of(type)) + "): fitted");
+    }
+    if (!end)
+        return;
+    const Certificate& outermost = end->garments.back().certificate;
+    report.numbers["smallest_gap"] = outermost.smallest_gap / fitting.body_frame.metres_per_unit;
+    report.numbers["strain_p95"] = outermost.strain.p95;
+}
+
+void report_girths(Report& report, const std::vector<Girth>& girths, double metres_per_unit)
+{
+    std::ostringstream lines;
+    lines << std::fixed << std::setprecision(1);
+    for (const Girth& girth : girths) {
+        lines.str("");
+        lines << girth.place << ": body " << 100 * girth.body << " cm, garment " << 100 * girth.garment << " cm, ease "
+              << 100 * girth.ease() << " cm";
+        report.lines.push_back(lines.str());
+        report.numbers[girth.place + " body"] = girth.body / metres_per_unit;
+        report.numbers[girth.place + " garment"] = girth.garment / metres_per_unit;
+    }
+}
+
+}  // namespace fit::meshlab

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a filter tells its user.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fit/fit_map.h"
+#include "fitting.h"
+
+namespace fit::meshlab {
+
+struct Report {
+    std::vector<std::string> lines, warnings;
+    std::map<std::string, double> numbers;  ///< for scripts; lengths in the body's unit
+
+    void warn(const std::vector<std::string>& doubts);
+};
+
+/// "set swap_sides", for doubts.
+std::string set_field(std::string_view parameter);
+
+/// How fitting or dressing ended.
+void report_scene(Report& report, const Fitting& fitting);
+
+void report_girths(Report& report, const std::vector<Girth>& girths, double metres_per_unit);
+
+}  // namespace fit::meshlab
