@@ -75,7 +75,7 @@ Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDo
     const std::vector<TriangleMesh> garments = meshes_of(choice.garments);
     const auto is_of_body = [&](const Fitting& fitting) { return fitting.is_of_body(body); };
     const auto has_inputs = [&](const Fitting& fitting) {
-        return is_of_body(fitting) && fitting.is_of_garments(garments)
+        return is_of_body(fitting) && (fitting.is_of_garments(garments) || !entry.reads(Data::garments))
             && (fitting.scene.draped || !entry.reads(Data::draped));
     };
     if (const SharedFitting found = find_fitting(document, has_inputs))

@@ -355,6 +355,24 @@ TEST_F(MeshLab, FindsTheRigAgainBesideTheBodysFile)
         EXPECT_EQ(point_of(skeleton, joint), point_of(again, joint));
 }
 
+TEST_F(MeshLab, DrapesInAPoseFittedBeforeTheRigWasSaved)
+{
+    fs::copy(k_small_body, folder / "man.ply");
+    meshlab::open_layer(document, folder / "man.ply");
+    meshlab::open_layer(document, k_skirt);
+    for (const char* step : { "Rig Body", "Fit Skeleton", "Save Rig" })
+        ASSERT_TRUE(run(step, document).well) << step;
+
+    MeshDocument reopened;
+    meshlab::open_layer(reopened, folder / "man.ply");
+    meshlab::open_layer(reopened, k_skirt);
+    RichParameterList short_drape = dialog_of("Drape Garment", reopened);
+    short_drape.setValue("inflation_steps", IntValue(4));
+    short_drape.setValue("settling_steps", IntValue(0));
+    const Ended draped = run("Drape Garment", reopened, short_drape);
+    EXPECT_EQ(draped.message.find("no pose of man"), std::string::npos) << draped.message;
+}
+
 TEST_F(MeshLab, LoadsARigIntoTheLayersOfRigBody)
 {
     fs::copy(k_body, folder / "woman.ply");
