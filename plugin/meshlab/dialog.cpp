@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "fit/units.h"
 #include "fitting.h"
@@ -192,11 +193,14 @@ void add_shown(RichParameterList& list, const MenuEntry& entry)
 
 // ---- from the dialog -----------------------------------------------------------------------------------------------
 
-/// 0.0025 for the float next to it: as a user typed it, and as the command line reads it.
+/// 0.0025 for what is next to it, a float, or a share of the body's size and back: as a user typed it, and as the command
+/// line reads it.
 double as_typed(Scalarm value)
 {
     char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general,
+                                   std::numeric_limits<Scalarm>::digits10)
+                         .ptr;
     double typed = double(value);
     std::from_chars(digits, end, typed);
     return typed;

@@ -8,6 +8,8 @@
 #include <vcg/complex/algorithms/update/color.h>
 #include <vcg/complex/append.h>
 
+#include "filters/scene_arrays.h"
+
 namespace fit::meshlab {
 namespace {
 
@@ -102,11 +104,8 @@ MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const P
     Allocator::AddVertices(layer.cm, joints.rows());
     for (Eigen::Index v = 0; v < joints.rows(); ++v)
         layer.cm.vert[v].P() = point_of(joints.row(v));
-    const auto row_of_tail = [](int bone) { return std::size_t(bone + 1); };
-    for (int bone = 0; bone < bone_count; ++bone)
-        Allocator::AddEdge(layer.cm, parent_of(bone) < 0 ? 0 : row_of_tail(parent_of(bone)), row_of_tail(bone));
-    for (int tip = 0; tip < extremity_count; ++tip)
-        Allocator::AddEdge(layer.cm, row_of_tail(bone_before(Extremity(tip))), row_of_tail(bone_count + tip));
+    for (const auto& [from, to] : skeleton_lines())
+        Allocator::AddEdge(layer.cm, std::size_t(from), std::size_t(to));
     update_box_and_normals(layer);
     return layer;
 }

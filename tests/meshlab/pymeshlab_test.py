@@ -106,9 +106,9 @@ class GarmentFitting(unittest.TestCase):
         dressed = meshes.mesh(worn)
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "dress", SMALL_BODY, SKIRT, "--quiet", "-o", folder + "/out"], check=True)
-            by_program = opened(folder + "/out/skirt.ply").current_mesh()  # whose file holds floats
+            by_program = opened(folder + "/out/skirt.ply")  # a file of floats
             numpy.testing.assert_array_equal(
-                dressed.vertex_matrix().astype(numpy.float32), by_program.vertex_matrix().astype(numpy.float32)
+                dressed.vertex_matrix().astype(numpy.float32), by_program.current_mesh().vertex_matrix().astype(numpy.float32)
             )
         ease = dressed.vertex_custom_scalar_attribute_array("ease")
         numpy.testing.assert_allclose(dressed.vertex_scalar_array(), ease, atol=1e-6)
