@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +70,102 @@ GarmentMesh shirt(const PersonOptions& options, double sleeve, double ease = 0.0
         return p.y() > 0.85 && p.y() < 1.46;
     });
     return make_garment(mesh.positions, mesh.triangles);
+}
+
+GarmentMesh cut(const GarmentMesh& garment, const std::function<bool(const Vec3&)>& keep)
+{
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < garment.triangles.rows(); ++f)
+        if (keep(garment.positions(garment.triangles.row(f), Eigen::all).colwise().mean().transpose()))
+            rows.push_back(f);
+    return make_garment(garment.positions, garment.triangles(rows, Eigen::all));
+}
+
+GarmentMesh with_left_sleeve_only(const GarmentMesh& shirt)
+{
+    return cut(shirt, [](const Vec3& p) { return p.x() > -0.3; });  // beyond the shoulder
+}
+
+// Its hood is up: the face looks out.
+GarmentMesh hoodie(const PersonOptions& options)
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, 0.02, [&](const Vec3& p) {
+        const bool arm = std::abs(p.x()) > 0.24, face = p.z() > 0.04 && p.y() > 1.5;
+        const double lower
+            = std::max(along(p, s.head(lradius), s.tail(lradius)), along(p, s.head(rradius), s.tail(rradius)));
+        return arm ? lower < 0.9 : p.y() > 0.85 && !face;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+GarmentMesh with_open_front(const GarmentMesh& shirt)
+{
+    return cut(shirt, [](const Vec3& p) { return std::abs(p.x()) > 0.05 || p.z() < 0; });
+}
+
+// 24 facets, rings 2 cm apart; along y.
+GarmentMesh skirt(double waist, double hips, double hem, double length)
+{
+    constexpr int facets = 24;
+    const int rings = int(length / 0.02) + 1;
+    Positions positions(facets * rings, 3);
+    Triangles triangles(2 * facets * (rings - 1), 3);
+    for (int r = 0; r < rings; ++r) {
+        const double t = double(r) / (rings - 1);  // of the way down
+        const double radius = t < 0.3 ? waist + t / 0.3 * (hips - waist) : hips + (t - 0.3) / 0.7 * (hem - hips);
+        for (int k = 0; k < facets; ++k) {
+            const double a = 2 * std::numbers::pi * k / facets;
+            positions.row(r * facets + k) << radius * std::cos(a), 1 - t * length, 0.7 * radius * std::sin(a);
+        }
+    }
+    for (int r = 0, f = 0; r + 1 < rings; ++r)
+        for (int k = 0; k < facets; ++k, f += 2) {
+            const int a = r * facets + k, b = r * facets + (k + 1) % facets;
+            triangles.row(f) << a, b, a + facets;
+            triangles.row(f + 1) << b, b + facets, a + facets;
+        }
+    return make_garment(positions, triangles);
+}
+
+// Two sheets, sewn together along every edge: closed all round.
+GarmentMesh with_thickness(const GarmentMesh& garment, double thickness)
+{
+    const Eigen::Index n = garment.positions.rows(), m = garment.triangles.rows();
+    Positions normals = Positions::Zero(n, 3);
+    std::map<std::pair<int, int>, int> edges;
+    for (Eigen::Index f = 0; f < m; ++f) {
+        const auto corner = [&](int k) { return Vec3(garment.positions.row(garment.triangles(f, k % 3))); };
+        const Vec3 area = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        for (int k = 0; k < 3; ++k) {
+            normals.row(garment.triangles(f, k)) += area;
+            ++edges[{ garment.triangles(f, k), garment.triangles(f, (k + 1) % 3) }];
+        }
+    }
+    for (Eigen::Index v = 0; v < n; ++v)
+        normals.row(v).stableNormalize();  // those of no face stay where they are
+    Positions positions(2 * n, 3);
+    positions << garment.positions, garment.positions - thickness * normals;
+    std::vector<Eigen::RowVector3i> faces;
+    for (Eigen::Index f = 0; f < m; ++f) {
+        const Eigen::RowVector3i t = garment.triangles.row(f), inner = t.array() + int(n);
+        faces.insert(faces.end(), { t, { inner[0], inner[2], inner[1] } });
+    }
+    for (const auto& [edge, count] : edges) {
+        const auto [a, b] = edge;
+        if (!edges.count({ b, a }))
+            faces.insert(faces.end(), { { b, a, a + int(n) }, { b, a + int(n), b + int(n) } });
+    }
+    Triangles triangles(faces.size(), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        triangles.row(f) = faces[f];
+    return make_garment(positions, triangles);
+}
+
+GarmentMesh turned(GarmentMesh garment, const Eigen::Quaterniond& turn)
+{
+    garment.positions = (garment.positions * turn.toRotationMatrix().transpose()).eval();
+    return garment;
 }
 
 bool meets(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c)
@@ -238,6 +338,59 @@ TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
     }
 }
 
+TEST(FitSkeleton, AGarmentHeldAskewIsFound)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(30 * k_degree, Vec3(1, 0.4, 1).normalized()));
+    for (const GarmentMesh& garment : { shirt(made_on, 1.9), trousers(made_on), jumpsuit(made_on) }) {
+        const FitResult expected = fit_skeleton(rig, garment), result = fit_skeleton(rig, turned(garment, turn));
+        EXPECT_EQ(result.type, expected.type);
+        EXPECT_LT(angle(result.up, turn * Vec3::UnitY()), 8) << name_of(expected.type);
+        EXPECT_GT(result.up_margin, 0.5);
+        const Skeleton joints = posed(rig.skeleton, result.pose), wanted = posed(rig.skeleton, expected.pose);
+        for (const Bone b : expected.covered)
+            EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 25)
+                << bone_name(b) << " in " << name_of(expected.type);
+    }
+}
+
+TEST(FitSkeleton, ASkirtsWaistIsUp)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const GarmentMesh garment = skirt(0.15, 0.2, 0.2, 0.5);
+    const FitResult upright = fit_skeleton(rig, garment);
+    EXPECT_EQ(upright.type, GarmentType::skirt);
+    EXPECT_EQ(upright.up, Vec3::UnitY());
+    const Eigen::Quaterniond over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+    EXPECT_LT(angle(fit_skeleton(rig, turned(garment, over)).up, -Vec3::UnitY()), 1);
+}
+
+TEST(FitSkeleton, OneSleeveHoldsOneArm)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = with_left_sleeve_only(shirt(made_on, 1.9));
+    const FitResult result = fit_skeleton(rig, garment);
+    EXPECT_EQ(result.type, GarmentType::longsleeve);
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, person_skeleton(made_on), { lhumerus, lradius }, 12);
+    expect_clear(joints, garment);
+    const auto covers = [&](Bone b) { return std::count(result.covered.begin(), result.covered.end(), b) > 0; };
+    EXPECT_TRUE(covers(lhumerus) && covers(lradius));
+    EXPECT_FALSE(covers(rradius));
+}
+
+TEST(FitSkeleton, ClosedClothWithThicknessIsWornLikeItsOuterSheet)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh thin = skirt(0.15, 0.2, 0.2, 0.5), thick = with_thickness(thin, 0.004);
+    const FitResult expected = fit_skeleton(rig, thin), result = fit_skeleton(rig, thick);
+    EXPECT_EQ(result.type, GarmentType::skirt);
+    EXPECT_EQ(result.covered, expected.covered);
+    expect_clear(posed(rig.skeleton, result.pose), thick);
+}
+
 TEST(FitSkeleton, TipsAreDrawnBackToWhereTheyAreClear)
 {
     const Skeleton joints = person_skeleton({});
@@ -256,6 +409,11 @@ TEST(FitSkeleton, TypesAreReadOffTheOpenings)
     EXPECT_EQ(guess_garment_type(shirt(a_pose, 1.9)).type, GarmentType::longsleeve);
     EXPECT_EQ(guess_garment_type(trousers(a_pose)).type, GarmentType::trousers);
     EXPECT_EQ(guess_garment_type(jumpsuit(a_pose)).type, GarmentType::jumpsuit);
+    EXPECT_EQ(guess_garment_type(hoodie(a_pose)).type, GarmentType::hoodie);
+    EXPECT_EQ(guess_garment_type(with_open_front(shirt(a_pose, 1.9))).type, GarmentType::jacket);
+    EXPECT_EQ(guess_garment_type(shirt(a_pose, 0.1)).type, GarmentType::vest);
+    EXPECT_EQ(guess_garment_type(skirt(0.15, 0.2, 0.2, 0.5)).type, GarmentType::skirt);
+    EXPECT_EQ(guess_garment_type(with_left_sleeve_only(shirt(a_pose, 1.9))).type, GarmentType::longsleeve);
 }
 
 TEST(FitSkeleton, TypeNamesGoThereAndBack)

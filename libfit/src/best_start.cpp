@@ -41,8 +41,8 @@ Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Rea
     return posture;
 }
 
-// The horizontal direction in which the cloth is spread most: from sleeve to sleeve, from leg to leg.
-double widest_heading(const ClothRoom& cloth)
+// The horizontal direction in which the cloth is spread most.
+Eigen::Vector2d widest(const ClothRoom& cloth)
 {
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     for (const ClothPatch& patch : cloth.patches()) {
@@ -50,21 +50,29 @@ double widest_heading(const ClothRoom& cloth)
         const Eigen::Vector2d level(from_middle.x(), from_middle.z());
         spread += level * level.transpose();
     }
-    const Eigen::Vector2d widest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
-    return std::atan2(-widest.y(), widest.x());
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+}
+
+// From sleeve to sleeve or from leg to leg, or else as the cloth is spread.
+double heading_across(const SkeletonSearch& search)
+{
+    const Vec3& across = search.cues().across;
+    const Eigen::Vector2d level
+        = across.isZero() ? widest(search.metric().cloth()) : Eigen::Vector2d(across.x(), across.z());
+    return std::atan2(-level.y(), level.x());
 }
 
 double turned_apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
 
-// Left to right along the cloth's widest direction or across it, either way round; and as the body stands.
-std::vector<double> headings(const Rig& rig, const ClothRoom& cloth)
+// Left to right as the garment is, or across it, either way round; and as the body stands.
+std::vector<double> headings(const Rig& rig, const SkeletonSearch& search)
 {
     const Vec3 left = rig.up.cross(rig.front);
-    const double own = std::atan2(-left.z(), left.x()), widest = widest_heading(cloth) - own;
+    const double own = std::atan2(-left.z(), left.x()), across = heading_across(search) - own;
     std::vector<double> result { 0 };
     for (int quarter = 0; quarter < 4; ++quarter)
-        if (turned_apart(widest + quarter * std::numbers::pi / 2, 0) > k_same_heading)
-            result.push_back(widest + quarter * std::numbers::pi / 2);
+        if (turned_apart(across + quarter * std::numbers::pi / 2, 0) > k_same_heading)
+            result.push_back(across + quarter * std::numbers::pi / 2);
     return result;
 }
 
@@ -90,7 +98,7 @@ std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
     const ClothRoom& cloth = search.metric().cloth();
     const RoomPyramid room(cloth.tree(), cloth.low(), cloth.high());
     std::vector<Posture> postures;
-    for (const double angle : headings(rig, cloth))
+    for (const double angle : headings(rig, search))
         postures.push_back(search.at_ease(Vec3::Zero(), upright(rig, angle)));
     std::vector<std::vector<Place>> places(postures.size());
     parallel_for<std::size_t>(postures.size(), [&](std::size_t h) {

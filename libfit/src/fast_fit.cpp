@@ -10,8 +10,6 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "best_start.h"
 #include "climb.h"
 #include "error_metric.h"
@@ -20,6 +18,7 @@
 #include "nearest.h"
 #include "outward_cloth.h"
 #include "parallel.h"
+#include "way_up.h"
 
 namespace fit {
 namespace {
@@ -33,7 +32,8 @@ constexpr double k_tight = 0.7, k_wide = 0.95;  // of the same
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
 constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
-constexpr double k_same_way = 0.9;  // cosine; between ways up that are worth trying apart
+constexpr double k_spoken_for = 0.5;  // m of energy that clear evidence for a way up is worth
+constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than that do not compete
 
 // The evidence: of the bones that the type names, those that have at least so many of their five samples inside.
 std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& posture, int samples)
@@ -133,15 +133,16 @@ Posture settled(const SkeletonSearch& search, const Posture& start, const Triang
     return raised_where_wide(search, *posture, *paper);
 }
 
-// What a garment offers.
+// What a garment offers, held in some way.
 struct Seen {
-    std::unique_ptr<const ClothRoom> room;
+    TriangleMesh outward;
     std::vector<Opening> openings;
+    std::unique_ptr<const ClothRoom> room;
 };
 
 Seen seen(const TriangleMesh& outward)
 {
-    Seen result;
+    Seen result { outward, {}, {} };
     parallel_for<int>(2, [&](int part) {
         if (part == 0)
             result.room = std::make_unique<const ClothRoom>(outward);
@@ -151,20 +152,26 @@ Seen seen(const TriangleMesh& outward)
     return result;
 }
 
+Seen turned(const Seen& garment, const Eigen::Quaterniond& turn)
+{
+    Seen result { turned(garment.outward, turn), {}, {} };
+    result.openings = turned(garment.openings, result.outward, turn);
+    result.room = std::make_unique<const ClothRoom>(result.outward);
+    return result;
+}
+
 // One way up of a garment, and how well a body stands in it.
 class Attempt {
 public:
     /// @throws InvalidInput when no body fits into the garment held like this.
-    Attempt(const Rig& rig, TriangleMesh outward, GarmentType given, const Progress& progress) :
-        rig_(rig), outward_(std::move(outward)), seen_(seen(outward_)), cloth_(*seen_.room),
-        guess_(resolved_type(given, seen_.openings)), cues_(cues_of(seen_.openings)), limits_(rig),
+    Attempt(const Rig& rig, Seen garment, GarmentType given, const Progress& progress) :
+        rig_(rig), seen_(std::move(garment)), cloth_(*seen_.room), guess_(resolved_type(given, seen_.openings)),
+        cues_(cues_of(seen_.openings)), limits_(rig),
         metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, seen_.openings))),
         search_(rig_, limits_, metric_, cues_), start_(best_start(rig_, search_, progress))
     {
         require_fit(search_, start_.posture, sizes(rig_, cloth_));
     }
-
-    bool hangs_upright() const { return fit::hangs_upright(seen_.openings); }
 
     /// The energy but for how high the garment happens to be, m.
     double merit() const { return search_.total(start_.posture) - search_.sag() * cloth_.barycentre().y(); }
@@ -175,7 +182,7 @@ public:
         // Short sleeves were asked for a forearm: a bone that cannot be inside need not be.
         const BoneMetric metric(cloth_, figure_of(rig_, bones_inside(search_, start_.posture, k_partly_inside)));
         const SkeletonSearch search(rig_, limits_, metric, cues_);
-        const Posture fitted = settled(search, start_.posture, outward_);
+        const Posture fitted = settled(search, start_.posture, seen_.outward);
         require_clear(search, fitted);
 
         FitResult result;
@@ -192,7 +199,6 @@ public:
 
 private:
     const Rig& rig_;
-    TriangleMesh outward_;
     Seen seen_;
     const ClothRoom& cloth_;
     TypeGuess guess_;
@@ -213,49 +219,44 @@ bool is_clear(const TriangleTree& cloth, const Vec3& joint, const Vec3& tip)
     return !cloth.is_met(joint, tip);
 }
 
-// As given; then with each axis of the room, and each along which the cloth is spread, for the vertical, either way up.
-std::vector<Eigen::Quaterniond> ways_up(const Positions& positions)
-{
-    const Positions centred = positions.rowwise() - positions.colwise().mean();
-    const Eigen::Matrix3d axes
-        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred.transpose() * centred).eigenvectors();
-    std::vector<Vec3> ups { Vec3::UnitY() };
-    for (const Eigen::Matrix3d& frame : { Eigen::Matrix3d(Eigen::Matrix3d::Identity()), axes })
-        for (int axis = 0; axis < 3; ++axis)
-            for (const Vec3& up : { Vec3(-frame.col(axis)), Vec3(frame.col(axis)) })
-                if (std::none_of(ups.begin(), ups.end(), [&](const Vec3& other) { return up.dot(other) > k_same_way; }))
-                    ups.push_back(up);
-    std::vector<Eigen::Quaterniond> turns;
-    for (const Vec3& up : ups)
-        turns.push_back(shortest_arc(up, Vec3::UnitY()));
-    return turns;
-}
-
-struct WayUp {
+struct Tried {
     std::unique_ptr<const Attempt> attempt;
     Eigen::Quaterniond turn;
+    double merit = 0;  // m
+    double evidence = 0;  // for this way up
     double margin = 1;  // 0 (another way up is as good) to 1
+
+    Vec3 up() const { return turn.conjugate() * Vec3::UnitY(); }
 };
 
-// As given where the openings leave no doubt, else the way up in which a body stands best.
-WayUp best_way_up(const Rig& rig, const TriangleMesh& outward, GarmentType given, const Progress& progress)
+bool is_spoken_for(const Tried& best) { return best.attempt && best.evidence > 0; }
+
+// How much better the best is than any that is really another way up.
+double margin_of(const Tried& best, const std::vector<std::pair<Vec3, double>>& merits)
 {
-    WayUp best;
-    double merit = -std::numeric_limits<double>::infinity(), next_merit = merit;
+    double margin = 1;
+    for (const auto& [up, merit] : merits)
+        if (up.dot(best.up()) < k_same_way)
+            margin = std::min(margin, (best.merit - merit) / k_clear_up);
+    return std::max(0.0, margin);
+}
+
+// The one in which a body stands best, of the ways for which something speaks, or, where no body fits in any of them, of the others.
+Tried best_of(const Rig& rig, const Seen& garment, const std::vector<WayUp>& ways, GarmentType given,
+              const Progress& progress)
+{
+    Tried best;
+    std::vector<std::pair<Vec3, double>> merits;
     std::optional<InvalidInput> refusal;
-    const std::vector<Eigen::Quaterniond> turns = ways_up(outward.positions);
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-        const double from = double(i) / double(turns.size());
+    for (std::size_t i = 0; i < ways.size() && (ways[i].evidence > 0 || !is_spoken_for(best)); ++i) {
+        const double from = double(i) / double(ways.size());
         try {
             auto attempt
-                = std::make_unique<const Attempt>(rig, turned(outward, turns[i]), given, progress.part(from, from));
-            if (i == 0 && attempt->hangs_upright())
-                return { std::move(attempt), turns[i], 1 };
-            next_merit = std::max(next_merit, std::min(merit, attempt->merit()));
-            if (attempt->merit() > merit) {
-                merit = attempt->merit();
-                best = { std::move(attempt), turns[i], 1 };
-            }
+                = std::make_unique<const Attempt>(rig, turned(garment, ways[i].turn), given, progress.part(from, from));
+            const double merit = attempt->merit() + k_spoken_for * ways[i].evidence;
+            merits.emplace_back(ways[i].turn.conjugate() * Vec3::UnitY(), merit);
+            if (!best.attempt || merit > best.merit)
+                best = { std::move(attempt), ways[i].turn, merit, ways[i].evidence };
         } catch (const InvalidInput& error) {
             if (!refusal)
                 refusal = error;
@@ -263,8 +264,18 @@ WayUp best_way_up(const Rig& rig, const TriangleMesh& outward, GarmentType given
     }
     if (!best.attempt)
         throw *refusal;
-    best.margin = std::clamp((merit - next_merit) / k_clear_up, 0.0, 1.0);
+    best.margin = std::min(margin_of(best, merits), best.evidence > 0 ? best.evidence : 1);
     return best;
+}
+
+Tried best_way_up(const Rig& rig, const TriangleMesh& outward, GarmentType given, const Progress& progress)
+{
+    Seen garment = seen(outward);
+    const std::vector<WayUp> ways = ways_up(outward, garment.openings);
+    if (ways.size() > 1)
+        return best_of(rig, garment, ways, given, progress);
+    return { std::make_unique<const Attempt>(rig, std::move(garment), given, progress), ways[0].turn, 0,
+             ways[0].evidence, ways[0].evidence };
 }
 
 }  // namespace
@@ -290,11 +301,11 @@ FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given
     const TriangleMesh outward = outward_cloth(garment);
     if (is_sealed(outward))
         throw InvalidInput("garment is closed all round: nobody can get in; give a garment with openings");
-    const WayUp way_up = best_way_up(rig, outward, given, stage.part(0, 0.8));
+    const Tried best = best_way_up(rig, outward, given, stage.part(0, 0.8));
     stage.at(0.8);
-    FitResult result = way_up.attempt->result(way_up.turn.conjugate());
-    result.up = way_up.turn.conjugate() * Vec3::UnitY();
-    result.up_margin = way_up.margin;
+    FitResult result = best.attempt->result(best.turn.conjugate());
+    result.up = best.up();
+    result.up_margin = best.margin;
     return result;
 }
 

@@ -74,15 +74,15 @@ Opening opening_of(const Positions& positions, const Ring& ring)
 {
     const auto at = [&](int v) { return Vec3(positions.row(v)); };
     Opening opening;
-    opening.low = opening.high = at(ring[0].first);
+    std::vector<int> rim;
     Vec3 area = Vec3::Zero();
     for (const auto& [a, b] : ring) {
         const double length = (at(b) - at(a)).norm();
         opening.girth += length;
         opening.centre += length * 0.5 * (at(a) + at(b));
-        opening.low = opening.low.cwiseMin(at(a));
-        opening.high = opening.high.cwiseMax(at(a));
+        rim.push_back(a);
     }
+    opening.rim = positions(rim, Eigen::all);
     opening.centre /= std::max(opening.girth, 1e-300);
     for (const auto& [a, b] : ring)  // the closing disc runs against the cloth's edges
         area += 0.5 * (at(b) - opening.centre).cross(at(a) - opening.centre);
@@ -202,14 +202,15 @@ double reach_of(const std::vector<double>& distance, const std::vector<Ring>& ri
     return reach;
 }
 
-// Hems may be turned in or gathered: the first slices neither end a tube nor count as its waist.
+// Hems may be turned in or gathered: the first slices neither end a tube nor count as its waist. A single wide slice is a fold.
 void measure_tube(Opening& opening, const std::vector<double>& girths, double slice)
 {
     constexpr std::size_t hem = 3;
     std::vector<double> sorted;
     double median = opening.girth;
     opening.tube_waist = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < girths.size() && (i < hem || girths[i] <= k_widening * median); ++i) {
+    const auto is_wide = [&](std::size_t i) { return i >= girths.size() || girths[i] > k_widening * median; };
+    for (std::size_t i = 0; i < girths.size() && (i < hem || !is_wide(i) || !is_wide(i + 1)); ++i) {
         sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), girths[i]), girths[i]);
         median = sorted[sorted.size() / 2];
         if (i >= hem)
@@ -248,6 +249,15 @@ std::vector<Range> ranges_of(const Positions& positions, const std::vector<int>&
     return ranges;
 }
 
+// How high its edge and its piece of cloth are.
+void measure_heights(Opening& opening, const std::vector<Range>& ranges)
+{
+    opening.low = opening.rim.colwise().minCoeff();
+    opening.high = opening.rim.colwise().maxCoeff();
+    opening.piece_low = ranges[opening.piece].low;
+    opening.piece_height = ranges[opening.piece].high - opening.piece_low;
+}
+
 }  // namespace
 
 std::vector<Opening> openings_of(const TriangleMesh& outward)
@@ -262,8 +272,7 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
     parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {
         Opening& opening = openings[r] = opening_of(outward.positions, rings[r]);
         opening.piece = pieces[rings[r][0].first];
-        opening.piece_low = ranges[opening.piece].low;
-        opening.piece_height = ranges[opening.piece].high - opening.piece_low;
+        measure_heights(opening, ranges);
         const std::vector<double> distance
             = paths.distances_from(rings[r], others_at(rings, r, outward.positions.rows()));
         std::vector<double> girths = girths_along(outward, distance, slice);
@@ -272,6 +281,24 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
         measure_tube(opening, girths, slice);
     });
     return openings;
+}
+
+std::vector<Opening> turned(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn)
+{
+    const std::vector<Range> ranges = ranges_of(cloth.positions, pieces_of(cloth));
+    for (Opening& opening : openings) {
+        opening.centre = turn * opening.centre;
+        opening.facing = turn * opening.facing;
+        opening.rim = (opening.rim * turn.toRotationMatrix().transpose()).eval();
+        measure_heights(opening, ranges);
+    }
+    return openings;
+}
+
+bool face_alike(const Opening& a, const Opening& b, const Vec3& axis)
+{
+    constexpr double k_alike = 0.7;  // cosine; cloth that hangs is never quite the same on either side
+    return (a.facing - 2 * a.facing.dot(axis) * axis).dot(b.facing) > k_alike;
 }
 
 bool is_sealed(const TriangleMesh& outward)

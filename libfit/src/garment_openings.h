@@ -17,6 +17,7 @@ struct Opening {
     double tube_length = 0;  ///< m along the cloth, until the tube widens, forks or ends
     double tube_girth = 0;  ///< m, median
     double tube_waist = 0;  ///< m, smallest, the hem itself left out
+    Positions rim;  ///< along its edge
     int piece = 0;  ///< openings of one connected piece of cloth share it
     double piece_low = 0;  ///< m; where that piece begins
     double piece_height = 0;  ///< m, of that piece
@@ -25,6 +26,12 @@ struct Opening {
 /// @param outward  from outward_cloth. Holes as small as buttonholes are left out.
 /// Cost: one shortest-path search over the edges for each opening.
 std::vector<Opening> openings_of(const TriangleMesh& outward);
+
+/// The same when the garment is turned: nothing is measured again. @param cloth  the garment turned
+std::vector<Opening> turned(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn);
+
+/// Do two openings face like mirror images in a plane across `axis`, unit?
+bool face_alike(const Opening& a, const Opening& b, const Vec3& axis);
 
 /// Closed like a ball: no edge is open, and no hole goes through. (A garment with thickness has no open edge either, but
 /// holes: its genus is above 0.)

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "fit/error.h"
 #include "outward_cloth.h"
@@ -51,9 +53,10 @@ struct Piece {
 // Mirror images: equal girths, equal heights, to the two sides of the piece.
 bool are_pair(const Opening& a, const Opening& b)
 {
-    const double apart = std::hypot(a.centre.x() - b.centre.x(), a.centre.z() - b.centre.z());
-    return std::max(a.girth, b.girth) < 1.4 * std::min(a.girth, b.girth)
-        && std::abs(a.centre.y() - b.centre.y()) < 0.15 * a.piece_height && apart > 0.25 * std::max(a.girth, b.girth);
+    Vec3 across = b.centre - a.centre;
+    const double lift = std::exchange(across.y(), 0);
+    return std::max(a.girth, b.girth) < 1.4 * std::min(a.girth, b.girth) && std::abs(lift) < 0.15 * a.piece_height
+        && across.norm() > 0.25 * std::max(a.girth, b.girth) && face_alike(a, b, across.normalized());
 }
 
 std::vector<Opening> take_pair(std::vector<Opening>& from, std::size_t i, std::size_t j)
@@ -73,7 +76,41 @@ void take_legs(Piece& piece)
     for (std::size_t i = 2; i < all.size(); ++i)
         if (all[i].facing.y() < -0.8 || all[i].low.y() < std::max(all[0].high.y(), all[1].high.y()))
             return;
-    piece.legs = take_pair(all, 0, 1);
+    if (all.back().facing.y() > -0.3)  // or it is a jacket that lies on its back
+        piece.legs = take_pair(all, 0, 1);
+}
+
+// Arms are thinner than the trunk, and so are their openings.
+bool are_narrow(const Opening& a, const Opening& b, const Piece& piece)
+{
+    constexpr double k_narrow = 0.9;
+    double widest = 0;
+    for (const Opening& other : piece.others)
+        if (&other != &a && &other != &b)
+            widest = std::max(widest, other.girth);
+    return !piece.legs.empty() || std::max(a.girth, b.girth) < k_narrow * widest;
+}
+
+// One sleeve, a tube, and across the chest an armhole, with a hem below.
+bool are_sleeve_and_armhole(const Opening& sleeve, const Opening& armhole, const Piece& piece)
+{
+    constexpr double k_tube = 0.25;  // girths long at least
+    const Vec3 across = (armhole.centre - sleeve.centre).normalized();
+    const double facing = std::min(-sleeve.facing.dot(across), armhole.facing.dot(across));
+    const bool is_missing = sleeve.girth < armhole.girth  // or cut off, to a stub
+        || (sleeve.girth < 1.25 * armhole.girth && sleeve.tube_length > 2 * armhole.tube_length);
+    const bool has_hem = std::any_of(piece.others.begin(), piece.others.end(), [&](const Opening& other) {
+        return other.facing.y() < -0.6 && other.low.y() < std::min(sleeve.low.y(), armhole.low.y());
+    });
+    return sleeve.tube_length > k_tube * sleeve.tube_girth && is_missing && facing > 0.5 && std::abs(across.y()) < 0.6
+        && armhole.centre.y() > piece.middle && (has_hem || !piece.legs.empty());
+}
+
+// What is missing has no length.
+std::vector<Opening> take_sleeve_and_armhole(std::vector<Opening>& from, std::size_t sleeve, std::size_t armhole)
+{
+    from[armhole].tube_length = 0;
+    return take_pair(from, std::min(sleeve, armhole), std::max(sleeve, armhole));
 }
 
 void take_sleeves(Piece& piece)
@@ -82,9 +119,14 @@ void take_sleeves(Piece& piece)
     for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
         for (std::size_t j = i + 1; j < all.size() && piece.sleeves.empty(); ++j) {
             const Vec3 across = all[j].centre - all[i].centre;
-            if (are_pair(all[i], all[j]) && all[i].facing.dot(across) < 0 && all[j].facing.dot(across) > 0)
+            if (are_pair(all[i], all[j]) && all[i].facing.dot(across) < 0 && all[j].facing.dot(across) > 0
+                && are_narrow(all[i], all[j], piece))
                 piece.sleeves = take_pair(all, i, j);
         }
+    for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
+        for (std::size_t j = 0; j < all.size() && piece.sleeves.empty(); ++j)
+            if (i != j && are_sleeve_and_armhole(all[i], all[j], piece) && are_narrow(all[i], all[j], piece))
+                piece.sleeves = take_sleeve_and_armhole(all, i, j);
 }
 
 std::vector<Piece> pieces_of(const std::vector<Opening>& openings)
@@ -164,23 +206,6 @@ std::optional<GarmentType> type_of(Piece& piece)
     return type_with_hem(piece, lowest, highest);
 }
 
-// Legs point down, and so do sleeves; where they are held level, they leave from the upper half, above a hem or under a neckline. A
-// waist is narrower than a hem.
-bool hangs_upright(const Piece& piece)
-{
-    constexpr double level = 0.25, plumb = 0.6;  // sines
-    if (!piece.legs.empty())
-        return true;
-    const auto is_plumb = [](const Opening& opening) { return std::abs(opening.facing.y()) > plumb; };
-    if (!std::any_of(piece.others.begin(), piece.others.end(), is_plumb))
-        return false;
-    if (piece.sleeves.empty())
-        return piece.others.size() == 2 && piece.others[1].girth < 0.95 * piece.others[0].girth;
-    const double facing = 0.5 * (piece.sleeves[0].facing.y() + piece.sleeves[1].facing.y());
-    const double height = 0.5 * (piece.sleeves[0].centre.y() + piece.sleeves[1].centre.y());
-    return facing < -level || (facing < level && height > piece.middle);
-}
-
 enum class Sleeves { none, upper_arm, whole_arm };
 
 Sleeves sleeves_of(const Piece& piece)
@@ -192,6 +217,44 @@ Sleeves sleeves_of(const Piece& piece)
         && armhole_likeness(piece.sleeves, piece.others.front()) > k_armhole)
         return Sleeves::none;
     return length_in_girths(piece.sleeves) > k_long_sleeve ? Sleeves::whole_arm : Sleeves::upper_arm;
+}
+
+// m, of its openings, from front to back as its legs or sleeves tell.
+double depth_of(const Piece& piece)
+{
+    const std::vector<Opening>& pair = piece.legs.empty() ? piece.sleeves : piece.legs;
+    const Vec3 across = pair[1].centre - pair[0].centre;
+    const Vec3 forwards = across.cross(Vec3::UnitY()).normalized();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto* some : { &piece.legs, &piece.sleeves, &piece.others })
+        for (const Opening& opening : *some) {
+            low = std::min(low, (opening.rim * forwards).minCoeff());
+            high = std::max(high, (opening.rim * forwards).maxCoeff());
+        }
+    return high - low;
+}
+
+// Legs point down, and so do sleeves; where they are held level, they leave from the upper half, above a hem or under a neckline. Who
+// lies is deeper than high. A waist is narrower than a hem.
+double uprightness(const Piece& piece)
+{
+    constexpr double level = 0.25, plumb = 0.6;  // sines
+    constexpr double least_narrower = 0.05, clearly_narrower = 0.3;  // shares of the hem's girth
+    if (!piece.legs.empty())
+        return piece.height > depth_of(piece) ? 1 : 0;
+    const auto is_plumb = [](const Opening& opening) { return std::abs(opening.facing.y()) > plumb; };
+    if (!std::any_of(piece.others.begin(), piece.others.end(), is_plumb))
+        return 0;
+    if (piece.sleeves.empty()) {
+        const double narrower = piece.others.size() == 2 ? 1 - piece.others[1].girth / piece.others[0].girth : 0;
+        return narrower > least_narrower ? std::min(1.0, narrower / clearly_narrower) : 0;
+    }
+    const double facing = sleeves_of(piece) == Sleeves::none  // armholes face any way
+        ? 0
+        : 0.5 * (piece.sleeves[0].facing.y() + piece.sleeves[1].facing.y());
+    const double height = 0.5 * (piece.sleeves[0].centre.y() + piece.sleeves[1].centre.y());
+    const bool points_down = facing < -level || (facing < level && height > piece.middle);
+    return points_down && piece.height > depth_of(piece) ? 1 : 0;
 }
 
 bool is_for_legs(GarmentType type)
@@ -223,10 +286,14 @@ TypeGuess guess_type(const std::vector<Opening>& openings)
 
 TypeGuess guess_garment_type(const GarmentMesh& garment) { return guess_type(openings_of(outward_cloth(garment))); }
 
-bool hangs_upright(const std::vector<Opening>& openings)
+double uprightness(const std::vector<Opening>& openings)
 {
-    const std::vector<Piece> pieces = pieces_of(openings);
-    return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return hangs_upright(piece); });
+    double result = 0, height = 0;
+    for (const Piece& piece : pieces_of(openings)) {
+        result += piece.height * uprightness(piece);
+        height += piece.height;
+    }
+    return height > 0 ? result / height : 0;
 }
 
 TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings)
@@ -307,12 +374,19 @@ GarmentCues cues_of(const std::vector<Opening>& openings)
     // Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face front.
     for (const Opening& opening : openings)
         cues.front += opening.facing - opening.facing.y() * Vec3::UnitY();
-    double longest = 0;
-    for (const Piece& piece : pieces_of(openings))
+    double longest = 0, tallest = 0;
+    for (const Piece& piece : pieces_of(openings)) {
+        const auto& pair = piece.legs.empty() ? piece.sleeves : piece.legs;
+        if (!pair.empty() && piece.height > tallest) {
+            tallest = piece.height;
+            cues.across = pair[1].centre - pair[0].centre;
+            cues.across.y() = 0;
+        }
         if (sleeves_of(piece) != Sleeves::none && length_of(piece.sleeves) > longest) {
             longest = length_of(piece.sleeves);
             cues.cuffs = { piece.sleeves[0].centre, piece.sleeves[1].centre };
         }
+    }
     return cues;
 }
 

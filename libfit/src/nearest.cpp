@@ -166,8 +166,10 @@ std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const
     const Kernel::Point_3* where = hit ? boost::get<Kernel::Point_3>(&hit->first) : nullptr;
     if (!where)
         return {};
-    return Hit { std::sqrt(CGAL::squared_distance(*where, point(from))),
-                 hit->second->supporting_plane().orthogonal_vector() * along > 0 };
+    const auto normal = hit->second->supporting_plane().orthogonal_vector();
+    const double towards = normal * along;
+    return Hit { std::sqrt(CGAL::squared_distance(*where, point(from))), towards > 0,
+                 towards / std::sqrt(std::max(normal.squared_length(), 1e-300)) };
 }
 
 }  // namespace fit

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "buckets.h"
 #include "joined_vertices.h"
+#include "nearest.h"
+#include "parallel.h"
 #include "winding_number.h"
 
 namespace fit {
@@ -18,6 +21,10 @@ namespace {
 
 constexpr double k_weld_fraction = 1e-6;  // of the diagonal: what file formats round away, far below a stitch
 constexpr double k_flat_patch = 0.01;  // volume / area^1.5; a sphere has 0.094, a sleeve 0.03, a pocket 0.002
+constexpr double k_thickest = 0.02;  // m between the sheets of cloth that has two
+constexpr double k_backing = 3;  // thicknesses; along a rim it is further to the next cloth
+constexpr double k_back = 0.5;  // cosine; less, and what lies behind a face is not the other sheet
+constexpr double k_fold = -0.2;  // cosine of the angle between two faces; sharper, and they belong to two sheets
 constexpr double k_side_step = 0.02;  // m; how far a flat patch looks to either side of itself
 
 // Turned round to begin with their lowest corner: the same face, however it was written.
@@ -205,6 +212,95 @@ bool faces_inwards(const TriangleMesh& cloth, const Patch& patch, const WindingN
     return vote > 0;
 }
 
+// ---- cloth with thickness ------------------------------------------------------------------------------------------
+
+// Closed all round, but for tunnels, with no more between its two sheets than padding.
+bool is_thick_cloth(const Patch& patch, const Triangles& triangles)
+{
+    std::set<int> vertices;
+    for (const int f : patch.faces)
+        for (int k = 0; k < 3; ++k)
+            vertices.insert(triangles(f, k));
+    const auto faces = std::ptrdiff_t(patch.faces.size());
+    const bool has_tunnels
+        = std::ptrdiff_t(vertices.size()) - faces / 2 <= 0;  // Euler; each face has one and a half edges
+    return patch.border.empty() && has_tunnels && 2 * std::abs(patch.volume) < k_thickest * patch.area;
+}
+
+// Which of its faces have the other sheet close behind them; the others are rims.
+std::vector<char> backed_faces(const TriangleMesh& cloth, const Patch& patch)
+{
+    const double thickness = 2 * std::abs(patch.volume) / patch.area;
+    const TriangleTree tree({ cloth.positions, cloth.triangles(patch.faces, Eigen::all) });
+    std::vector<char> backed(std::size_t(cloth.triangles.rows()), 0);
+    parallel_for<std::size_t>(
+        patch.faces.size(),
+        [&](std::size_t i) {
+            const int f = patch.faces[i];
+            const Vec3 area = area_vector(cloth.positions, cloth.triangles, f);
+            if (area.norm() == 0)
+                return;
+            const Vec3 inwards = -area.normalized();
+            const Vec3 middle = cloth.positions(cloth.triangles.row(f), Eigen::all).colwise().mean();
+            const auto hit = tree.first_hit(middle + 1e-3 * thickness * inwards, inwards);
+            backed[f] = hit && hit->distance < k_backing * thickness && hit->cosine > k_back;
+        },
+        256);
+    return backed;
+}
+
+// Parts of it that hang together without rims and folds. What is turned towards the body encloses less than nothing.
+std::vector<Patch> sheets_of(const TriangleMesh& cloth, const Patch& patch)
+{
+    const std::vector<char> backed = backed_faces(cloth, patch);
+    const std::vector<int> opposite = opposite_edges(cloth.triangles, int(cloth.positions.rows()));
+    const auto normal = [&](int f) { return area_vector(cloth.positions, cloth.triangles, f).normalized(); };
+    const auto next_to = [&](int e) {  // the face beyond an edge, -1 where the sheet ends
+        const int other = opposite[e] < 0 ? -1 : opposite[e] / 3;
+        return other >= 0 && backed[other] && normal(e / 3).dot(normal(other)) > k_fold ? other : -1;
+    };
+    std::vector<char> seen(backed.size(), 0);
+    JoinedVertices rings(int(cloth.positions.rows()));
+    std::vector<Patch> sheets;
+    for (const int seed : patch.faces) {
+        if (!backed[seed] || seen[seed])
+            continue;
+        Patch sheet { { seed }, {}, 0, 0 };
+        seen[seed] = 1;
+        for (std::size_t next = 0; next < sheet.faces.size(); ++next)
+            for (int k = 0; k < 3; ++k) {
+                const int f = sheet.faces[next], other = next_to(3 * f + k);
+                if (other < 0)
+                    sheet.border.emplace_back(cloth.triangles(f, k), cloth.triangles(f, (k + 1) % 3));
+                else if (!std::exchange(seen[other], 1))
+                    sheet.faces.push_back(other);
+            }
+        measure(sheet, cloth, rings);
+        sheets.push_back(std::move(sheet));
+    }
+    return sheets;
+}
+
+// Cloth with thickness has two sheets, and only the outer one is what a garment looks like without.
+TriangleMesh without_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches)
+{
+    std::vector<int> kept;
+    const auto keep = [&](const Patch& patch) { kept.insert(kept.end(), patch.faces.begin(), patch.faces.end()); };
+    for (const Patch& patch : patches) {
+        const bool thick = is_thick_cloth(patch, cloth.triangles);
+        const std::vector<Patch> sheets = thick ? sheets_of(cloth, patch) : std::vector<Patch> { patch };
+        for (const Patch& sheet : sheets)
+            if (!thick || sheet.volume > 0)
+                keep(sheet);
+    }
+    if (kept.empty() || kept.size() == std::size_t(cloth.triangles.rows()))
+        return cloth;
+    GarmentMesh outer;
+    outer.positions = cloth.positions;
+    outer.triangles = cloth.triangles(kept, Eigen::all);
+    return welded(outer);
+}
+
 }  // namespace
 
 TriangleMesh outward_cloth(const GarmentMesh& garment)
@@ -227,7 +323,9 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
         if (patch.volume < 0)
             for (const int f : patch.faces)
                 turn(cloth.triangles, f);
-        (std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5) ? outward : flat).push_back(&patch);
+        const bool is_sure
+            = patch.border.empty() || std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5);
+        (is_sure ? outward : flat).push_back(&patch);
     }
     if (!outward.empty() && !flat.empty()) {
         const WindingNumber winding({ cloth.positions, rows_of(cloth.triangles, outward) });
@@ -236,7 +334,7 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
                 for (const int f : patch->faces)
                     turn(cloth.triangles, f);
     }
-    return cloth;
+    return without_inner_sheets(cloth, patches);
 }
 
 TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn)

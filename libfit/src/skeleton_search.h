@@ -88,6 +88,7 @@ public:
     Posture mirrored(const Posture& present, const Limb& limb) const;
 
     const BoneMetric& metric() const { return metric_; }
+    const GarmentCues& cues() const { return cues_; }
     const Skeleton& own() const { return rig_.skeleton; }
 
 private:
