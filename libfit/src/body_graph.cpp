@@ -240,6 +240,14 @@ std::vector<int> beyond(const std::vector<int>& trunk, const std::vector<int>& p
     return { path.begin() + first, path.end() };
 }
 
+/// Stature by the distances between head and feet alone: an arm cut off the hip that it was fused to is bent out of length.
+double size_by_legs(const Tree& tree, int head, int foot0, int foot1)
+{
+    const auto distance = [&](int a, int b) { return tree.length(tree.path(a, b)); };
+    return std::cbrt(distance(head, foot0) * distance(head, foot1) * distance(foot0, foot1)
+                     / (k_between[head_end][foot_end] * k_between[head_end][foot_end] * k_between[foot_end][foot_end]));
+}
+
 /// Every node takes the place of the nearest node, along the whole graph, that lies on a curve.
 std::vector<BodyGraph::Place> places(const BodyGraph& graph, const CurveSkeleton& skeleton)
 {
@@ -276,6 +284,7 @@ BodyGraph body_graph(const CurveSkeleton& skeleton)
     BodyGraph graph;
     graph.size = labels.size;
     graph.headless = labels.headless();
+    graph.size_by_legs = graph.headless ? graph.size : size_by_legs(tree, labels.ends[0], foot0, foot1);
     const int top = graph.headless ? beyond(tree.path(foot0, hand0), tree.path(foot0, hand1)).front() : labels.ends[0];
     graph.legs[0] = beyond(tree.path(top, foot1), tree.path(top, foot0));
     graph.legs[1] = beyond(tree.path(top, foot0), tree.path(top, foot1));

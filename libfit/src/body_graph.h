@@ -17,6 +17,7 @@ struct BodyGraph {
     std::vector<int> trunk;                ///< from the pelvis to where the arms leave
     bool headless = false;                 ///< the head's curve is only the node where the arms leave
     double size = 0;                       ///< m, roughly the stature, from lengths along the curves
+    double size_by_legs = 0;               ///< m, the same from the lengths between head and feet alone
 
     /// Where each node hangs: 0, 1 = arms, 2, 3 = legs, 4 = head, 5 = trunk, and the row of that curve. Fingers hang on
     /// the node that they branch off.

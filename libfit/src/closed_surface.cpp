@@ -17,6 +17,8 @@
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/iterator.h>
 
 #include "cgal_mesh.h"
 #include "fit/error.h"
@@ -33,6 +35,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 // rounded or shaken.
 constexpr double k_welds[] = { 1e-6, 1e-5, 1e-4, 5e-4 };
 constexpr double k_rival = 0.2;   // a piece of this share of the body's size is no island but a limb, or somebody else
+constexpr std::size_t k_cubic = 300;  // edges of a hole: trying all patches costs their third power, a second here
 constexpr int k_samples = 9;      // of a piece's vertices, to tell whether it lies within the body
 
 struct Soup {
@@ -255,15 +258,38 @@ Body main_body(CgalMesh mesh)
     return body;
 }
 
+/// @return whether a patch was found, its edges taken from a Delaunay triangulation or from all there could be
+bool is_patched(CgalMesh& mesh, CgalMesh::Halfedge_index hole, bool delaunay)
+{
+    std::vector<CgalMesh::Face_index> patch;
+    std::vector<CgalMesh::Vertex_index> added;
+    pmp::triangulate_refine_and_fair_hole(
+        mesh, hole, std::back_inserter(patch), std::back_inserter(added),
+        pmp::parameters::use_delaunay_triangulation(delaunay).do_not_use_cubic_algorithm(delaunay));
+    return !patch.empty();
+}
+
+/// Triangles from the border to its middle: not smooth, but closed.
+void put_tent(CgalMesh& mesh, CgalMesh::Halfedge_index hole)
+{
+    CgalKernel::Vector_3 sum = CGAL::NULL_VECTOR;
+    const auto corners = CGAL::vertices_around_face(hole, mesh);
+    for (const auto v : corners)
+        sum = sum + (mesh.point(v) - CGAL::ORIGIN);
+    const auto middle = CGAL::ORIGIN + sum / double(corners.size());
+    CGAL::Euler::fill_hole(hole, mesh);
+    mesh.point(mesh.target(CGAL::Euler::add_center_vertex(hole, mesh))) = middle;
+}
+
 void fill_holes(CgalMesh& mesh)
 {
     std::vector<CgalMesh::Halfedge_index> holes;
     pmp::extract_boundary_cycles(mesh, std::back_inserter(holes));
-    std::vector<CgalMesh::Face_index> patch;
-    std::vector<CgalMesh::Vertex_index> added;
-    for (const auto hole : holes)
-        pmp::triangulate_refine_and_fair_hole(mesh, hole, std::back_inserter(patch), std::back_inserter(added),
-                                              pmp::parameters::do_not_use_cubic_algorithm(true));
+    for (const auto hole : holes) {
+        const std::size_t edges = CGAL::halfedges_around_face(hole, mesh).size();
+        if (!is_patched(mesh, hole, true) && !(edges < k_cubic && is_patched(mesh, hole, false)))
+            put_tent(mesh, hole);
+    }
 }
 
 /// Nothing when the body comes in parts.

@@ -10,6 +10,7 @@
 #include <flann/flann.hpp>
 
 #include "fit/error.h"
+#include "loose_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "segment.h"
@@ -102,15 +103,15 @@ std::vector<double> oriented_points(const Positions& positions, const Positions&
 }
 
 /// Outwards. What had to be repaired may be turned any way: there the nearest place of the closed surface tells.
-Positions outward_normals(const BodyMesh& body)
+Positions outward_normals(const BodyMesh& body, const Positions& places)
 {
     if (!body.repaired)
         return vertex_normals(body.surface.positions, body.surface.triangles);
     const Positions closed = vertex_normals(body.closed.positions, body.closed.triangles);
     const NearestPoint nearest(body.closed.positions);
-    Positions normals(body.surface.positions.rows(), 3);
+    Positions normals(places.rows(), 3);
     for (Eigen::Index v = 0; v < normals.rows(); ++v)
-        normals.row(v) = closed.row(nearest.index(body.surface.positions.row(v)));
+        normals.row(v) = closed.row(nearest.index(places.row(v)));
     return normals;
 }
 
@@ -161,8 +162,8 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     const double diagonal = (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
     std::vector<double> points
         = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), k_normal_weight * diagonal);
-    std::vector<double> queries
-        = oriented_points(to.surface.positions, outward_normals(to), k_normal_weight * diagonal);
+    const Positions places = brought_to_stumps(to);
+    std::vector<double> queries = oriented_points(places, outward_normals(to, places), k_normal_weight * diagonal);
     const std::size_t n = to.surface.positions.rows();
     flann::Index<flann::L2<double>> tree(flann::Matrix<double>(points.data(), from.positions.rows(), 6),
                                          flann::KDTreeSingleIndexParams());

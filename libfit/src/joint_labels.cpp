@@ -44,16 +44,25 @@ constexpr double k_widening = 1.15;  // of girth: wrist to palm, shin to heel
 
 constexpr int k_wider_in_a_row = 3;  // a single cut may go astray
 
-// Fingers end thin, 0.055 of stature round or less, a stump 0.08 or more. A fist or a mitten ends wide too, but close to where it
-// widens, or far from where the arm leaves the trunk: a stump 0.27 to 0.34, a hand 0.34 or more.
-constexpr double k_thin_end = 0.068, k_fist = 0.09, k_arm_without_hand = 0.345;
-constexpr double k_toes = 0.06;  // of stature: the last of the leg's curve
-constexpr double k_foot_turns = 0.8;  // cosine to the shin: below 0.65 with feet, above 0.92 without
+// Fingers end 0.035 of stature round, toes 0.07 at most, stumps of arms 0.08, of legs 0.12 at least. What ends wide, a fist or a shoe, is
+// wider than the wrist or shin behind it, by 1.15 of girth in nearly all bodies; a stump only tapers, to 1.02 at most.
+constexpr double k_thin_hand = 0.045, k_thin_foot = 0.09, k_wider_end = 1.08;
+// A mitten may hide the wrist, but does not taper: forearms to 0.73 to 0.83 of their girth between these places.
+constexpr double k_taper_from = 0.12, k_taper_to = 0.04,
+                 k_most_tapered = 0.9;  // shares of stature, from the end; of girth
+constexpr double k_end = 0.16, k_palm = 0.1, k_instep = 0.14;  // of stature, from the end of a limb's curve
+constexpr double k_stump = 0.06, k_stump_cap = 0.02;  // of stature: where a stump's axis is read off, before its end
 
 // Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
 constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
 constexpr double k_corner_gap = 0.03, k_corner_reach = 0.06, k_outlier = 0.06;  // of stature
 constexpr int k_fewest_cuts = 6;
+
+// Limbs that come out this much shorter than usual (logarithms) start too far out, where skin, or a scan's filled holes, bridge them to
+// the trunk. How far their length is then moved to the usual one; the middle joint of a straight limb with it, of a bent one not, rad.
+constexpr double k_arm = 0.294, k_whole_leg = 0.495;  // of the size that distances between head, hands and feet tell
+constexpr double k_short_from = 0.08, k_short_to = 0.16, k_usual_share = 0.3, k_short_share = 0.85;
+constexpr double k_bent_from = 0.26, k_bent_to = 0.7;
 
 constexpr int k_fewest_without_head = 2;  // limbs with a hand or foot that is seen
 
@@ -186,6 +195,14 @@ struct Narrowest {
     bool widens = false;
 };
 
+/// Median of three cuts: one may go astray.
+double girth_about(const Centreline& line, int row)
+{
+    const double before = line.girths[std::max(0, row - 1)], here = line.girths[row],
+                 after = line.girths[std::min(row + 1, int(line.girths.size()) - 1)];
+    return std::max(std::min(before, here), std::min(std::max(before, here), after));
+}
+
 /// A reach unlike the usual one counts as a larger girth.
 Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
 {
@@ -194,15 +211,15 @@ Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
     double least = std::numeric_limits<double>::max(), smallest = least;
     for (int i = line.first_free; i < line.size() && !best.widens; ++i) {
         const double off = (tip - line.points[i]).norm();
-        if (!line.free[i] || !line.across[i] || off > reach.most || off < reach.least)
+        if (!line.free[i] || off > reach.most || off < reach.least)
             continue;
-        wider_in_a_row = line.girths[i] > k_widening * smallest ? wider_in_a_row + 1 : 0;
+        const double girth = girth_about(line, i);
+        wider_in_a_row = girth > k_widening * smallest ? wider_in_a_row + 1 : 0;
         best.widens = wider_in_a_row == k_wider_in_a_row;
-        if (wider_in_a_row > 0)
+        if (wider_in_a_row > 0 || !line.across[i])
             continue;
-        smallest = std::min(smallest, line.girths[i]);
-        const double score
-            = std::log(line.girths[i]) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
+        smallest = std::min(smallest, girth);
+        const double score = std::log(girth) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
         if (score < least) {
             least = score;
             best.row = i;
@@ -240,17 +257,52 @@ Vec3 square_to(const Vec3& axis, const Vec3& v) { return (v - v.dot(axis) * axis
 
 double length(const LimbJoints& limb) { return (limb.middle - limb.root).norm() + (limb.end - limb.middle).norm(); }
 
-bool has_hand(const Centreline& line, const Narrowest& narrow, const Vec3& tip, double size)
+/// Curves stop short of the surface: goes on to where the limb was cut off, which is taken for its last joint.
+Centreline up_to_cut(const Surface& surface, const Limb& limb, double size)
 {
-    const double end = std::min(line.girths.back(), line.girths[line.size() - 2]);
-    return end < k_thin_end * size || (narrow.widens && (tip - line.points[narrow.row]).norm() < k_fist * size)
-        || line.length() - line.arcs[line.first_free] > k_arm_without_hand * size;
+    Centreline line = limb.line;
+    const Vec3 last = line.at(line.length() - k_stump_cap * size);
+    const Vec3 axis = (last - line.at(line.length() - k_stump * size)).normalized();
+    const Vec3 cut = farthest(surface.last(limb.curve, k_stump * size), [&](const Vec3& p) { return p.dot(axis); });
+    const Vec3 end = last + (cut - last).dot(axis) * axis;
+    line.arcs.push_back(line.length() + (end - line.points.back()).norm());
+    line.points.push_back(end);
+    return line;
+}
+
+/// How much wider a limb's last stretch is, m, than what is behind it: elbows bulge too, but further up.
+double widening(const Centreline& line, double last_stretch, double size)
+{
+    double smallest = std::numeric_limits<double>::max(), widest = 0;
+    for (int i = line.nearest_row(line.at(line.length() - k_end * size)); i + 1 < line.size(); ++i)
+        if (const double girth = girth_about(line, i); girth > 0) {
+            if (line.length() - line.arcs[i] < last_stretch)
+                widest = std::max(widest, girth / smallest);
+            smallest = std::min(smallest, girth);
+        }
+    return widest;
+}
+
+double end_girth(const Centreline& line) { return std::min(line.girths.back(), line.girths[line.size() - 2]); }
+
+/// Of girth, towards the end of an arm.
+double taper(const Centreline& line, double size)
+{
+    const auto girth
+        = [&](double share) { return girth_about(line, line.nearest_row(line.at(line.length() - share * size))); };
+    return girth(k_taper_to) / girth(k_taper_from);
+}
+
+bool has_hand(const Centreline& line, double size)
+{
+    return end_girth(line) < k_thin_hand * size || widening(line, k_palm * size, size) > k_wider_end
+        || taper(line, size) > k_most_tapered;
 }
 
 /// @param up, out  of the trunk: towards the neck, towards this arm's side
 LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, const Vec3& out, double size)
 {
-    const Centreline& line = arm.line;
+    Centreline line = arm.line;
     const Vec3 along = (arm.tip() - line.at(0.6 * line.length())).normalized();
     LimbJoints joints;
     joints.tip = farthest(surface.last(arm.curve, 0.12 * size), [&](const Vec3& p) { return p.dot(along); });
@@ -258,7 +310,9 @@ LimbJoints arm_joints(const Surface& surface, const Limb& arm, const Vec3& up, c
         = narrowest(line, joints.tip, { 0.05 * size, k_hand * size, 0.19 * size, k_hand_spread * size });
     require(narrow.row >= 0, "wrist", arm.tip());
     joints.widens = narrow.widens;
-    joints.whole = has_hand(line, narrow, joints.tip, size);
+    joints.whole = has_hand(line, size);
+    if (!joints.whole)
+        line = up_to_cut(surface, arm, size);
     const int wrist = joints.whole ? narrow.row : line.size() - 1;
     require(wrist > line.first_free + 4, "wrist", arm.tip());
     joints.end = line.points[wrist];
@@ -292,15 +346,9 @@ Vec3 ankle(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& narrow, 
         + std::min(above_sole, k_ankle_below_shin * size) * shin_axis;  // of a pointed foot, the toes are the sole
 }
 
-/// A foot turns off the shin; a stump goes on along it.
-bool has_foot(const Limb& leg, double size)
+bool has_foot(const Centreline& line, double size)
 {
-    const Centreline& line = leg.line;
-    const double free_length = line.length() - line.arcs[line.first_free];
-    const auto at = [&](double share) { return line.at(line.arcs[line.first_free] + share * free_length); };
-    const Vec3 shin = (at(0.75) - at(0.55)).normalized();  // with a foot or without
-    const Vec3 end = (line.points.back() - line.at(line.length() - k_toes * size)).normalized();
-    return shin.dot(end) < k_foot_turns;
+    return end_girth(line) < k_thin_foot * size || widening(line, k_instep * size, size) > k_wider_end;
 }
 
 /// Where the thigh comes from, read off its first hand's breadth.
@@ -322,12 +370,14 @@ std::array<Vec3, 2> hips(const std::array<Limb, 2>& legs, const Vec3& up, double
 
 LimbJoints leg_joints(const Surface& surface, const Limb& leg, const Vec3& hip, double size)
 {
-    const Centreline& line = leg.line;
+    Centreline line = leg.line;
     const std::vector<Vec3> foot = surface.last(leg.curve, 0.25 * size);
     const Narrowest narrow = narrowest(line, leg.tip(), { 0.08 * size, 0.15 * size, 0.22 * size, 0.04 * size });
     LimbJoints joints;
     joints.widens = narrow.widens;
-    joints.whole = narrow.widens || has_foot(leg, size);
+    joints.whole = has_foot(line, size);
+    if (!joints.whole)
+        line = up_to_cut(surface, leg, size);
     const int shin = joints.whole ? narrow.row : line.size() - 1;
     require(shin > line.first_free + 4, "ankle", leg.tip());
     joints.root = hip;
@@ -349,23 +399,44 @@ double upper_length(const std::array<LimbJoints, 2>& limbs, double upper_ratio)
     return 0.5 * (measured + expected);
 }
 
-void level_upper_arms(std::array<LimbJoints, 2>& arms)
+/// Both upper bones come out equally long.
+void level(std::array<LimbJoints, 2>& limbs, double upper_ratio)
 {
-    const double upper = upper_length(arms, k_elbow_ratio);
-    for (LimbJoints& arm : arms)
-        arm.root = arm.middle + upper * (arm.root - arm.middle).normalized();
+    const double upper = upper_length(limbs, upper_ratio);
+    for (LimbJoints& limb : limbs)
+        limb.root = limb.middle + upper * (limb.root - limb.middle).normalized();
 }
 
 /// Hips move together, or the pelvis would change its width.
-void level_thighs(std::array<LimbJoints, 2>& legs)
+void keep_apart(std::array<LimbJoints, 2>& legs, const std::array<Vec3, 2>& hips)
 {
-    const double upper = upper_length(legs, k_knee_ratio);
-    Vec3 shift = Vec3::Zero();
-    for (const LimbJoints& leg : legs)
-        shift += 0.5 * (upper - (leg.root - leg.middle).norm()) * (leg.root - leg.middle).normalized();
-    for (LimbJoints& leg : legs)
-        leg.root += shift;
+    const Vec3 shift = 0.5 * (legs[0].root - hips[0] + legs[1].root - hips[1]);
+    for (int i = 0; i < 2; ++i)
+        legs[i].root = hips[i] + shift;
 }
+
+double bent(const LimbJoints& limb)
+{
+    const double cosine = (limb.middle - limb.root).normalized().dot((limb.end - limb.middle).normalized());
+    return std::clamp((std::acos(std::clamp(cosine, -1.0, 1.0)) - k_bent_from) / (k_bent_to - k_bent_from), 0.0, 1.0);
+}
+
+/// Moves roots, and middles of straight limbs, so that the pair comes nearer to its usual length.
+void bring_to_length(std::array<LimbJoints, 2>& limbs, double usual)
+{
+    const double measured = 0.5 * (length(limbs[0]) + length(limbs[1]));
+    const double missing = std::log(usual / measured);
+    const double short_by = std::clamp((missing - k_short_from) / (k_short_to - k_short_from), 0.0, 1.0);
+    const double factor = std::exp(missing * (k_usual_share + short_by * (k_short_share - k_usual_share)));
+    for (LimbJoints& limb : limbs) {
+        const double goal = length(limb) + (factor - 1) * measured;
+        const Vec3 upper = (limb.root - limb.middle).normalized();
+        limb.middle += (factor - 1) * (1 - bent(limb)) * (limb.middle - limb.end);
+        limb.root = limb.middle + (goal - (limb.end - limb.middle).norm()) * upper;
+    }
+}
+
+bool whole(const std::array<LimbJoints, 2>& limbs) { return limbs[0].whole && limbs[1].whole; }
 
 /// From the pelvis through the middle of the trunk to the top of the head's curve. Where the arms leave, cuts say nothing.
 Centreline spine(const Surface& surface, const Slicer& slicer, const Vec3& pelvis, const Vec3& up)
@@ -442,7 +513,10 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
         const std::array<Vec3, 2> roots = hips(legs, up, joints.size);
         for (int i = 0; i < 2; ++i)
             joints.legs[i] = leg_joints(surface, legs[i], roots[i], joints.size);
-        level_thighs(joints.legs);
+        level(joints.legs, k_knee_ratio);
+        if (whole(joints.legs) && !graph.headless)
+            bring_to_length(joints.legs, k_whole_leg * std::min(graph.size, graph.size_by_legs));
+        keep_apart(joints.legs, roots);
         joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
         axis = spine(surface, slicer, joints.pelvis, up);
         if (graph.headless)  // the curve ends where the arms leave
@@ -455,7 +529,9 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
         joints.arms[i] = arm_joints(surface, arms[i], up, i == 0 ? across : Vec3(-across), joints.size);
     if (graph.headless)
         require_hands_or_feet(joints);
-    level_upper_arms(joints.arms);
+    level(joints.arms, k_elbow_ratio);
+    if (whole(joints.arms) && whole(joints.legs) && !graph.headless)
+        bring_to_length(joints.arms, k_arm * graph.size);
 
     const double head = graph.headless ? k_stub : 1;
     joints.neck_base = below(axis, joints.crown, head * k_neck_base * joints.size);

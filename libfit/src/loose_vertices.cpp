@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "loose_vertices.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "nearest.h"
+
+namespace fit {
+namespace {
+
+// Of the diagonal. A head, a hand or a foot reaches that far from its stump.
+constexpr double k_cut_off = 0.15;
+// No further away are a vertex and its like on the closed surface, whose vertices were welded.
+constexpr double k_same_place = 1e-3;
+
+/// How the user's vertices are surrounded by faces.
+struct Surroundings {
+    std::vector<int> none, some, all;
+};
+
+/// Vertices of edges that have a single face.
+std::vector<bool> on_border(const TriangleMesh& surface)
+{
+    std::vector<std::array<int, 2>> edges;
+    edges.reserve(surface.triangles.size());
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(surface.triangles(f, k), surface.triangles(f, (k + 1) % 3));
+            edges.push_back({ low, high });
+        }
+    std::sort(edges.begin(), edges.end());
+    std::vector<bool> result(surface.positions.rows(), false);
+    for (auto first = edges.begin(); first != edges.end();) {
+        const auto next = std::upper_bound(first, edges.end(), *first);
+        if (next - first == 1)
+            result[(*first)[0]] = result[(*first)[1]] = true;
+        first = next;
+    }
+    return result;
+}
+
+Surroundings surroundings(const TriangleMesh& surface)
+{
+    std::vector<bool> has_faces(surface.positions.rows(), false);
+    for (Eigen::Index i = 0; i < surface.triangles.size(); ++i)
+        has_faces[surface.triangles.data()[i]] = true;
+    const std::vector<bool> border = on_border(surface);
+    Surroundings result;
+    for (int v = 0; v < int(has_faces.size()); ++v)
+        (border[v] ? result.some : has_faces[v] ? result.all : result.none).push_back(v);
+    return result;
+}
+
+Positions rows_of(const Positions& positions, const std::vector<int>& rows)
+{
+    Positions result(rows.size(), 3);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        result.row(i) = positions.row(rows[i]);
+    return result;
+}
+
+/// Vertices of the closed surface where the user's is torn, and of the patches over its holes.
+Positions torn_and_patched(const TriangleMesh& closed, const NearestPoint& whole, double same_place)
+{
+    std::vector<int> rows;
+    for (int v = 0; v < int(closed.positions.rows()); ++v)
+        if (whole.distance(closed.positions.row(v)) > same_place)
+            rows.push_back(v);
+    return rows_of(closed.positions, rows);
+}
+
+}  // namespace
+
+Positions brought_to_stumps(const BodyMesh& body)
+{
+    Positions result = body.surface.positions;
+    const Surroundings vertices = surroundings(body.surface);
+    if (vertices.none.empty() || vertices.some.empty() || vertices.all.empty())
+        return result;
+    const Positions& closed = body.closed.positions;
+    const double diagonal = (closed.colwise().maxCoeff() - closed.colwise().minCoeff()).norm();
+    const NearestPoint whole(rows_of(result, vertices.all));
+    const Positions stumps = torn_and_patched(body.closed, whole, k_same_place * diagonal);
+    if (stumps.rows() == 0)
+        return result;
+    const NearestPoint stump(stumps);
+    for (const int v : vertices.none)
+        if (const Vec3 p = result.row(v);
+            whole.distance(p) > k_same_place * diagonal && stump.distance(p) < k_cut_off * diagonal)
+            result.row(v) = stumps.row(stump.index(p));
+    return result;
+}
+
+}  // namespace fit
