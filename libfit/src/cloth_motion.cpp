@@ -240,6 +240,11 @@ double ClothMotion::settle_obstacle(const Positions& target)
     return longest_lag;
 }
 
+void arrive(ClothMotion& motion, const MotionStep& step, int most_steps)
+{
+    for (int i = 0; i < most_steps && motion.advance(step) > 0; ++i) { }
+}
+
 Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)
 {
     constexpr int k_patience = 60;

@@ -78,6 +78,9 @@ private:
     Positions velocity_;  // of the cloth, m/s
 };
 
+/// Repeats a step until the whole obstacle is at its target, or so many times.
+void arrive(ClothMotion& motion, const MotionStep& step, int most_steps);
+
 struct Settled {
     bool arrived;  ///< the whole obstacle at its target
     double speed;  ///< m/s, of the fastest vertex of the cloth
