@@ -68,7 +68,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
                const Progress& progress)
 {
     const RecoverResult result
-        = recover_pose(*scene.rig, scene.body.value(), from.pose, to, from.garments, options, progress);
+        = recover_pose(*scene.rig, scene.body.value(), from.pose, to, from.garments, options, progress, from.body);
     Dressing next = from;
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
@@ -178,7 +178,7 @@ void require_inputs(const Filter& filter, const Scene& scene)
         }
 }
 
-bool ended_uncertified(const Scene& scene, Stage stage) { return stage == Stage::drape && !scene.draped->certified; }
+bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
 
 /// A garment is the same cloth while it is put on and while its wearer moves.
 Parameters with_one_cloth(const Filter& filter, Parameters p)
@@ -261,7 +261,7 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
         slice.at(1);
         scene.seconds[static_cast<int>(stage)] += std::chrono::duration<double>(Clock::now() - start).count();
         done = next;
-        if (ended_uncertified(scene, stage))
+        if (ends_here(scene, stage))
             break;
     }
 }

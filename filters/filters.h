@@ -75,7 +75,8 @@ struct Filter {
 
     bool has(Stage stage) const;
 
-    /// Checks inputs and ranges, then fills the outputs of each stage. A stage that ends uncertified is the last one.
+    /// Checks inputs and ranges, then fills the outputs of each stage. Draping is the last one when not all
+    /// could be put on.
     /// @throws InvalidInput, SolverFailure, Cancelled; outputs of the stages before it stay in the scene.
     void run(Scene& scene, const Parameters& parameters, const Progress& progress = {}) const;
 };

@@ -79,6 +79,13 @@ bool all_clean(const std::vector<WornGarment>& garments)
     return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });
 }
 
+bool all_put_on(const Scene& scene)
+{
+    const auto& draped = scene.draped;
+    return draped && draped->garments.size() == scene.garments.size() && draped->size_reached == 1
+        && draped->pose_reached == 1 && all_clean(draped->garments);
+}
+
 Outcome outcome_of(const Dressing& end)
 {
     if (end.certified)

@@ -16,6 +16,9 @@ enum class Outcome { done = 0, too_small = 3, not_certified = 4 };
 /// How the garments are worn at the end, or null when none was put on (yet).
 const Dressing* final_dressing(const Scene& scene);
 bool all_clean(const std::vector<WornGarment>& garments);
+/// All garments are draped over the full-sized body and nothing crosses. Parts of the body may still lag behind their places,
+/// fingers in a long sleeve, say: on the way to another pose they may come free.
+bool all_put_on(const Scene& scene);
 Outcome outcome_of(const Dressing& dressing);
 /// One line on how it went wrong; only for what is not done. Garments are called by their `names`, from the inside out.
 std::string explain(const Dressing& dressing, const std::vector<std::string>& names);

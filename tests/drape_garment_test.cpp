@@ -171,6 +171,18 @@ TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
     EXPECT_EQ(result.garments[0].certificate.body_crossings, 0);
 }
 
+TEST(RecoverPose, LetsPartsThatWereHeldBackCatchUp)
+{
+    const Dressing d = person();
+    const GarmentMesh loose = trousers(0.02);
+    const Positions& skin = d.body.surface.positions;
+    const Positions held_back = skin - 4e-3 * vertex_normals(skin, d.body.surface.triangles);
+    const RecoverResult result
+        = recover_pose(d.rig, d.body, Pose(), Pose(), { { loose, loose.positions, {} } }, {}, {}, held_back);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.body, skin);
+}
+
 TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
 {
     const Dressing d = person();

@@ -176,12 +176,12 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
 
 RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
                            const std::vector<WornGarment>& worn, const RecoverOptions& options,
-                           const Progress& progress)
+                           const Progress& progress, const Positions& start_positions)
 {
     RecoverResult result;
     result.garments = worn;
     const Way way(rig, body, from, to);
-    const TriangleMesh start { way.at(0), body.surface.triangles };
+    const TriangleMesh start { start_positions.rows() > 0 ? start_positions : way.at(0), body.surface.triangles };
     TriangleMesh rest, cloth;
     for (const WornGarment& garment : worn) {
         append(rest, { garment.rest.positions, garment.rest.triangles });
@@ -189,7 +189,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     }
     if (const int crossing = crossing_count(cloth, start); crossing > 0)
         throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing)
-                           + " places in the pose to start from; drape the garment first");
+                           + " places at the start; drape the garment first");
 
     const SkinWeights cloth_weights
         = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);

@@ -80,7 +80,7 @@ void compute(const Call& call, Session& session)
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double n = double(names.size());
         filter_of(names[i]).run(session.scene, parameters, progress.part(double(i) / n, double(i + 1) / n));
-        if (session.scene.draped && !session.scene.draped->certified)
+        if (session.scene.draped && !all_put_on(session.scene))
             break;
     }
 }

@@ -40,9 +40,11 @@ struct RecoverResult {
 };
 
 /// @param from, to  poses of the rig; Pose() is the body's own
-/// @throws InvalidInput when the garments cross the body in pose `from`. Cancelled.
+/// @param start     the body's vertices at the beginning, where cloth holds some back from pose `from` (DrapeResult::body);
+///                  they catch up on the way. Empty: all of them as in that pose.
+/// @throws InvalidInput when the garments cross the body at the beginning. Cancelled.
 FIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
                                    const std::vector<WornGarment>& worn, const RecoverOptions& options = {},
-                                   const Progress& progress = {});
+                                   const Progress& progress = {}, const Positions& start = Positions(0, 3));
 
 }  // namespace fit

@@ -211,7 +211,7 @@ void FilterState::run(const Progress& progress)
     for (std::size_t i = 0; i < filter.stages.size(); ++i) {
         if (!has(filter.stages[i]))
             run(filter.stages[i], progress.part(double(i) / n, double(i + 1) / n));
-        if (scene_.draped && !scene_.draped->certified)
+        if (scene_.draped && !all_put_on(scene_))
             return;
     }
 }
