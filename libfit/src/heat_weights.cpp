@@ -19,8 +19,8 @@ namespace fit {
 namespace {
 
 constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive definite on obtuse triangles
-constexpr double k_heat = 16;  // c of the paper; larger keeps skin stiffer between joints
-constexpr double k_heat_of_arms = 3;  // else they would reach down the flank, far from the spine that should hold it
+constexpr double k_heat = 18;  // c of the paper; larger keeps skin stiffer between joints
+constexpr double k_heat_of_arms = 1.5;  // else they would reach down the flank, far from the spine that should hold it
 constexpr double k_least_facing = 0.1;  // cosine: no bone is hidden from skin, only further away
 constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
 constexpr int k_neighbours = 4;  // that a transferred weight is blended from
