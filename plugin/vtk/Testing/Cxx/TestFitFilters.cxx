@@ -362,18 +362,23 @@ TEST(Chain, DoesNotRigAgainWhenTheFitChanges)
 /// Two triangles each that share an edge become a quad, whose first fan they are.
 vtkSmartPointer<vtkCellArray> quads_of(const TriangleMesh& mesh)
 {
-    std::map<std::pair<int, int>, Eigen::Index> begins;  // the last edge of each triangle, turned round
+    struct Side {
+        Eigen::Index triangle;
+        int opposite;
+    };
+    std::map<std::pair<int, int>, Side> sides;  // by the vertices that they lead from and to
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-        begins[{ mesh.triangles(f, 0), mesh.triangles(f, 2) }] = f;
+        for (int k = 0; k < 3; ++k)
+            sides[{ mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3) }] = { f, mesh.triangles(f, (k + 2) % 3) };
     std::set<Eigen::Index> done;
     auto cells = vtkSmartPointer<vtkCellArray>::New();
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         if (!done.insert(f).second)
             continue;
         const Eigen::RowVector3i t = mesh.triangles.row(f);
-        const auto found = begins.find({ t[2], t[0] });
-        if (found != begins.end() && done.insert(found->second).second)
-            cells->InsertNextCell({ t[0], t[1], t[2], mesh.triangles(found->second, 1) });
+        const auto beyond = sides.find({ t[0], t[2] });
+        if (beyond != sides.end() && done.insert(beyond->second.triangle).second)
+            cells->InsertNextCell({ t[0], t[1], t[2], beyond->second.opposite });
         else
             cells->InsertNextCell({ t[0], t[1], t[2] });
     }
