@@ -240,9 +240,10 @@ double ClothMotion::settle_obstacle(const Positions& target)
     return longest_lag;
 }
 
-void arrive(ClothMotion& motion, const MotionStep& step, int most_steps)
+void arrive(ClothMotion& motion, const MotionStep& step)
 {
-    for (int i = 0; i < most_steps && motion.advance(step) > 0; ++i) { }
+    constexpr int k_patience = 30;
+    for (int i = 0; i < k_patience && motion.advance(step) > 0; ++i) { }
 }
 
 Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)

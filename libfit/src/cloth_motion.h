@@ -78,8 +78,9 @@ private:
     Positions velocity_;  // of the cloth, m/s
 };
 
-/// Repeats a step until the whole obstacle is at its target, or so many times.
-void arrive(ClothMotion& motion, const MotionStep& step, int most_steps);
+/// Repeats a step until the whole obstacle is at its target, for as long as is worth waiting: before the bridges over creases are
+/// drawn back, say, for where a bridge is not closed, cloth would go in.
+void arrive(ClothMotion& motion, const MotionStep& step);
 
 struct Settled {
     bool arrived;  ///< the whole obstacle at its target

@@ -9,6 +9,7 @@
 #include "fit/mesh.h"
 #include "joined_vertices.h"
 #include "parallel.h"
+#include "segment.h"
 
 namespace fit {
 namespace {
@@ -67,13 +68,6 @@ double both(const Margins& margins, bool self) { return margins.cloth + (self ? 
 
 int first_size(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
 
-double distance_to_segment(const Vec3& p, const Vec3& start, const Vec3& way)
-{
-    const double square = way.squaredNorm();
-    const double share = square > 0 ? std::clamp((p - start).dot(way) / square, 0.0, 1.0) : 0.0;
-    return (p - start - share * way).norm();
-}
-
 void lower(std::atomic<double>& value, double to)
 {
     double now = value.load(std::memory_order_relaxed);
@@ -120,11 +114,11 @@ bool Contact::searched(const Room& room) const
     if (room_.start.rows() != room.start.rows())
         return false;
     for (Eigen::Index v = 0; v < room.start.rows(); ++v) {
-        const Vec3 from = room.start.row(v), to = from + Vec3(room.way.row(v)), s = room_.start.row(v),
-                   w = room_.way.row(v);
+        const Vec3 from = room.start.row(v), to = from + Vec3(room.way.row(v)), begin = room_.start.row(v),
+                   end = begin + Vec3(room_.way.row(v));
         const double spare = v < cloth_vertices_ ? room_.margins.cloth - room.margins.cloth
                                                  : room_.margins.obstacle - room.margins.obstacle;
-        if (distance_to_segment(from, s, w) > spare || distance_to_segment(to, s, w) > spare)
+        if (distance_to_segment(from, begin, end) > spare || distance_to_segment(to, begin, end) > spare)
             return false;
     }
     return true;

@@ -21,10 +21,6 @@ constexpr double k_first_size = 0.01;
 // Where one part stops the inflation, others beyond this share of the limit are worth naming, too.
 constexpr double k_worth_naming = 0.7;
 
-// Steps that lagging parts are given to come to their places before the bridges over creases are drawn back: where a bridge is
-// not closed, cloth would go in.
-constexpr int k_patience = 30;
-
 /// What the garment meets: the body and the garments under it, anywhere between its bones and its full size.
 struct Inflatable {
     TriangleMesh full;
@@ -137,7 +133,7 @@ double inflate(ClothMotion& motion, const Inflatable& inside, Grading& grading, 
     }
     const Positions bridged = inside.at(1);
     step.obstacle_target = &bridged;
-    arrive(motion, step, k_patience);
+    arrive(motion, step);
     motion.carry_obstacle(inside.withdrawn);
     motion.carry_obstacle(inside.full.positions);
     return 1;

@@ -53,14 +53,6 @@ Surroundings surroundings(const TriangleMesh& surface)
     return result;
 }
 
-Positions rows_of(const Positions& positions, const std::vector<int>& rows)
-{
-    Positions result(rows.size(), 3);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        result.row(i) = positions.row(rows[i]);
-    return result;
-}
-
 /// Vertices of the closed surface where the user's is torn, and of the patches over its holes.
 Positions torn_and_patched(const TriangleMesh& closed, const NearestPoint& whole, double same_place)
 {
@@ -68,7 +60,7 @@ Positions torn_and_patched(const TriangleMesh& closed, const NearestPoint& whole
     for (int v = 0; v < int(closed.positions.rows()); ++v)
         if (whole.distance(closed.positions.row(v)) > same_place)
             rows.push_back(v);
-    return rows_of(closed.positions, rows);
+    return closed.positions(rows, Eigen::all);
 }
 
 }  // namespace
@@ -81,7 +73,7 @@ Positions brought_to_stumps(const BodyMesh& body)
         return result;
     const Positions& closed = body.closed.positions;
     const double diagonal = (closed.colwise().maxCoeff() - closed.colwise().minCoeff()).norm();
-    const NearestPoint whole(rows_of(result, vertices.all));
+    const NearestPoint whole(result(vertices.all, Eigen::all));
     const Positions stumps = torn_and_patched(body.closed, whole, k_same_place * diagonal);
     if (stumps.rows() == 0)
         return result;

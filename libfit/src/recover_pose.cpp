@@ -19,8 +19,6 @@ namespace {
 constexpr int k_smoothing_passes = 30;
 // A body that moves works its clothes loose: this share of the friction is left.
 constexpr double k_moving_friction = 0.25;
-// Steps that lagging parts are given to come to their places before the bridges over creases are drawn back.
-constexpr int k_patience = 30;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
 
@@ -168,7 +166,7 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
     }
     const Positions bridged = way.bridged(1);
     step.obstacle_target = &bridged;
-    arrive(motion, step, k_patience);
+    arrive(motion, step);
     return reached;
 }
 
