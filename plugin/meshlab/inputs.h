@@ -3,7 +3,7 @@
 
 // From layers to what a filter reads.
 
-#include "dialog.h"
+#include "choice.h"
 #include "fitting.h"
 #include "report.h"
 

@@ -75,6 +75,13 @@ bool MenuEntry::reads(Data data) const
 
 bool MenuEntry::begins_with_body() const { return filter && filter->has(Stage::rig); }
 
+bool MenuEntry::makes_rig() const { return begins_with_body() || task == Task::load_rig; }
+
+bool MenuEntry::makes_maps() const
+{
+    return task == Task::measure || (filter && (filter->has(Stage::drape) || filter->has(Stage::recover)));
+}
+
 const std::vector<MenuEntry>& menu()
 {
     static const std::vector<MenuEntry> entries = make_menu();

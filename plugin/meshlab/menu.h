@@ -25,6 +25,8 @@ struct MenuEntry {
     bool reads(Data data) const;
     /// Whether units and axes of the body are asked for; else those of its rig hold.
     bool begins_with_body() const;
+    bool makes_rig() const;  ///< so that one bone's weight is shown
+    bool makes_maps() const;  ///< of ease, strain and pressure, of which one is shown
 };
 
 /// The five filters of the common table and three that only MeshLab has, in the order of the menu.

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "dialog.h"
+#include "choice.h"
 #include "fit/fit_map.h"
 #include "fitting.h"
 

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "dialog.h"
+#include "choice.h"
 #include "filters/outcome.h"
 #include "filters/rig_file.h"
 #include "fit/certificate.h"
@@ -111,7 +111,7 @@ Report measure(const MenuEntry& entry, Choice& choice, MeshDocument& document)
 Report run_entry(const MenuEntry& entry, const RichParameterList& list, MeshDocument& document,
                  const Progress& progress)
 {
-    Choice choice = read_dialog(entry, list, document);
+    Choice choice = read_choice(entry, list, document);
     switch (entry.task) {
     case Task::save_rig: return save_rig(entry, choice, document);
     case Task::load_rig: return load_rig(choice, document);

@@ -440,11 +440,16 @@ void expect_same_positions(const MeshModel& layer, const fs::path& file)
 
 class SlowMeshLab : public MeshLab { };
 
+void dress_by_program(const fs::path& body, const fs::path& garment, const fs::path& out)
+{
+    const std::string call
+        = std::string(FIT_PROGRAM) + " dress " + body.string() + " " + garment.string() + " --quiet -o " + out.string();
+    ASSERT_EQ(std::system(call.c_str()), 0);
+}
+
 TEST_F(SlowMeshLab, DressesToTheNumbersOfTheCommandLine)
 {
-    const std::string call = std::string(FIT_PROGRAM) + " dress " + k_small_body.string() + " " + k_skirt.string()
-        + " --quiet -o " + (folder / "dressed").string();
-    ASSERT_EQ(std::system(call.c_str()), 0);
+    dress_by_program(k_small_body, k_skirt, folder / "dressed");
     meshlab::open_layer(document, k_small_body);
     meshlab::open_layer(document, k_skirt);
     const Ended dressed = run("Dress Body", document);
@@ -462,6 +467,20 @@ TEST_F(SlowMeshLab, DressesToTheNumbersOfTheCommandLine)
     auto ease = vcg::tri::Allocator<CMeshO>::FindPerVertexAttribute<float>(worn, "ease");
     for (int v = 0; v < shown.vn; ++v)
         ASSERT_NEAR(shown.vert[v].Q(), ease[v], 1e-6);
+}
+
+TEST_F(SlowMeshLab, DressesABodyInInchesToTheNumbersOfTheCommandLine)
+{
+    constexpr double inches_per_metre = 1 / 0.0254;
+    for (const fs::path& given : { k_small_body, k_skirt }) {
+        const MeshFile file = MeshFile::read(given);
+        file.write(folder / given.filename(), file.positions() * inches_per_metre);
+        meshlab::open_layer(document, folder / given.filename());
+    }
+    dress_by_program(folder / k_small_body.filename(), folder / k_skirt.filename(), folder / "dressed");
+    const Ended dressed = run("Dress Body", document);
+    ASSERT_TRUE(dressed.well) << dressed.message;
+    expect_same_positions(*document.meshList.back(), folder / "dressed" / "skirt.ply");
 }
 
 TEST_F(SlowMeshLab, GoesTheSameWayStepByStep)

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "choice.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "fields.h"
+#include "fitting.h"
+#include "layers.h"
+
+namespace fit::meshlab {
+namespace {
+
+/// The number that a user typed, and that the command line would read: all MeshLabs hand parameters on as floats, also
+/// those whose layers have doubles, so that 0.2 arrives as 0.2000000030. A share of the body's size, or another unit, and
+/// back costs no more.
+double as_typed(double value)
+{
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general,
+                                   std::numeric_limits<float>::digits10)
+                         .ptr;
+    double typed = value;
+    std::from_chars(digits, end, typed);
+    return typed;
+}
+
+class ReadFromDialog {
+public:
+    explicit ReadFromDialog(const RichParameterList& list) : list_(list) { }
+
+    template <class Value>
+    void operator()(Value& value, const About& about) const
+    {
+        const QString name = text(about.name);
+        if constexpr (std::is_enum_v<Value>)
+            value = Value(list_.getEnum(name));
+        else if constexpr (std::is_same_v<Value, bool>)
+            value = list_.getBool(name);
+        else if constexpr (std::is_integral_v<Value>)
+            value = list_.getInt(name);
+        else
+            value = as_typed(is_length(about) ? list_.getAbsPerc(name) : list_.getFloat(name));
+    }
+
+private:
+    const RichParameterList& list_;
+};
+
+struct LengthsInMetres {
+    double metres_per_unit;
+
+    template <class Value>
+    void operator()(Value& value, const About& about) const
+    {
+        if constexpr (std::is_floating_point_v<Value>)
+            if (is_length(about))
+                value = as_typed(value * metres_per_unit);
+    }
+};
+
+MeshModel* read_layer(const RichParameterList& list, const QString& name, MeshDocument& document)
+{
+    MeshModel* layer = chosen_layer(list, name, document);
+    if (!layer)
+        throw InvalidInput(name.toStdString() + ": there is no such layer; choose one of the document");
+    return layer;
+}
+
+std::string read_word(const RichParameterList& list, const QString& name, const std::vector<std::string_view>& words)
+{
+    return std::string(words.at(std::size_t(list.getEnum(name))));
+}
+
+void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& document, const MenuEntry& entry)
+{
+    for (int i = 0; i < 3; ++i) {
+        MeshModel* garment = read_layer(list, k_garments[i], document);
+        if (garment == choice.body)
+            throw InvalidInput(k_garments[i].toStdString() + ": " + name_of(*garment)
+                               + " is the body already; choose the garment's layer");
+        if (i > 0 && garment == choice.garments.front())
+            continue;
+        if (std::find(choice.garments.begin(), choice.garments.end(), garment) != choice.garments.end())
+            throw InvalidInput(k_garments[i].toStdString() + ": " + name_of(*garment)
+                               + " is worn already; choose the first garment again for none");
+        choice.garments.push_back(garment);
+        choice.types.push_back(entry.filter->has(Stage::fit) ? GarmentType(list.getEnum(k_types[i]))
+                                                             : GarmentType::automatic);
+    }
+}
+
+void read_frames(Choice& choice, const RichParameterList& list, const MenuEntry& entry)
+{
+    if (entry.begins_with_body()) {
+        choice.body_frame = { read_word(list, k_unit, k_units), read_word(list, k_up, k_axes) };
+        choice.front = read_word(list, k_front, k_axes);
+    }
+    if (entry.filter && entry.filter->has(Stage::fit))
+        choice.garment_frame = { read_word(list, k_garment_unit, k_units), read_word(list, k_garment_up, k_axes) };
+}
+
+/// MeshLab's own dialog begins without a name, whatever the default.
+std::filesystem::path read_file_name(const RichParameterList& list, const MenuEntry& entry, const MeshModel& body)
+{
+    const QString name = entry.task == Task::save_rig ? list.getSaveFileName(k_file) : list.getOpenFileName(k_file);
+    const std::filesystem::path path
+        = name.isEmpty() ? rig_file_beside(body) : std::filesystem::path(name.toStdString());
+    if (path.empty())
+        throw InvalidInput("file: " + name_of(body) + " was not saved yet; give a name that ends in .rig.json");
+    return path;
+}
+
+}  // namespace
+
+Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDocument& document)
+{
+    if (layers_of(document).empty())
+        throw InvalidInput("there is no layer; open a body first");
+    Choice choice;
+    choice.body = read_layer(list, k_body, document);
+    if (entry.reads(Data::garments))
+        read_garments(choice, list, document, entry);
+    if (entry.task == Task::measure) {
+        choice.garments = { read_layer(list, k_garments[0], document) };
+        choice.worn = read_layer(list, k_worn, document);
+    }
+    if (entry.task == Task::save_rig || entry.task == Task::load_rig)
+        choice.file = read_file_name(list, entry, *choice.body);
+    read_frames(choice, list, entry);
+    describe_entry(entry, choice.parameters, ReadFromDialog(list));
+    choice.parameters.fit.type = GarmentType::automatic;  // each garment has its own
+    if (entry.makes_rig())
+        choice.shown_bone = Bone(list.getEnum(k_bone));
+    if (entry.makes_maps())
+        choice.shown_map = ShownMap(list.getEnum(k_map));
+    return choice;
+}
+
+void put_lengths_in_metres(const MenuEntry& entry, Parameters& parameters, double metres_per_unit)
+{
+    describe_entry(entry, parameters, LengthsInMetres { metres_per_unit });
+}
+
+}  // namespace fit::meshlab

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The fields of dialogs and scripts: their names are keys of scripts and never change, their words stand in this order.
+
+#include <string_view>
+#include <vector>
+
+#include "filters/schema.h"
+#include "host_api.h"
+#include "menu.h"
+
+namespace fit::meshlab {
+
+inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit = "unit", k_up = "up", k_front = "front",
+                     k_garment_unit = "garment_unit", k_garment_up = "garment_up", k_bone = "shown_bone",
+                     k_map = "shown_map";
+inline const QString k_garments[] = { "garment", "second_garment", "third_garment" };
+inline const QString k_types[] = { "type", "second_type", "third_type" };
+
+inline const std::vector<std::string_view> k_units { "auto", "m", "dm", "cm", "mm", "in", "ft" };
+inline const std::vector<std::string_view> k_axes { "auto", "+x", "-x", "+y", "-y", "+z", "-z" };
+inline const std::vector<std::string_view> k_maps { "ease", "strain", "pressure", "none" };
+
+inline QString text(std::string_view words) { return QString::fromUtf8(words.data(), int(words.size())); }
+
+/// In the body's own unit.
+inline bool is_length(const About& about) { return about.unit == "m"; }
+
+/// Calls the visitor for each parameter of the schema that an entry shows.
+template <class AnyParameters, class Visitor>
+void describe_entry(const MenuEntry& entry, AnyParameters& parameters, const Visitor& visit)
+{
+    if (entry.filter)
+        describe(*entry.filter, parameters, visit);
+    else if (entry.task == Task::measure)
+        describe(parameters.drape.cloth, visit);
+}
+
+}  // namespace fit::meshlab
