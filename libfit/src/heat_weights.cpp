@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <Eigen/SparseCholesky>
-#include <flann/flann.hpp>
 
 #include "fit/error.h"
-#include "loose_vertices.h"
-#include "nearest.h"
-#include "parallel.h"
 #include "segment.h"
 
 namespace fit {
@@ -22,9 +17,6 @@ constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive defi
 constexpr double k_heat = 18;  // c of the paper; larger keeps skin stiffer between joints
 constexpr double k_heat_of_arms = 1.5;  // else they would reach down the flank, far from the spine that should hold it
 constexpr double k_least_facing = 0.1;  // cosine: no bone is hidden from skin, only further away
-constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
-constexpr int k_neighbours = 4;  // that a transferred weight is blended from
-constexpr int k_block = 4096;  // vertices, of which one core finds the neighbours at a time
 
 /// Hands, feet and head hang on the bones before them.
 Vec3 nearest_on_bone(const Vec3& p, const Skeleton& skeleton, int bone)
@@ -88,48 +80,6 @@ Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd&
     return matrix;
 }
 
-/// Rows (position, weighted normal): near in this space means near and facing the same way.
-std::vector<double> oriented_points(const Positions& positions, const Positions& normals, double normal_length)
-{
-    std::vector<double> rows;
-    rows.reserve(6 * positions.rows());
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-        for (int k = 0; k < 3; ++k)
-            rows.push_back(positions(v, k));
-        for (int k = 0; k < 3; ++k)
-            rows.push_back(normal_length * normals(v, k));
-    }
-    return rows;
-}
-
-/// Outwards. What had to be repaired may be turned any way: there the nearest place of the closed surface tells.
-Positions outward_normals(const BodyMesh& body, const Positions& places)
-{
-    if (!body.repaired)
-        return vertex_normals(body.surface.positions, body.surface.triangles);
-    const Positions closed = vertex_normals(body.closed.positions, body.closed.triangles);
-    const NearestPoint nearest(body.closed.positions);
-    Positions normals(places.rows(), 3);
-    for (Eigen::Index v = 0; v < normals.rows(); ++v)
-        normals.row(v) = closed.row(nearest.index(places.row(v)));
-    return normals;
-}
-
-void keep_four(const Eigen::RowVectorXd& row, Eigen::Index v, SkinWeights& weights)
-{
-    std::array<int, bone_count> order;
-    std::iota(order.begin(), order.end(), 0);
-    std::partial_sort(order.begin(), order.begin() + 4, order.end(),
-                      [&](int a, int b) { return row[a] != row[b] ? row[a] > row[b] : a < b; });
-    double sum = 0;
-    for (int k = 0; k < 4; ++k)
-        sum += std::max(0.0, row[order[k]]);
-    for (int k = 0; k < 4; ++k) {
-        weights.bones(v, k) = order[k];
-        weights.weights(v, k) = std::max(0.0, row[order[k]]) / sum;
-    }
-}
-
 }  // namespace
 
 Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleton, const VisibleBones& visible)
@@ -155,40 +105,6 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     for (Eigen::Index v = 0; v < n; ++v)
         weights.row(v) /= weights.row(v).sum();
     return weights;
-}
-
-SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to)
-{
-    const double diagonal = (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
-    std::vector<double> points
-        = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), k_normal_weight * diagonal);
-    const Positions places = brought_to_stumps(to);
-    std::vector<double> queries = oriented_points(places, outward_normals(to, places), k_normal_weight * diagonal);
-    const std::size_t n = to.surface.positions.rows();
-    flann::Index<flann::L2<double>> tree(flann::Matrix<double>(points.data(), from.positions.rows(), 6),
-                                         flann::KDTreeSingleIndexParams());
-    tree.buildIndex();
-    std::vector<int> rows(n * k_neighbours);
-    std::vector<double> squared(n * k_neighbours);
-    parallel_for((n + k_block - 1) / k_block, [&](std::size_t block) {
-        const std::size_t first = block * k_block, count = std::min<std::size_t>(k_block, n - first);
-        flann::Matrix<int> found(rows.data() + first * k_neighbours, count, k_neighbours);
-        flann::Matrix<double> distances(squared.data() + first * k_neighbours, count, k_neighbours);
-        tree.knnSearch(flann::Matrix<double>(queries.data() + 6 * first, count, 6), found, distances, k_neighbours,
-                       flann::SearchParams(-1));
-    });
-
-    SkinWeights result;
-    result.bones.resize(n, 4);
-    result.weights.resize(n, 4);
-    for (std::size_t v = 0; v < n; ++v) {
-        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
-        for (int k = 0; k < k_neighbours; ++k)
-            row += weights.row(rows[v * k_neighbours + k])
-                / (squared[v * k_neighbours + k] + 1e-12 * diagonal * diagonal);
-        keep_four(row, v, result);
-    }
-    return result;
 }
 
 }  // namespace fit

@@ -17,7 +17,4 @@ using VisibleBones = std::vector<std::array<bool, bone_count>>;
 /// @param closed  a closed surface
 Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleton, const VisibleBones& visible);
 
-/// Carries weights to the body's own vertices by the nearest points that face the same way, and keeps the four largest of each row.
-SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to);
-
 }  // namespace fit

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 
-#include <Eigen/Eigenvalues>
-
+#include "bend.h"
 #include "fit/error.h"
-#include "segment.h"
+#include "limb_end.h"
 
 namespace fit {
 namespace {
@@ -35,28 +33,9 @@ constexpr double k_hip_width = 0.123;  // between the joints; flesh says little 
 constexpr double k_shoulder_up = 0.012, k_shoulder_out = 0.007;  // the outline at the armpit hangs lower than the joint
 constexpr double k_shoulder_inwards = 0.0135, k_shoulder_back = 0.03;  // of a hanging arm, and less of one held out
 
-// How far the bodies of this world stray from these shares, and cuts from straight limbs.
-constexpr double k_ratio_spread = 0.03;
-constexpr double k_straight_spread = 0.006;  // of stature
-constexpr double k_hand_spread = 0.02;  // of stature
-constexpr double k_girth_spread = 0.10;  // relative
-constexpr double k_widening = 1.15;  // of girth: wrist to palm, shin to heel
+constexpr double k_hand_spread = 0.02;  // of stature: how far people stray
 
-constexpr int k_wider_in_a_row = 3;  // a single cut may go astray
-
-// Fingers end 0.035 of stature round, toes 0.07 at most, stumps of arms 0.08, of legs 0.12 at least. What ends wide, a fist or a shoe, is
-// wider than the wrist or shin behind it, by 1.15 of girth in nearly all bodies; a stump only tapers, to 1.02 at most.
-constexpr double k_thin_hand = 0.045, k_thin_foot = 0.09, k_wider_end = 1.08;
-// A mitten may hide the wrist, but does not taper: forearms to 0.73 to 0.83 of their girth between these places.
-constexpr double k_taper_from = 0.12, k_taper_to = 0.04,
-                 k_most_tapered = 0.9;  // shares of stature, from the end; of girth
-constexpr double k_end = 0.16, k_palm = 0.1, k_instep = 0.14;  // of stature, from the end of a limb's curve
 constexpr double k_stump = 0.06, k_stump_cap = 0.02;  // of stature: where a stump's axis is read off, before its end
-
-// Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
-constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
-constexpr double k_corner_gap = 0.03, k_corner_reach = 0.06, k_outlier = 0.06;  // of stature
-constexpr int k_fewest_cuts = 6;
 
 // Limbs that come out this much shorter than usual (logarithms) start too far out, where skin, or a scan's filled holes, bridge them to
 // the trunk. How far their length is then moved to the usual one; the middle joint of a straight limb with it, of a bent one not, rad.
@@ -117,117 +96,6 @@ Vec3 farthest(const std::vector<Vec3>& points, const std::function<double(const 
                              [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); });
 }
 
-/// Row between `from` and `to` where two straight bones explain the line best, weighed against the usual ratio.
-int bend_row(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
-{
-    int best = (from + to) / 2;
-    double least = std::numeric_limits<double>::max();
-    const double outlier = std::pow(k_outlier * size, 2);  // in a deep bend some cuts go astray
-    for (int i = from + 1; i < to; ++i) {
-        double squares = 0;
-        for (int k = from; k <= to; ++k)
-            squares += std::min(outlier,
-                                k < i ? squared_distance_to_segment(line.points[k], root, line.points[i])
-                                      : squared_distance_to_segment(line.points[k], line.points[i], line.points[to]));
-        const double upper = (line.points[i] - root).norm(), lower = (line.points[to] - line.points[i]).norm();
-        const double off_line = squares / (to - from + 1) / std::pow(k_straight_spread * size, 2);
-        const double off_ratio = std::pow((upper / (upper + lower) - usual_ratio) / k_ratio_spread, 2);
-        if (off_line + off_ratio < least) {
-            least = off_line + off_ratio;
-            best = i;
-        }
-    }
-    return best;
-}
-
-struct StraightLine {
-    Vec3 middle, direction;
-};
-
-/// Through the middles of the cuts between two rows.
-StraightLine fitted(const Centreline& line, int from, int to)
-{
-    StraightLine result { Vec3::Zero(), Vec3::Zero() };
-    for (int i = from; i <= to; ++i)
-        result.middle += line.points[i] / (to - from + 1);
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (int i = from; i <= to; ++i) {
-        const Vec3 d = line.points[i] - result.middle;
-        spread += d * d.transpose();
-    }
-    result.direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-    if (result.direction.dot(line.points[to] - line.points[from]) < 0)
-        result.direction = -result.direction;
-    return result;
-}
-
-/// The joint between two bones. A line through flesh cuts the corner of a bent limb: there the bones' own axes are made to
-/// meet, read off well away from the bend.
-Vec3 bend(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
-{
-    const int row = bend_row(line, from, to, root, usual_ratio, size);
-    const int upper = row - from, lower = to - row;
-    if (upper < k_fewest_cuts || lower < k_fewest_cuts)
-        return line.points[row];
-    const StraightLine a = fitted(line, from + upper / 5, row - upper * 3 / 10),
-                       b = fitted(line, row + lower * 3 / 10, to);
-    const double cosine = a.direction.dot(b.direction), angle = std::acos(std::clamp(cosine, -1.0, 1.0));
-    const double share = std::clamp((angle - k_corner_from) / (k_corner_to - k_corner_from), 0.0, 1.0);
-    if (share == 0)
-        return line.points[row];
-    const Vec3 between = b.middle - a.middle;
-    const double sine = 1 - cosine * cosine;
-    const Vec3 on_a = a.middle + (between.dot(a.direction) - cosine * between.dot(b.direction)) / sine * a.direction;
-    const Vec3 on_b = b.middle + (cosine * between.dot(a.direction) - between.dot(b.direction)) / sine * b.direction;
-    const Vec3 corner = 0.5 * (on_a + on_b);
-    if ((on_a - on_b).norm() > k_corner_gap * size || (corner - line.points[row]).norm() > k_corner_reach * size)
-        return line.points[row];
-    return line.points[row] + share * (corner - line.points[row]);
-}
-
-struct Reach {
-    double least, usual, most, spread;  ///< m, straight to the limb's tip
-};
-
-/// Where a limb is narrowest before it widens to the hand or the heel.
-struct Narrowest {
-    int row = -1;  ///< -1: it is nowhere free
-    bool widens = false;
-};
-
-/// Median of three cuts: one may go astray.
-double girth_about(const Centreline& line, int row)
-{
-    const double before = line.girths[std::max(0, row - 1)], here = line.girths[row],
-                 after = line.girths[std::min(row + 1, int(line.girths.size()) - 1)];
-    return std::max(std::min(before, here), std::min(std::max(before, here), after));
-}
-
-/// A reach unlike the usual one counts as a larger girth.
-Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
-{
-    Narrowest best;
-    int wider_in_a_row = 0;
-    double least = std::numeric_limits<double>::max(), smallest = least;
-    for (int i = line.first_free; i < line.size() && !best.widens; ++i) {
-        const double off = (tip - line.points[i]).norm();
-        if (!line.free[i] || off > reach.most || off < reach.least)
-            continue;
-        const double girth = girth_about(line, i);
-        wider_in_a_row = girth > k_widening * smallest ? wider_in_a_row + 1 : 0;
-        best.widens = wider_in_a_row == k_wider_in_a_row;
-        if (wider_in_a_row > 0 || !line.across[i])
-            continue;
-        smallest = std::min(smallest, girth);
-        const double score = std::log(girth) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
-        if (score < least) {
-            least = score;
-            best.row = i;
-        }
-    }
-    return best;
-}
-
 void require(bool found, const char* what, const Vec3& near)
 {
     if (found)
@@ -268,35 +136,6 @@ Centreline up_to_cut(const Surface& surface, const Limb& limb, double size)
     line.arcs.push_back(line.length() + (end - line.points.back()).norm());
     line.points.push_back(end);
     return line;
-}
-
-/// How much wider a limb's last stretch is, m, than what is behind it: elbows bulge too, but further up.
-double widening(const Centreline& line, double last_stretch, double size)
-{
-    double smallest = std::numeric_limits<double>::max(), widest = 0;
-    for (int i = line.nearest_row(line.at(line.length() - k_end * size)); i + 1 < line.size(); ++i)
-        if (const double girth = girth_about(line, i); girth > 0) {
-            if (line.length() - line.arcs[i] < last_stretch)
-                widest = std::max(widest, girth / smallest);
-            smallest = std::min(smallest, girth);
-        }
-    return widest;
-}
-
-double end_girth(const Centreline& line) { return std::min(line.girths.back(), line.girths[line.size() - 2]); }
-
-/// Of girth, towards the end of an arm.
-double taper(const Centreline& line, double size)
-{
-    const auto girth
-        = [&](double share) { return girth_about(line, line.nearest_row(line.at(line.length() - share * size))); };
-    return girth(k_taper_to) / girth(k_taper_from);
-}
-
-bool has_hand(const Centreline& line, double size)
-{
-    return end_girth(line) < k_thin_hand * size || widening(line, k_palm * size, size) > k_wider_end
-        || taper(line, size) > k_most_tapered;
 }
 
 /// @param up, out  of the trunk: towards the neck, towards this arm's side
@@ -344,11 +183,6 @@ Vec3 ankle(const std::vector<Vec3>& foot, const Vec3& knee, const Vec3& narrow, 
     const double above_sole = (sole - narrow).dot(shin_axis) - k_ankle_height * size;
     return narrow
         + std::min(above_sole, k_ankle_below_shin * size) * shin_axis;  // of a pointed foot, the toes are the sole
-}
-
-bool has_foot(const Centreline& line, double size)
-{
-    return end_girth(line) < k_thin_foot * size || widening(line, k_instep * size, size) > k_wider_end;
 }
 
 /// Where the thigh comes from, read off its first hand's breadth.

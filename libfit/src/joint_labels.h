@@ -22,7 +22,7 @@ struct BodyJoints {
     std::array<LimbJoints, 2> arms, legs;
     Vec3 pelvis, lower_spine, upper_spine, neck_base, mid_neck, skull_base, crown;
     Vec3 head_off_neck = Vec3::Zero();  ///< m, from the neck's middle to the head's; 0 without a head
-    double size = 0;                ///< m, about the stature
+    double size = 0;  ///< m, about the stature
 };
 
 /// Places joints on the curves: where a limb bends, where its girth is smallest, where it leaves the trunk; and where

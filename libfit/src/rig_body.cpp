@@ -12,6 +12,7 @@
 #include "proxy_surface.h"
 #include "rig_gates.h"
 #include "side_vote.h"
+#include "skin_transfer.h"
 
 namespace fit {
 namespace {

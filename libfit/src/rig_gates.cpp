@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rig_gates.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -13,10 +14,11 @@ namespace fit {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-constexpr int k_samples = 5;             // of each bone, ends included
+constexpr int k_samples = 5;  // of each bone, ends included
 constexpr double k_inside_share = 0.85;  // of all samples: mouth, armpit and crotch come close to bones
-constexpr double k_most_compact = 0.3;   // isoperimetric quotient: 1 a ball, 0.52 a cube; humans 0.04, curled up fat ones 0.13
-constexpr double k_side_tolerance = 0.2; // between a left length and its right one; humans stay below 0.05
+constexpr double k_most_compact
+    = 0.3;  // isoperimetric quotient: 1 a ball, 0.52 a cube; humans 0.04, curled up fat ones 0.13
+constexpr double k_side_tolerance = 0.2;  // between a left length and its right one; humans stay below 0.05
 
 struct Proportion {
     const char* what;
@@ -40,8 +42,8 @@ void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
         }
     const double share = double(inside) / (bone_count * k_samples);
     if (share < k_inside_share)
-        throw InvalidInput("body: only " + text(share) + " of the skeleton found lies inside it (at least " + text(k_inside_share)
-                           + "); give a human body whose limbs are not fused together");
+        throw InvalidInput("body: only " + text(share) + " of the skeleton found lies inside it (at least "
+                           + text(k_inside_share) + "); give a human body whose limbs are not fused together");
 }
 
 void check_sides(const Skeleton& skeleton)
@@ -59,13 +61,13 @@ void check_proportions(const Skeleton& s)
 {
     const double arm = s.length(lhumerus) + s.length(lradius), leg = s.length(lfemur) + s.length(ltibia);
     const double trunk = (s.tail(thorax) - s.root).norm();
-    for (const Proportion& p : {
-             Proportion { "upper arm to forearm", s.length(lhumerus) / s.length(lradius), 0.6, 1.7 },
-             Proportion { "thigh to shin", s.length(lfemur) / s.length(ltibia), 0.6, 1.6 },
-             Proportion { "arm to leg", arm / leg, 0.4, 0.85 },
-             Proportion { "trunk to leg", trunk / leg, 0.4, 1.25 },
-             Proportion { "hip width to leg", (s.tail(lhipjoint) - s.tail(rhipjoint)).norm() / leg, 0.05, 0.5 },
-             Proportion { "shoulder width to leg", (s.tail(lclavicle) - s.tail(rclavicle)).norm() / leg, 0.15, 0.8 } })
+    for (const Proportion& p :
+         { Proportion { "upper arm to forearm", s.length(lhumerus) / s.length(lradius), 0.6, 1.7 },
+           Proportion { "thigh to shin", s.length(lfemur) / s.length(ltibia), 0.6, 1.6 },
+           Proportion { "arm to leg", arm / leg, 0.4, 0.85 }, Proportion { "trunk to leg", trunk / leg, 0.4, 1.25 },
+           Proportion { "hip width to leg", (s.tail(lhipjoint) - s.tail(rhipjoint)).norm() / leg, 0.05, 0.5 },
+           Proportion { "shoulder width to leg", (s.tail(lclavicle) - s.tail(rclavicle)).norm() / leg, 0.15, 0.8 },
+           Proportion { "collarbone to leg", std::max(s.length(lclavicle), s.length(rclavicle)) / leg, 0.1, 0.65 } })
         if (!(p.value >= p.least && p.value <= p.most))
             throw InvalidInput(std::string("body: ") + p.what + " comes out as " + text(p.value) + ", a human's is "
                                + text(p.least) + " to " + text(p.most) + "; give a human body");

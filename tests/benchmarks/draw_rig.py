@@ -81,7 +81,7 @@ def renderer_of(actors, label, view, focus=None, scale=None):
         renderer.ResetCameraClippingRange()
     else:
         renderer.ResetCamera()
-        camera.Zoom(1.12)
+        camera.SetWindowCenter(0, -0.05)  # room for the label
     renderer.AddActor(text)
     return renderer
 
