@@ -47,6 +47,21 @@ Vec3 weighted_sum(const P& x, const std::array<int, 4>& v, const std::array<doub
     return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
 }
 
+void pull(const Press& press, const Vec3& force, Positions& forces)
+{
+    for (int k = 0; k < 4; ++k)
+        if (press.vertices[k] >= 0)
+            forces.row(press.vertices[k]) += press.weights[k] * force;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> sparse(Eigen::Index rows, Eigen::Index columns,
+                                                    const std::vector<Eigen::Triplet<double>>& entries)
+{
+    Eigen::SparseMatrix<double, Eigen::RowMajor> result(rows, columns);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
 }  // namespace
 
 ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties,
@@ -76,21 +91,24 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
     add_hinges(rest, options.bend_stiffness);
 
     std::vector<Eigen::Triplet<double>> pulls;
-    Eigen::VectorXd stiffness(springs_.size() + hinges_.size());
-    int element = 0;
-    for (const Spring& s : springs_) {
-        pulls.emplace_back(s.i, element, 1.0);
-        pulls.emplace_back(s.j, element, -1.0);
-        stiffness[element++] = s.stiffness;
+    Eigen::VectorXd of_springs(springs_.size()), of_hinges(hinges_.size());
+    for (int e = 0; e < int(springs_.size()); ++e) {
+        pulls.emplace_back(springs_[e].i, e, 1.0);
+        pulls.emplace_back(springs_[e].j, e, -1.0);
+        of_springs[e] = springs_[e].stiffness;
     }
-    for (const Hinge& h : hinges_) {
+    pulled_by_springs_ = sparse(rest.positions.rows(), of_springs.size(), pulls);
+    pulls.clear();
+    for (int e = 0; e < int(hinges_.size()); ++e) {
         for (int k = 0; k < 4; ++k)
-            pulls.emplace_back(h.v[k], element, h.coefficients[k]);
-        stiffness[element++] = h.stiffness;
+            pulls.emplace_back(hinges_[e].v[k], e, hinges_[e].coefficients[k]);
+        of_hinges[e] = hinges_[e].stiffness;
     }
-    pulled_.resize(rest.positions.rows(), element);
-    pulled_.setFromTriplets(pulls.begin(), pulls.end());
-    elastic_ = pulled_ * stiffness.asDiagonal() * SparseRows(pulled_.transpose());
+    pulled_by_hinges_ = sparse(rest.positions.rows(), of_hinges.size(), pulls);
+    const auto quadratic_form = [](const SparseRows& pulled, const Eigen::VectorXd& stiffness) {
+        return SparseRows(pulled * stiffness.asDiagonal() * SparseRows(pulled.transpose()));
+    };
+    elastic_ = quadratic_form(pulled_by_springs_, of_springs) + quadratic_form(pulled_by_hinges_, of_hinges);
     SparseRows diagonal(elastic_.rows(), elastic_.cols());  // every diagonal entry exists: set_time_step() writes there
     diagonal.setIdentity();
     elastic_ += 0 * diagonal;
@@ -149,26 +167,36 @@ Positions ClothEnergy::product(const SparseRows& matrix, const Positions& x)
     return result;
 }
 
-// Where the springs and hinges, projected to their rest, pull.
-Positions ClothEnergy::projected(const Positions& x) const
+// Where the springs, projected to their rest, pull.
+Positions ClothEnergy::spring_pulls(const Positions& x) const
 {
-    Positions pulls(springs_.size() + hinges_.size(), 3);
+    Positions pulls(springs_.size(), 3);
     const auto spring = [&](Eigen::Index e) {
         const Spring& s = springs_[e];
         const Eigen::RowVector3d edge = x.row(s.i) - x.row(s.j);
         const double length = edge.norm();
         pulls.row(e) = (length > 0 ? s.stiffness * s.length / length : 0.0) * edge;
     };
-    const auto hinge = [&](Eigen::Index e) {
-        const Hinge& h = hinges_[e];
-        pulls.row(Eigen::Index(springs_.size()) + e) = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
-    };
-    parallel_for(Eigen::Index(springs_.size()), spring, k_grain);
-    parallel_for(Eigen::Index(hinges_.size()), hinge, k_grain);
-    return product(pulled_, pulls);
+    parallel_for(pulls.rows(), spring, k_grain);
+    return product(pulled_by_springs_, pulls);
 }
 
-Positions ClothEnergy::elastic_forces(const Positions& x) const { return projected(x) - product(elastic_, x); }
+// The same of the hinges.
+Positions ClothEnergy::hinge_pulls(const Positions& x) const
+{
+    Positions pulls(hinges_.size(), 3);
+    const auto hinge = [&](Eigen::Index e) {
+        const Hinge& h = hinges_[e];
+        pulls.row(e) = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
+    };
+    parallel_for(pulls.rows(), hinge, k_grain);
+    return product(pulled_by_hinges_, pulls);
+}
+
+Positions ClothEnergy::elastic_forces(const Positions& x) const
+{
+    return spring_pulls(x) + hinge_pulls(x) - product(elastic_, x);
+}
 
 double ClothEnergy::elastic_energy(const Positions& x) const
 {
@@ -183,38 +211,40 @@ double ClothEnergy::elastic_energy(const Positions& x) const
     return sum;
 }
 
-// Right side of the global system: where inertia, the projected springs and hinges, and contact pull.
-Positions ClothEnergy::loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const
-{
-    Positions right = projected(x);
-    for (Eigen::Index v = 0; v < x.rows(); ++v)
-        right.row(v) += masses_[v] * inertia_ * inertial.row(v);
-    for (const Press& press : presses) {
-        const Vec3 pull = press.stiffness_times(press.target);
-        for (int k = 0; k < 4; ++k)
-            if (press.vertices[k] >= 0)
-                right.row(press.vertices[k]) += press.weights[k] * pull;
-    }
-    return right;
-}
-
-// Left side of the global system, n x 3.
-Positions ClothEnergy::applied(const Positions& x, const std::vector<Press>& presses) const
+// The constant quadratic form, n x 3.
+Positions ClothEnergy::applied(const Positions& x) const
 {
     Positions result = product(elastic_, x);
     for (Eigen::Index v = 0; v < x.rows(); ++v)
         result.row(v) += masses_[v] * inertia_ * x.row(v);
-    for (const Press& press : presses) {
-        Vec3 sum = Vec3::Zero();
-        for (int k = 0; k < 4; ++k)
-            if (press.vertices[k] >= 0)
-                sum += press.weights[k] * x.row(press.vertices[k]).transpose();
-        const Vec3 pull = press.stiffness_times(sum);
-        for (int k = 0; k < 4; ++k)
-            if (press.vertices[k] >= 0)
-                result.row(press.vertices[k]) += press.weights[k] * pull;
-    }
     return result;
+}
+
+Descent::Descent(const ClothEnergy& energy, const Positions& start, const Positions& inertial) :
+    energy_(energy), inertial_(inertial), x_(start), applied_(energy.applied(start))
+{
+}
+
+void Descent::press(const std::vector<Press>& presses)
+{
+    presses_ = presses;
+    constant_ = energy_.hinge_pulls(x_);
+    for (Eigen::Index v = 0; v < x_.rows(); ++v)
+        constant_.row(v) += energy_.masses_[v] * energy_.inertia_ * inertial_.row(v);
+    for (const Press& press : presses_)
+        pull(press, press.stiffness_times(press.target), constant_);
+}
+
+// What the presses pull with when the cloth is there, without their targets.
+void Descent::add_pressed(const Positions& x, Positions& sum) const
+{
+    for (const Press& press : presses_) {
+        Vec3 at = Vec3::Zero();
+        for (int k = 0; k < 4; ++k)
+            if (press.vertices[k] >= 0)
+                at += press.weights[k] * x.row(press.vertices[k]).transpose();
+        pull(press, press.stiffness_times(at), sum);
+    }
 }
 
 // Away from what the last step has seen to: conjugate to its direction, as far as the residual turns smoothly.
@@ -229,13 +259,22 @@ void Descent::turn_direction(const Positions& residual)
     square_ = square;
 }
 
-void Descent::step(const std::vector<Press>& presses)
+void Descent::step()
 {
-    const Positions residual = energy_.loads(x_, inertial_, presses) - energy_.applied(x_, presses);
+    if (constant_.rows() == 0)
+        press({});
+    Positions pressed = Positions::Zero(x_.rows(), 3);
+    add_pressed(x_, pressed);
+    const Positions residual = constant_ + energy_.spring_pulls(x_) - applied_ - pressed;
     turn_direction(residual);
-    const double curvature = direction_.cwiseProduct(energy_.applied(direction_, presses)).sum();
-    if (curvature > 0)
-        x_ += residual.cwiseProduct(direction_).sum() / curvature * direction_;
+    const Positions along = energy_.applied(direction_);
+    pressed = along;
+    add_pressed(direction_, pressed);
+    if (const double curvature = direction_.cwiseProduct(pressed).sum(); curvature > 0) {
+        const double length = residual.cwiseProduct(direction_).sum() / curvature;
+        x_ += length * direction_;
+        applied_ += length * along;
+    }
     residual_ = residual;
 }
 

@@ -62,15 +62,15 @@ private:
         double stiffness;
     };
     static Positions product(const SparseRows& matrix, const Positions& x);
-    Positions projected(const Positions& x) const;
-    Positions loads(const Positions& x, const Positions& inertial, const std::vector<Press>& presses) const;
-    Positions applied(const Positions& x, const std::vector<Press>& presses) const;
+    Positions spring_pulls(const Positions& x) const;
+    Positions hinge_pulls(const Positions& x) const;
+    Positions applied(const Positions& x) const;
     void add_hinges(const GarmentMesh& rest, double bend_stiffness);
 
     std::vector<double> masses_;
     std::vector<Spring> springs_;
     std::vector<Hinge> hinges_;
-    SparseRows pulled_;  // n x elements: how springs, then hinges, pull at the vertices
+    SparseRows pulled_by_springs_, pulled_by_hinges_;  // n x elements: how they pull at the vertices
     SparseRows elastic_;  // constant part of the system, n x n, both triangles
     SinglePrecisionFactor factor_;
     double inertia_ = 0;  // 1 / h^2
@@ -79,22 +79,25 @@ private:
 /// A walk from positions (n x 3) down to the minimum of inertia (about `inertial`, n x 3), stretch, bend and presses.
 class Descent {
 public:
-    Descent(const ClothEnergy& energy, const Positions& start, const Positions& inertial) :
-        energy_(energy), inertial_(inertial), x_(start)
-    {
-    }
+    Descent(const ClothEnergy& energy, const Positions& start, const Positions& inertial);
 
-    /// One step; presses may be others each time. Never up, while they stay.
-    void step(const std::vector<Press>& presses);
+    /// What presses from now on, and how the hinges lie; both hold still until the next call. Without a call, nothing presses.
+    void press(const std::vector<Press>& presses);
+    /// One step. Never up, but for what hinges turn.
+    void step();
 
     const Positions& positions() const { return x_; }
 
 private:
     void turn_direction(const Positions& residual);
+    void add_pressed(const Positions& x, Positions& sum) const;
 
     const ClothEnergy& energy_;
     const Positions& inertial_;
+    std::vector<Press> presses_;
     Positions x_;
+    Positions constant_;  // loads that stay until the next press(): of inertia, hinges and presses
+    Positions applied_;  // the constant quadratic form applied to x_, without presses
     Positions residual_, direction_;  // of the last step
     double square_ = 0;  // of that residual, in the preconditioner's measure
 };

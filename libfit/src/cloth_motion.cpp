@@ -211,13 +211,14 @@ double ClothMotion::advance(const MotionStep& step)
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
     Descent descent(*energy_, x_.topRows(cloth_vertices_), inertial);
-    std::vector<Press> pressing;
     for (int i = 0; i < step.iterations; ++i) {
-        if (i % k_presses_stay == 0)
-            pressing = presses(near, wished, step);
-        descent.step(pressing);
-        wished.topRows(cloth_vertices_) = descent.positions();
+        if (i % k_presses_stay == 0) {
+            wished.topRows(cloth_vertices_) = descent.positions();
+            descent.press(presses(near, wished, step));
+        }
+        descent.step();
     }
+    wished.topRows(cloth_vertices_) = descent.positions();
     displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
     shorten(displacements, step.largest_move);
     const Positions before = x_.topRows(cloth_vertices_);

@@ -16,7 +16,7 @@ namespace fit {
 struct RecoverOptions {
     ClothOptions cloth;
     int largest_steps = 200;  ///< give up after this many
-    double step_length = 0.01;  ///< m; nothing under cloth moves further in a step, as far as largest_steps permits
+    double step_length = 0.015;  ///< m; nothing under cloth moves further in a step, as far as largest_steps permits
     int settling_steps = 60;  ///< time steps under gravity, at the end
     int frames = 0;  ///< states on the way to hand out, evenly spread, both ends included; 0: none
 };
