@@ -10,6 +10,8 @@
 namespace fit {
 namespace {
 
+constexpr double k_rounding = 1e-6;  // of the body's diagonal
+
 Positions skinned(const Scene& scene, const Pose& pose)
 {
     return skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, pose));
@@ -50,11 +52,21 @@ Moment moment_of(const Scene& scene, const Dressing& dressing, const RecoverFram
     return moment;
 }
 
-void require_same_count(const GarmentMesh& rest, const Positions& worn, const std::string& name)
+void require_same_count(const Positions& given, const Positions& left, const std::string& name)
 {
-    if (worn.rows() != rest.positions.rows())
-        throw InvalidInput(name + " is worn with " + std::to_string(worn.rows()) + " vertices, as given it has "
-                           + std::to_string(rest.positions.rows()) + "; give what draping made");
+    if (left.rows() != given.rows())
+        throw InvalidInput(name + " was left with " + std::to_string(left.rows()) + " vertices, as given it has "
+                           + std::to_string(given.rows()) + "; give what draping made");
+}
+
+/// The posed body, but for the vertices that were left elsewhere: files round.
+Positions as_left(Positions posed, const Positions& left)
+{
+    const double rounding = k_rounding * (posed.colwise().maxCoeff() - posed.colwise().minCoeff()).norm();
+    for (Eigen::Index v = 0; v < posed.rows(); ++v)
+        if ((left.row(v) - posed.row(v)).norm() > rounding)
+            posed.row(v) = left.row(v);
+    return posed;
 }
 
 }  // namespace
@@ -69,21 +81,19 @@ Moment moment_of(const Scene& scene, double share, const ClothOptions& cloth)
     return moment_of(scene, *end, nearest_frame(end->frames, share), cloth);
 }
 
-Dressing dressing_from(const Scene& scene, const Pose& pose, const std::vector<Positions>& worn,
+Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& left, const std::vector<Positions>& worn,
                        const std::vector<std::string>& names)
 {
+    require_same_count(scene.body->surface.positions, left, "the body");
     Dressing dressing;
     dressing.pose = pose;
-    dressing.body = skinned(scene, pose);
-    const TriangleMesh body { dressing.body, scene.body->surface.triangles };
-    std::vector<TriangleMesh> under;
+    dressing.body = as_left(skinned(scene, pose), left);
     for (std::size_t i = 0; i < worn.size(); ++i) {
         const GarmentMesh& rest = scene.garments[i].mesh;
-        require_same_count(rest, worn[i], names[i]);
-        dressing.garments.push_back({ rest, worn[i], certify(body, rest, worn[i], under) });
-        under.push_back({ worn[i], rest.triangles });
+        require_same_count(rest.positions, worn[i], names[i]);
+        dressing.garments.push_back({ rest, worn[i], {} });
     }
-    dressing.certified = all_clean(dressing.garments);
+    dressing.certified = certify_all(dressing.garments, { dressing.body, scene.body->surface.triangles });
     return dressing;
 }
 

@@ -22,9 +22,10 @@ struct Moment {
 Moment moment_of(const Scene& scene, double share, const ClothOptions& cloth);
 
 /// The scene's garments as they are worn in a pose of its rig, certified anew, to go on from.
+/// @param left   the body's vertices as they were left, metres: cloth may hold some of them back from the pose
 /// @param worn   positions of each garment, metres
-/// @throws InvalidInput naming the garment whose number of vertices is another than that of the garment as given.
-Dressing dressing_from(const Scene& scene, const Pose& pose, const std::vector<Positions>& worn,
+/// @throws InvalidInput naming what has another number of vertices than as given.
+Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& left, const std::vector<Positions>& worn,
                        const std::vector<std::string>& names);
 
 }  // namespace fit

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <utility>
 
-#include "fit/certificate.h"
 #include "fit/units.h"
 
 namespace fit {
@@ -112,15 +111,9 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
 
 void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vector<Positions>& kept)
 {
-    const TriangleMesh skin { dressing.body, body };
-    std::vector<TriangleMesh> under;
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i) {
-        WornGarment& garment = dressing.garments[i];
-        garment.positions = kept[i];
-        garment.certificate = certify(skin, garment.rest, garment.positions, under);
-        under.push_back({ garment.positions, garment.rest.triangles });
-    }
-    dressing.certified = dressing.certified && all_clean(dressing.garments);
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        dressing.garments[i].positions = kept[i];
+    dressing.certified = certify_all(dressing.garments, { dressing.body, body }) && dressing.certified;
 }
 
 std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, const std::vector<std::string>& names)

@@ -26,7 +26,7 @@ struct Moments : testing::Test {
     void recover_in_two_frames()
     {
         scene.fits.push_back({});
-        scene.draped = dressing_from(scene, {}, { worn() }, { "sheet" });
+        scene.draped = dressing_from(scene, {}, scene.body->surface.positions, { worn() }, { "sheet" });
         scene.recovered = scene.draped;
         scene.recovered->maps.resize(1);
         const Positions& body = scene.body->surface.positions;
@@ -63,9 +63,22 @@ TEST_F(Moments, OfAFittedBodyShowTheFitsPose)
 
 TEST_F(Moments, GoOnFromGarmentsAsTheyAreWornIfTheyAreTheSame)
 {
-    const Dressing dressing = dressing_from(scene, {}, { worn() }, { "sheet" });
+    const Positions& own = scene.body->surface.positions;
+    const Dressing dressing = dressing_from(scene, {}, own, { worn() }, { "sheet" });
     EXPECT_TRUE(dressing.certified);
-    expect_invalid([&] { dressing_from(scene, {}, { worn().topRows(3) }, { "sheet" }); }, "sheet");
+    EXPECT_EQ(dressing.body, own);
+    expect_invalid([&] { dressing_from(scene, {}, own, { worn().topRows(3) }, { "sheet" }); }, "sheet");
+    expect_invalid([&] { dressing_from(scene, {}, own.topRows(3), { worn() }, { "sheet" }); }, "the body");
+}
+
+TEST_F(Moments, GoOnFromABodyThatClothHeldBack)
+{
+    const Positions& own = scene.body->surface.positions;
+    Positions left = own.cast<float>().cast<double>();  // as a file keeps it
+    left.row(1) += Eigen::RowVector3d(0, -0.005, 0);
+    const Dressing dressing = dressing_from(scene, {}, left, { worn() }, { "sheet" });
+    EXPECT_EQ(dressing.body.row(1), left.row(1));
+    EXPECT_EQ(dressing.body.row(0), own.row(0));
 }
 
 }  // namespace

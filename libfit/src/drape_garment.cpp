@@ -141,6 +141,18 @@ double inflate(ClothMotion& motion, const Inflatable& inside, Grading& grading, 
 
 }  // namespace
 
+bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
+{
+    bool clean = true;
+    std::vector<TriangleMesh> under;
+    for (WornGarment& garment : garments) {
+        garment.certificate = certify(body, garment.rest, garment.positions, under);
+        clean &= garment.certificate.clean();
+        under.push_back({ garment.positions, garment.rest.triangles });
+    }
+    return clean;
+}
+
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                           const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn)
 {

@@ -32,18 +32,6 @@ void put_positions(std::vector<WornGarment>& garments, const Positions& position
     }
 }
 
-bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
-{
-    bool clean = true;
-    std::vector<TriangleMesh> under;
-    for (WornGarment& garment : garments) {
-        garment.certificate = certify(body, garment.rest, garment.positions, under);
-        clean &= garment.certificate.clean();
-        under.push_back({ garment.positions, garment.rest.triangles });
-    }
-    return clean;
-}
-
 SkinWeights weights_of_nearest(const Positions& points, const Positions& body, const SkinWeights& weights)
 {
     SkinWeights result;

@@ -18,9 +18,6 @@ void append(SkinWeights& weights, const SkinWeights& more);
 /// Puts the rows of `positions`, garment after garment, back into the garments.
 void put_positions(std::vector<WornGarment>& garments, const Positions& positions);
 
-/// Judges all garments, each against the body and those under it. True when all are clean.
-bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
-
 /// The skin weights of the nearest body vertex for each point (n x 3, same pose as the body). O((n + m) log m).
 SkinWeights weights_of_nearest(const Positions& points, const Positions& body, const SkinWeights& weights);
 

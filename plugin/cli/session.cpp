@@ -194,7 +194,9 @@ void read_draped(Session& session, const fs::path& folder)
     std::vector<Positions> worn;
     for (const GarmentFile& garment : session.garments)
         worn.push_back(session.body.frame.frame.to_metres(MeshFile::read(folder / garment.name()).positions()));
-    session.scene.draped = dressing_from(session.scene, session.scene.fits.back().pose, worn, session.garment_names());
+    const Positions left = session.body.frame.frame.to_metres(MeshFile::read(folder / "body.ply").positions());
+    session.scene.draped
+        = dressing_from(session.scene, session.scene.fits.back().pose, left, worn, session.garment_names());
 }
 
 }  // namespace fit::cli

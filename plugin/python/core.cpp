@@ -108,7 +108,7 @@ void bind_scene(nb::module_& m)
         .def("copy", [](const PythonScene& s) { return PythonScene(s); })
         .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "type"_a, "unit"_a, "up"_a, "name"_a,
              "find"_a = nb::none())
-        .def("set_worn", &set_worn, "find"_a, "garments"_a)
+        .def("set_worn", &set_worn, "find"_a, "body"_a, "garments"_a)
         .def("run", &run, "filter"_a, "parameters"_a, "progress"_a.none())
         .def(
             "moment", [](const PythonScene& s, double share) { return PythonMoment(s, share); }, "share"_a = 1.0,

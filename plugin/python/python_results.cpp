@@ -134,6 +134,7 @@ nb::dict verdict_of(const PythonScene& s)
     const Dressing& end = s.dressing();
     nb::dict made;
     made["certified"] = end.certified;
+    made["put_on"] = all_put_on(s.scene);
     made["too_small"] = !end.certified && outcome_of(end) == Outcome::too_small;
     made["size_reached"] = end.size_reached;
     made["pose_reached"] = end.pose_reached;

@@ -134,12 +134,13 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
     scene.names.push_back(name);
 }
 
-void set_worn(PythonScene& s, const nb::object& find, const std::vector<NumbersIn>& garments)
+void set_worn(PythonScene& s, const nb::object& find, const NumbersIn& body, const std::vector<NumbersIn>& garments)
 {
     std::vector<Positions> worn;
     for (const NumbersIn& garment : garments)
         worn.push_back(s.body_frame.to_metres(positions_from(garment)));
-    s.scene.draped = dressing_from(s.scene, dressed_pose_from(find_with(find)), worn, s.names);
+    const Positions left = s.body_frame.to_metres(positions_from(body));
+    s.scene.draped = dressing_from(s.scene, dressed_pose_from(find_with(find)), left, worn, s.names);
 }
 
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress)

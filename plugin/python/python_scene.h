@@ -40,8 +40,9 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
 /// With the array GarmentFrame where a filter has seen the garment. @throws InvalidInput.
 void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
                  const std::string& unit, const std::string& up, const std::string& name, const nb::object& find);
-/// The garments as they are worn in the body's DressedPose, in its units. @throws InvalidInput.
-void set_worn(PythonScene& scene, const nb::object& find, const std::vector<NumbersIn>& garments);
+/// Body and garments as they were left in the body's DressedPose, in its units. @throws InvalidInput.
+void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
+              const std::vector<NumbersIn>& garments);
 
 /// Runs a filter of the table on a copy. Python may run meanwhile; it is asked at each report whether to go on.
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress);

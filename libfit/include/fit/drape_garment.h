@@ -52,6 +52,9 @@ struct WornGarment {
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
 };
 
+/// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n). @return whether all are clean
+FIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
+
 struct DrapeResult {
     std::vector<WornGarment> garments;  ///< from the inside out; the last one is new
     Positions body;  ///< the user's vertices in the fitted pose, at the size reached

@@ -328,7 +328,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
             before, part = scene, i / len(self.STEPS)
             scene = self._kept(step, source, lambda: before.run(
                 step, values, lambda done, stage: self._goes_on(part + done / len(self.STEPS), stage)))
-            if step == "drape" and not scene.verdict()["certified"]:
+            if step == "drape" and not scene.verdict()["put_on"]:
                 break
         return scene
 
@@ -357,7 +357,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
             scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up, name,
                               _find_in(garment) if given else None)
         if "worn" in self.TAKES:
-            scene.set_worn(_find_in(body), [_mesh(garment, name)[0] for name, garment in layers])
+            scene.set_worn(_find_in(body), _mesh(body, "the body")[0],
+                           [_mesh(garment, name)[0] for name, garment in layers])
         return scene
 
     # writing

@@ -136,7 +136,8 @@ void FilterState::read_worn(vtkPolyData& body, vtkDataObject& garments)
     std::vector<Positions> worn;
     for (vtkPolyData* garment : garments_in(garments))
         worn.push_back(body_frame_.to_metres(mesh_of(*garment, called(garment_names_, worn.size())).positions));
-    scene_.draped = dressing_from(scene_, dressed_pose_from(find_in(body)), worn, garment_names_);
+    const Positions left = body_frame_.to_metres(mesh_of(body, "the body").positions);
+    scene_.draped = dressing_from(scene_, dressed_pose_from(find_in(body)), left, worn, garment_names_);
 }
 
 // ---- computing -------------------------------------------------------------------------------------------------------
