@@ -2,11 +2,11 @@
 #include "filters/filters.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <string>
 
 #include "filters/outcome.h"
+#include "fit/stopwatch.h"
 
 namespace fit {
 namespace {
@@ -59,6 +59,7 @@ Dressing dressing_of(const DrapeResult& result, const Pose& pose)
     dressing.too_tight = result.too_tight;
     dressing.held_back = result.held_back;
     dressing.speed = result.speed;
+    dressing.seconds = result.seconds;
     dressing.certified = result.certified;
     return dressing;
 }
@@ -74,6 +75,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.pose_reached = result.pose_reached;
     next.held_back = result.held_back;
     next.speed = result.speed;
+    next.seconds += result.seconds;
     next.frames = result.frames;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
@@ -123,7 +125,9 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
             break;
         const DrapeResult result = drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
                                                  slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments);
+        const ClothSeconds before = dressing.seconds;
         dressing = dressing_of(result, pose);
+        dressing.seconds += before;
         if (!dressing.certified)
             break;
     }
@@ -244,7 +248,6 @@ bool Filter::has(Stage stage) const { return std::find(stages.begin(), stages.en
 
 void Filter::run(Scene& scene, const Parameters& parameters, const Progress& progress) const
 {
-    using Clock = std::chrono::steady_clock;
     require_inputs(*this, scene);
     describe(*this, parameters, CheckRanges());
     const Parameters p = with_one_cloth(*this, parameters);
@@ -253,13 +256,12 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
     for (const Stage stage : stages)
         total += row(stage).share;
     for (const Stage stage : stages) {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
         const double next = done + row(stage).share / total;
         const Progress slice = progress.part(done, next, row(stage).progress_name);
         slice.at(0);
         row(stage).run(scene, p, slice);
         slice.at(1);
-        scene.seconds[static_cast<int>(stage)] += std::chrono::duration<double>(Clock::now() - start).count();
         done = next;
         if (ends_here(scene, stage))
             break;

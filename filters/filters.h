@@ -44,6 +44,7 @@ struct Dressing {
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end
+    ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
     std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
     std::vector<FitMap> maps;  ///< of each garment

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/stopwatch.h"
 #include "untangle.h"
 
 namespace fit {
@@ -108,6 +109,7 @@ Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth
 // wants about the same way: the rest of the way it goes as one, as the rigid impact zones of Provot 1997 do.
 void ClothMotion::move(const Positions& displacements)
 {
+    const Stopwatch watch(seconds_.detection);
     const auto go = [&](const Positions& way) {
         contact_.detect(x_, way, { options_.smallest_gap, options_.smallest_gap });
         const std::vector<double> shares = contact_.free_shares(x_, way, options_.smallest_gap);
@@ -197,14 +199,10 @@ double ClothMotion::carry_obstacle(const Positions& target)
     return lag;
 }
 
-double ClothMotion::advance(const MotionStep& step)
+// Where the cloth wishes to be, n x 3, while the obstacle makes these moves (of all vertices).
+Positions ClothMotion::relaxed(const MotionStep& step, const Positions& displacements)
 {
-    const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
-    Positions displacements = Positions::Zero(x_.rows(), 3);
-    displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
-    shorten(displacements, step.largest_obstacle_move);
-    contact_.detect(x_, displacements, touching());
-
+    const Stopwatch watch(seconds_.solver);
     Positions wished = x_ + displacements;
     const std::vector<Touch> near = touches(wished);
     energy_->set_time_step(step.time_step);
@@ -218,8 +216,20 @@ double ClothMotion::advance(const MotionStep& step)
         }
         descent.step();
     }
-    wished.topRows(cloth_vertices_) = descent.positions();
-    displacements.topRows(cloth_vertices_) = (wished - x_).topRows(cloth_vertices_);
+    return descent.positions();
+}
+
+double ClothMotion::advance(const MotionStep& step)
+{
+    const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
+    Positions displacements = Positions::Zero(x_.rows(), 3);
+    displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
+    shorten(displacements, step.largest_obstacle_move);
+    {
+        const Stopwatch watch(seconds_.detection);
+        contact_.detect(x_, displacements, touching());
+    }
+    displacements.topRows(cloth_vertices_) = relaxed(step, displacements) - x_.topRows(cloth_vertices_);
     shorten(displacements, step.largest_move);
     const Positions before = x_.topRows(cloth_vertices_);
     move(displacements);

@@ -54,6 +54,7 @@ public:
 
     Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
+    const ClothSeconds& seconds() const { return seconds_; }
     double speed() const;  ///< m/s, of the fastest vertex of the cloth
     int vertices() const { return weld_.given(); }  ///< of the garment
 
@@ -62,6 +63,7 @@ private:
     void move(const Positions& displacements);
     Margins touching() const;
     double settle_obstacle(const Positions& target);
+    Positions relaxed(const MotionStep& step, const Positions& displacements);
     std::vector<Touch> touches(const Positions& wished) const;
     std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished,
                                const MotionStep& step) const;
@@ -76,6 +78,7 @@ private:
     std::vector<std::pair<int, int>> ties_;  // across what crosses at the start
     std::optional<ClothEnergy> energy_;  // made when the ties are known
     Positions velocity_;  // of the cloth, m/s
+    ClothSeconds seconds_;
 };
 
 /// Repeats a step until the whole obstacle is at its target, for as long as is worth waiting: before the bridges over creases are

@@ -174,6 +174,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     else
         result.speed = settle(motion, inside.full.positions, options.settling_steps, progress.part(0.7, 1)).speed;
 
+    result.seconds = motion.seconds();
     const Positions reached = motion.obstacle();
     result.body = reached.topRows(body_vertices);
     result.garments = worn;

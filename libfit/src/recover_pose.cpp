@@ -208,6 +208,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     result.too_tight
         = too_tight(result.garments, result.body, rig.weights, posed(rig.skeleton, to), options.cloth.largest_stretch);
     result.speed = speed;
+    result.seconds = motion.seconds();
     result.pose_reached = arrived ? 1 : std::min(reached, 1 - 1e-3);
     result.certified
         = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived && result.too_tight.empty();

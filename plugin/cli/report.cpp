@@ -180,6 +180,7 @@ Json json_of(const Call& call, const Session& session)
         json["pose_reached"] = end->pose_reached;
         json["settled"] = end->speed < k_at_rest;
         json["speed"] = end->speed;
+        json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         if (!end->certified)
             json["note"] = explain(*end, session.garment_names());

@@ -2,13 +2,13 @@
 #include "session.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "filters/moment.h"
 #include "filters/rig_file.h"
 #include "fit/error.h"
 #include "fit/reconstruct.h"
 #include "fit/skinned_gltf.h"
+#include "fit/stopwatch.h"
 
 namespace fit::cli {
 namespace {
@@ -16,19 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double k_same_place = 1e-3;  // of the diagonal: floats of a body in millimetres are far better
-
-class Stopwatch {
-public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds) { }
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    using Clock = std::chrono::steady_clock;
-    double& seconds_;
-    Clock::time_point start_ = Clock::now();
-};
 
 // ---- reading ---------------------------------------------------------------------------------------------------
 

@@ -63,6 +63,7 @@ struct DrapeResult {
     std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
+    ClothSeconds seconds;
 };
 
 /// @param pose    takes the body from its own pose into the garment (from fit_skeleton)

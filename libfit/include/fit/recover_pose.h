@@ -37,6 +37,7 @@ struct RecoverResult {
     double pose_reached = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
+    ClothSeconds seconds;
 };
 
 /// @param from, to  poses of the rig; Pose() is the body's own
