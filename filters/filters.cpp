@@ -246,6 +246,10 @@ const Filter& filter_of(std::string_view name)
 
 bool Filter::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
+bool Filter::reads(Data data) const { return std::find(inputs.begin(), inputs.end(), data) != inputs.end(); }
+
+bool Filter::makes(Data data) const { return std::find(outputs.begin(), outputs.end(), data) != outputs.end(); }
+
 void Filter::run(Scene& scene, const Parameters& parameters, const Progress& progress) const
 {
     require_inputs(*this, scene);

@@ -75,6 +75,8 @@ struct Filter {
     std::vector<Stage> stages;  ///< run one after another
 
     bool has(Stage stage) const;
+    bool reads(Data data) const;
+    bool makes(Data data) const;
 
     /// Checks inputs and ranges, then fills the outputs of each stage. Draping is the last one when not all
     /// could be put on.

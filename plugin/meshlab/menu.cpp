@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "menu.h"
 
-#include <algorithm>
-
 namespace fit::meshlab {
 namespace {
 
@@ -68,10 +66,7 @@ std::vector<MenuEntry> make_menu()
 
 }  // namespace
 
-bool MenuEntry::reads(Data data) const
-{
-    return filter && std::find(filter->inputs.begin(), filter->inputs.end(), data) != filter->inputs.end();
-}
+bool MenuEntry::reads(Data data) const { return filter && filter->reads(data); }
 
 bool MenuEntry::begins_with_body() const { return filter && filter->has(Stage::rig); }
 

@@ -45,8 +45,6 @@ std::string label_of(const std::string& name)
     return made;
 }
 
-bool has(const std::vector<Data>& list, Data data) { return std::find(list.begin(), list.end(), data) != list.end(); }
-
 /// One property for each parameter.
 class PrintProperty {
 public:
@@ -149,7 +147,7 @@ void print_filter(std::ostream& out, const Filter& filter)
 {
     const std::string name = in_camel_case(filter.label.substr(0, filter.label.find(' ')))
         + std::string(filter.label.substr(filter.label.find(' ') + 1));
-    const bool dresses = has(filter.inputs, Data::garments);
+    const bool dresses = filter.reads(Data::garments);
     out << "    <SourceProxy name=\"" << name << "\" class=\"vtk" << name << "\" label=\"" << filter.label << "\">\n"
         << "      <Documentation short_help=\"" << escaped(filter.help) << "\" long_help=\"" << escaped(filter.help)
         << "\">" << escaped(filter.help) << ".</Documentation>\n";
@@ -159,7 +157,7 @@ void print_filter(std::ostream& out, const Filter& filter)
     const Parameters defaults;
     describe(filter, defaults, PrintProperty(out));
     print_choices(out, filter);
-    if (has(filter.outputs, Data::recovered))
+    if (filter.makes(Data::recovered))
         out << "      <DoubleVectorProperty name=\"TimestepValues\" repeatable=\"1\" information_only=\"1\">\n"
                "        <TimeStepsInformationHelper/>\n      </DoubleVectorProperty>\n";
     print_outputs(out, dresses);

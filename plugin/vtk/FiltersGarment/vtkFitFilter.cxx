@@ -3,6 +3,8 @@
 
 #include "filter_state.h"
 #include "fit/error.h"
+#include "named_parameters.h"
+#include "scene_output.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -20,40 +22,7 @@
 
 namespace {
 
-using fit::About;
 using fit::Data;
-
-// ---- visitors of the schema ------------------------------------------------------------------------------------------
-
-/// Calls `use(value, about)` for the one parameter of that name; false where there is none.
-template <class Parameters, class Use>
-bool with_parameter(const fit::Filter& filter, Parameters& parameters, const char* name, const Use& use)
-{
-    bool found = false;
-    fit::describe(filter, parameters, [&](auto& value, const About& about) {
-        if (name && about.name == name) {
-            use(value, about);
-            found = true;
-        }
-    });
-    return found;
-}
-
-template <class Value>
-double smallest(const About& about)
-{
-    return std::is_enum_v<Value> || std::is_same_v<Value, bool> ? 0 : about.min;
-}
-
-template <class Value>
-double largest(const About& about)
-{
-    if constexpr (std::is_enum_v<Value>)
-        return double(about.choices->size()) - 1;
-    return std::is_same_v<Value, bool> ? 1 : about.max;
-}
-
-// ---- the inputs' likeness --------------------------------------------------------------------------------------------
 
 /// A copy of a composite's structure with shallow copies of its leaves, which are returned in order.
 std::vector<vtkPolyData*> copy_leaves(vtkDataObject& from, vtkDataObject& to)
@@ -88,7 +57,7 @@ double time_asked(vtkInformation* request, vtkInformationVector* outputs)
 
 vtkFitFilter::vtkFitFilter(const char* name) : State(std::make_unique<fit::FilterState>(fit::filter_of(name)))
 {
-    const bool dresses = this->State->takes(Data::garments);
+    const bool dresses = this->State->filter.reads(Data::garments);
     this->SetNumberOfInputPorts(dresses ? 2 : 1);
     this->SetNumberOfOutputPorts(dresses ? 3 : 2);
 }
@@ -99,54 +68,28 @@ vtkFitFilter::~vtkFitFilter() = default;
 
 void vtkFitFilter::SetNumber(const char* name, double number)
 {
-    with_parameter(this->State->filter, this->State->parameters, name, [&](auto& value, const About& about) {
-        using Value = std::decay_t<decltype(value)>;
-        const double clamped = std::min(std::max(number, smallest<Value>(about)), largest<Value>(about));
-        if (static_cast<Value>(clamped) == value)
-            return;
-        value = static_cast<Value>(clamped);
+    if (fit::set_number(this->State->filter, this->State->parameters, name, number))
         this->Modified();
-    });
 }
 
 double vtkFitFilter::GetNumber(const char* name)
 {
-    double number = 0;
-    with_parameter(this->State->filter, this->State->parameters, name,
-                   [&](auto& value, const About&) { number = static_cast<double>(value); });
-    return number;
+    return fit::number_of(this->State->filter, this->State->parameters, name);
 }
 
-double vtkFitFilter::GetSmallest(const char* name)
-{
-    double number = 0;
-    with_parameter(this->State->filter, this->State->parameters, name,
-                   [&](auto& value, const About& about) { number = smallest<std::decay_t<decltype(value)>>(about); });
-    return number;
-}
+double vtkFitFilter::GetSmallest(const char* name) { return fit::range_of_number(this->State->filter, name).first; }
 
-double vtkFitFilter::GetLargest(const char* name)
-{
-    double number = 0;
-    with_parameter(this->State->filter, this->State->parameters, name,
-                   [&](auto& value, const About& about) { number = largest<std::decay_t<decltype(value)>>(about); });
-    return number;
-}
+double vtkFitFilter::GetLargest(const char* name) { return fit::range_of_number(this->State->filter, name).second; }
 
 void vtkFitFilter::SetParameter(const char* name, const char* text)
 {
+    if (!fit::has_parameter(this->State->filter, name)) {
+        vtkErrorMacro("no parameter is called \"" << (name ? name : "") << "\"; GetParameterName lists them");
+        return;
+    }
     try {
-        const bool found
-            = with_parameter(this->State->filter, this->State->parameters, name, [&](auto& value, const About& about) {
-                  auto changed = value;
-                  fit::SetByName { about.name, text ? text : "" }(changed, about);
-                  if (changed == value)
-                      return;
-                  value = changed;
-                  this->Modified();
-              });
-        if (!found)
-            vtkErrorMacro("no parameter is called \"" << (name ? name : "") << "\"; GetParameterName lists them");
+        if (fit::set_text(this->State->filter, this->State->parameters, name, text))
+            this->Modified();
     } catch (const fit::InvalidInput& error) {
         vtkErrorMacro(<< error.what());
     }
@@ -154,43 +97,24 @@ void vtkFitFilter::SetParameter(const char* name, const char* text)
 
 std::string vtkFitFilter::GetParameter(const char* name)
 {
-    std::string text;
-    with_parameter(this->State->filter, this->State->parameters, name,
-                   [&](auto& value, const About& about) { text = fit::text_of(value, about); });
-    return text;
+    return fit::text_of(this->State->filter, this->State->parameters, name);
 }
 
-int vtkFitFilter::GetNumberOfParameters()
-{
-    int count = 0;
-    fit::describe(this->State->filter, this->State->parameters, [&](const auto&, const About&) { ++count; });
-    return count;
-}
+int vtkFitFilter::GetNumberOfParameters() { return static_cast<int>(fit::parameter_names(this->State->filter).size()); }
 
 std::string vtkFitFilter::GetParameterName(int index)
 {
-    std::string name;
-    fit::describe(this->State->filter, this->State->parameters, [&](const auto&, const About& about) {
-        if (index-- == 0)
-            name = about.name;
-    });
-    return name;
+    const std::vector<std::string> names = fit::parameter_names(this->State->filter);
+    return index >= 0 && index < static_cast<int>(names.size()) ? names[index] : "";
 }
 
-std::string vtkFitFilter::GetParameterHelp(const char* name)
-{
-    std::string help;
-    with_parameter(this->State->filter, this->State->parameters, name, [&](auto& value, const About& about) {
-        help = std::string(about.help) + " (" + fit::range_of<std::decay_t<decltype(value)>>(about) + ")";
-    });
-    return help;
-}
+std::string vtkFitFilter::GetParameterHelp(const char* name) { return fit::help_on(this->State->filter, name); }
 
 int vtkFitFilter::GetSkeletonPort() { return this->GetNumberOfOutputPorts() - 1; }
 
 void vtkFitFilter::SetChoice(const char* what, const char* value)
 {
-    std::string& choice = this->State->choices.try_emplace(what, "auto").first->second;
+    std::string& choice = this->State->hints.choices.try_emplace(what, "auto").first->second;
     const std::string chosen = value ? value : "auto";
     if (choice == chosen)
         return;
@@ -200,31 +124,31 @@ void vtkFitFilter::SetChoice(const char* what, const char* value)
 
 const char* vtkFitFilter::GetChoice(const char* what)
 {
-    return this->State->choices.try_emplace(what, "auto").first->second.c_str();
+    return this->State->hints.choices.try_emplace(what, "auto").first->second.c_str();
 }
 
 void vtkFitFilter::PutJoint(const char* name, double x, double y, double z)
 {
-    this->State->joints[name ? name : ""] = { x, y, z };
+    this->State->hints.joints[name ? name : ""] = { x, y, z };
     this->Modified();
 }
 
 void vtkFitFilter::ForgetJoints()
 {
-    this->State->joints.clear();
+    this->State->hints.joints.clear();
     this->Modified();
 }
 
 void vtkFitFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
     this->Superclass::PrintSelf(os, indent);
-    fit::describe(this->State->filter, this->State->parameters, [&](const auto& value, const About& about) {
+    fit::describe(this->State->filter, this->State->parameters, [&](const auto& value, const fit::About& about) {
         os << indent << about.label << ": " << fit::text_of(value, about) << (about.unit.empty() ? "" : " ")
            << about.unit << "\n";
     });
-    for (const auto& [what, value] : this->State->choices)
+    for (const auto& [what, value] : this->State->hints.choices)
         os << indent << what << ": " << value << "\n";
-    for (const auto& [name, place] : this->State->joints)
+    for (const auto& [name, place] : this->State->hints.joints)
         os << indent << "Joint " << name << ": " << place.transpose() << "\n";
 }
 
@@ -313,25 +237,31 @@ int vtkFitFilter::Refuse(vtkInformationVector* outputs, unsigned long code, cons
     return 0;
 }
 
+void vtkFitFilter::Write(vtkPolyData* body, vtkDataObject* garments, vtkInformationVector* outputs, double time)
+{
+    const fit::Filter& filter = this->State->filter;
+    const fit::KnownScene& known = this->State->known();
+    const fit::Moment now = this->State->moment(time);
+    vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
+    dressed->ShallowCopy(body);
+    fit::write_body(*dressed, filter, known, now);
+    if (garments)
+        fit::write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), filter, known, now);
+    fit::write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), known, now);
+    for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfOutputPorts(); ++port)
+        vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+}
+
 int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
     this->SetErrorCode(vtkErrorCode::NoError);
     vtkPolyData* body = vtkPolyData::GetData(inputs[0]);
     vtkDataObject* garments = this->GetNumberOfInputPorts() > 1 ? vtkDataObject::GetData(inputs[1]) : nullptr;
-    const double time = time_asked(request, outputs);
     try {
         this->State->update(*body, garments, fit::Progress([this](double fraction, std::string_view stage) {
             return this->GoesOn(fraction, std::string(stage));
         }));
-        const fit::Moment now = this->State->moment(time);
-        vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
-        dressed->ShallowCopy(body);
-        this->State->write_body(*dressed, now);
-        if (garments)
-            this->State->write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), now);
-        this->State->write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), now);
-        for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfOutputPorts(); ++port)
-            vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+        this->Write(body, garments, outputs, time_asked(request, outputs));
         if (const std::string note = this->State->note(); !note.empty())
             vtkWarningMacro(<< note);
         return 1;

@@ -108,6 +108,7 @@ private:
 
     int RequestDataObject(vtkInformationVector**, vtkInformationVector*);
     bool GoesOn(double fraction, const std::string& stage);
+    void Write(vtkPolyData* body, vtkDataObject* garments, vtkInformationVector* outputs, double time);
     int Refuse(vtkInformationVector* outputs, unsigned long code, const char* message);
 
     std::unique_ptr<fit::FilterState> State;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_input.h"
+
+#include <sstream>
+
+#include "filters/joint_names.h"
+#include "filters/moment.h"
+#include "filters/scene_arrays.h"
+#include "named_arrays.h"
+#include "polydata.h"
+
+#include "vtkDataObject.h"
+#include "vtkPolyData.h"
+
+namespace fit {
+namespace {
+
+FrameChoice frame_choice(const Hints& hints, const std::string& prefix)
+{
+    return { hints.choice(prefix + "Unit"), hints.choice(prefix + "Up") };
+}
+
+std::optional<Vec3> front(const Hints& hints, const Frame& frame)
+{
+    const std::string front = hints.choice("Front");
+    if (front == "auto")
+        return {};
+    return Vec3(frame.rotation() * axis_of(front));
+}
+
+GivenJoints joints(const Hints& hints, const Frame& frame)
+{
+    GivenJoints given;
+    for (const auto& [name, place] : hints.joints)
+        joint_of(given, name) = frame.to_metres(Positions(place.transpose())).row(0);
+    return given;
+}
+
+void set_body(KnownScene& known, const TriangleMesh& mesh)
+{
+    known.scene.body = make_body(known.body_frame.to_metres(mesh.positions), mesh.triangles);
+}
+
+KnownScene unknown_body(const TriangleMesh& mesh, const Hints& hints)
+{
+    KnownScene known;
+    known.body_frame = body_frame(mesh.positions, mesh.triangles, frame_choice(hints, "")).frame;
+    set_body(known, mesh);
+    return known;
+}
+
+KnownScene rigged_body(const Filter& filter, vtkPolyData& body)
+{
+    const FindArray find = find_in(body);
+    KnownScene known;
+    known.body_frame = body_frame_from(find);
+    set_body(known, mesh_at(body, k_own_position, "the body"));
+    known.scene.rig = rig_from(find, body.GetNumberOfPoints());
+    if (filter.reads(Data::fits))
+        known.scene.fits = fits_from(find);
+    return known;
+}
+
+std::string called(const std::vector<std::string>& names, std::size_t i)
+{
+    return names.size() == 1 ? "the garment" : "garment " + std::to_string(i + 1) + " (" + names[i] + ")";
+}
+
+/// @param seen  by filters before: it is as it was given, in the frame that they found
+void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const FrameChoice& choice)
+{
+    const std::string name = called(known.garment_names, known.scene.garments.size());
+    const TriangleMesh mesh = seen ? mesh_at(garment, k_rest_position, name) : mesh_of(garment, name);
+    std::optional<Frame> frame;
+    if (seen)
+        frame = garment_frame_from(find_in(garment));
+    if (!frame)
+        frame = garment_frame(mesh.positions, mesh.triangles, known.body_frame, choice).frame;
+    known.garment_frames.push_back(*frame);
+    known.scene.garments.push_back(
+        { make_garment(frame->to_metres(mesh.positions), mesh.triangles), given_type(garment) });
+}
+
+}  // namespace
+
+std::string Hints::choice(const std::string& what) const
+{
+    const auto found = choices.find(what);
+    return found == choices.end() ? "auto" : found->second;
+}
+
+std::string Hints::on_body() const
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << choice("Unit") << ' ' << choice("Up") << ' ' << choice("Front");
+    for (const auto& [name, place] : joints)
+        text << ' ' << name << ' ' << place.transpose();
+    return text.str();
+}
+
+std::string Hints::on_garments() const { return choice("GarmentUnit") + choice("GarmentUp"); }
+
+KnownScene scene_of_body(const Filter& filter, vtkPolyData& body, const Hints& hints, RigOptions& options)
+{
+    if (filter.reads(Data::rig))
+        return rigged_body(filter, body);
+    KnownScene known = unknown_body(mesh_of(body, "the body"), hints);
+    options.front = front(hints, known.body_frame);
+    options.joints = joints(hints, known.body_frame);
+    return known;
+}
+
+void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garments, const Hints& hints)
+{
+    known.scene.garments.clear();
+    known.garment_frames.clear();
+    known.garment_names = garment_names_in(garments);
+    const bool seen = filter.reads(Data::fits) || filter.reads(Data::draped);
+    for (vtkPolyData* garment : garments_in(garments))
+        add_garment(known, *garment, seen, frame_choice(hints, "Garment"));
+}
+
+void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments)
+{
+    std::vector<Positions> worn;
+    for (vtkPolyData* garment : garments_in(garments))
+        worn.push_back(
+            known.body_frame.to_metres(mesh_of(*garment, called(known.garment_names, worn.size())).positions));
+    const Positions left = known.body_frame.to_metres(mesh_of(body, "the body").positions);
+    known.scene.draped = dressing_from(known.scene, dressed_pose_from(find_in(body)), left, worn, known.garment_names);
+}
+
+}  // namespace fit

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// From a scene to a pipeline's outputs, which are shallow copies of the inputs: what stays as it was is not copied.
+
+#ifndef scene_output_h
+#define scene_output_h
+
+#include <vector>
+
+#include "filters/moment.h"
+#include "known_scene.h"
+
+class vtkPolyData;
+
+namespace fit {
+
+void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known, const Moment& now);
+void write_garments(const std::vector<vtkPolyData*>& garments, const Filter& filter, const KnownScene& known,
+                    const Moment& now);
+void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Moment& now);
+
+}  // namespace fit
+
+#endif
