@@ -1,19 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The smallest program that uses the installed module: no body, so an error and empty outputs.
+// A stranger's program: nothing is refused in words, and a body from a file comes out dressed.   consumer BODY GARMENT TYPE
 
+#include <cstdlib>
+#include <iostream>
+
+#include "vtkDataArray.h"
 #include "vtkDressBody.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
+#include "vtkPLYReader.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-int main()
+namespace {
+
+bool refuses_nothing()
 {
     vtkNew<vtkDressBody> dress;
     vtkNew<vtkPolyData> nothing;
     dress->SetInputData(0, nothing);
     dress->SetInputData(1, nothing);
-    dress->SetDensity(0.3);
     dress->Update();
-    const bool refused = dress->GetErrorCode() == vtkFitFilter::InvalidInput;
-    return refused && dress->GetOutput()->GetNumberOfPoints() == 0 ? 0 : 1;
+    return dress->GetErrorCode() == vtkFitFilter::InvalidInput && dress->GetOutput()->GetNumberOfPoints() == 0;
+}
+
+bool dresses(const char* body_file, const char* garment_file, const char* type)
+{
+    vtkNew<vtkPLYReader> body, garment;
+    body->SetFileName(body_file);
+    garment->SetFileName(garment_file);
+    vtkNew<vtkDressBody> dress;
+    dress->SetInputConnection(0, body->GetOutputPort());
+    dress->SetInputConnection(1, garment->GetOutputPort());
+    dress->SetTypeByName(type);
+    dress->Update();
+    auto* worn = vtkPolyData::SafeDownCast(dress->GetOutputDataObject(1));
+    if (dress->GetErrorCode() != vtkErrorCode::NoError || !worn->GetPointData()->HasArray("Ease"))
+        return false;
+    std::cout << worn->GetNumberOfPoints() << " vertices, gap "
+              << worn->GetFieldData()->GetArray("GarmentGap")->GetComponent(0, 0) << '\n';
+    return worn->GetNumberOfPoints() == garment->GetOutput()->GetNumberOfPoints()
+        && dress->GetOutput()->GetFieldData()->GetArray("Certified")->GetComponent(0, 0) == 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return argc == 4 && refuses_nothing() && dresses(argv[1], argv[2], argv[3]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -13,6 +13,7 @@
 
 #include "filters/filters.h"
 #include "fixtures.h"
+#include "polydata_of.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -45,21 +46,6 @@ using namespace fit;
 using namespace fit::fixtures;
 
 // ---- what goes in ----------------------------------------------------------------------------------------------
-
-vtkSmartPointer<vtkPolyData> polydata_of(const TriangleMesh& mesh)
-{
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
-        points->InsertNextPoint(mesh.positions.row(v).data());
-    vtkNew<vtkCellArray> triangles;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-        triangles->InsertNextCell({ mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2) });
-    auto data = vtkSmartPointer<vtkPolyData>::New();
-    data->SetPoints(points);
-    data->SetPolys(triangles);
-    return data;
-}
 
 vtkSmartPointer<vtkFloatArray> some_numbers(const char* name, vtkIdType count, int components)
 {
