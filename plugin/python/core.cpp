@@ -64,7 +64,7 @@ int run_program(std::vector<std::string> words)
 void bind_functions(nb::module_& m)
 {
     m.def("parameters_of", &parameters_of, "filter"_a,
-          nb::sig("def parameters_of(filter: str) -> list[tuple[str, bool | int | float | str, str, str]]"));
+          nb::sig("def parameters_of(filter: str) -> list[tuple[str, bool | int | float | str, str, str, str]]"));
     m.def("garment_types", &type_names);
     m.def("skeleton_lines", &skeleton_lines, "From joint, to joint: of the bones, then of the tips");
     m.def("skeleton_arrays", [] { return dict_of(arrays_of_skeleton()); });

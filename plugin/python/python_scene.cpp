@@ -50,6 +50,23 @@ nb::object object_of(const Value& value, const About& about)
         return nb::cast(value);
 }
 
+/// As Python's annotations say it: "float", "Literal['cotton', 'denim']".
+template <class Value>
+std::string type_of(const About& about)
+{
+    if constexpr (std::is_same_v<Value, bool>)
+        return "bool";
+    else if constexpr (std::is_integral_v<Value>)
+        return "int";
+    else if constexpr (std::is_floating_point_v<Value>)
+        return "float";
+    std::string words;
+    if (about.choices)
+        for (const std::string_view word : *about.choices)
+            words += (words.empty() ? "'" : ", '") + std::string(word) + "'";
+    return "Literal[" + words + "]";
+}
+
 Positions as_positions(const std::vector<double>& place, const std::string& joint)
 {
     if (place.size() != 3)
@@ -157,14 +174,14 @@ PythonScene run(const PythonScene& given, const std::string& name, const nb::dic
     return made;
 }
 
-/// [(name, default, range, help), ...]
 nb::list parameters_of(const std::string& name)
 {
     nb::list list;
     const Parameters defaults;
     describe(filter_of(name), defaults, [&](const auto& value, const About& about) {
-        list.append(nb::make_tuple(std::string(about.name), object_of(value, about),
-                                   range_of<std::decay_t<decltype(value)>>(about), std::string(about.help)));
+        using Value = std::decay_t<decltype(value)>;
+        list.append(nb::make_tuple(std::string(about.name), object_of(value, about), type_of<Value>(about),
+                                   range_of<Value>(about), std::string(about.help)));
     });
     return list;
 }

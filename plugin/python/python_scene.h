@@ -47,7 +47,7 @@ void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
 /// Runs a filter of the table on a copy. Python may run meanwhile; it is asked at each report whether to go on.
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress);
 
-/// [(name, default, range, help), ...] of a filter.
+/// [(name, default, type, range, help), ...] of a filter.
 nb::list parameters_of(const std::string& filter);
 
 }  // namespace fit::python

@@ -27,13 +27,13 @@ def draw(plotter, body, garment, note):
     plotter.add_text("\n".join(textwrap.wrap(note, 40)), font_size=7, color="black")
     plotter.view_xy()
     plotter.camera.azimuth = 20
-    plotter.camera.zoom(1.25)
+    plotter.camera.zoom(1.2)
 
 
 def main(picture, garment, type_, bodies):
     dress = DressBody(type=type_)
     dress.SetInputData(1, pv.read(garment))
-    plotter = pv.Plotter(shape=(1, len(bodies)), off_screen=True, window_size=(300 * len(bodies), 640), border=False)
+    plotter = pv.Plotter(shape=(1, len(bodies)), off_screen=True, window_size=(360 * len(bodies), 480), border=False)
     for column, path in enumerate(bodies):
         plotter.subplot(0, column)
         draw(plotter, *dressed(dress, path))

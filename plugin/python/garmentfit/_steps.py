@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._meshes import Mesh, MeshLike, Positions, Triangles, as_mesh
+from ._parameters import takes_parameters_of
 
 #: Called with the fraction done and the name of the stage. False stops: Cancelled is raised.
 Progress = Callable[[float, str], Optional[bool]]
@@ -204,6 +205,7 @@ def _is_pair(given: Sequence[Any]) -> bool:
     return isinstance(given, tuple) and len(given) == 2 and all(isinstance(part, np.ndarray) for part in given)
 
 
+@takes_parameters_of("rig")
 def rig_body(body: MeshLike, *, unit: str = "auto", up: str = "auto", front: str = "auto",
              joints: Optional[Mapping[str, Sequence[float]]] = None, progress: Optional[Progress] = None,
              **parameters: Any) -> Rig:
@@ -215,6 +217,7 @@ def rig_body(body: MeshLike, *, unit: str = "auto", up: str = "auto", front: str
     return Rig(_scene_of(body, unit, up, front, joints).run("rig", parameters, progress))
 
 
+@takes_parameters_of("fit")
 def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_unit: str = "auto",
                  garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Fit:
     """Poses a rigged body so that its bones run through the middle of the garment's parts.
@@ -224,16 +227,19 @@ def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_
     return Fit(_with_garments(rig._scene, garments, garment_unit, garment_up).run("fit", parameters, progress))
 
 
+@takes_parameters_of("drape")
 def drape_garment(fit: Fit, *, progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
     """Puts the posed body into its garments without letting cloth and body cross."""
     return Dressing(fit._scene.run("drape", parameters, progress))
 
 
+@takes_parameters_of("recover")
 def recover_pose(draped: Dressing, *, progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
     """Brings a dressed body back to its own pose, the garments along."""
     return Dressing(draped._scene.run("recover", parameters, progress))
 
 
+@takes_parameters_of("dress")
 def dress(body: MeshLike, garments: Union[MeshLike, Sequence[Any]], *, unit: str = "auto", up: str = "auto",
           front: str = "auto", joints: Optional[Mapping[str, Sequence[float]]] = None, garment_unit: str = "auto",
           garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
@@ -243,15 +249,3 @@ def dress(body: MeshLike, garments: Union[MeshLike, Sequence[Any]], *, unit: str
     """
     scene = _with_garments(_scene_of(body, unit, up, front, joints), garments, garment_unit, garment_up)
     return Dressing(scene.run("dress", parameters, progress))
-
-
-def _document(function: Callable[..., Any], name: str) -> None:
-    lines = [f"    {parameter} = {default!r}: {help_} ({range_})"
-             for parameter, default, range_, help_ in _core.parameters_of(name)]
-    raises = "\n\n    Raises InvalidInput, SolverFailure, Cancelled (when progress returns False), KeyboardInterrupt."
-    function.__doc__ = (function.__doc__ or "").rstrip() + "\n\n    Parameters:\n" + "\n".join(lines) + raises
-
-
-for _function, _name in ((rig_body, "rig"), (fit_skeleton, "fit"), (drape_garment, "drape"), (recover_pose, "recover"),
-                         (dress, "dress")):
-    _document(_function, _name)

@@ -12,8 +12,9 @@ Parameters are attributes of the schema's names, or keyword arguments:
 """
 from __future__ import annotations
 
+import inspect
 import sys
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter  # noqa: F401  (numpy must be there before util.numpy_support)
@@ -26,6 +27,7 @@ from vtkmodules.vtkCommonExecutionModel import (vtkDemandDrivenPipeline, vtkExec
 
 from . import _core
 from ._core import Cancelled, InvalidInput, SolverFailure
+from ._parameters import lines_on, with_keywords
 
 # ---- VTK's arrays as numpy's, and back --------------------------------------------------------------------------
 
@@ -165,17 +167,26 @@ class _FitFilter(VTKPythonAlgorithmBase):
     MAKES: Tuple[str, ...] = ()  #: of rig, fits, dressing, frames
     STEPS: Tuple[str, ...] = ()  #: filters to run one after another
 
-    def __init__(self, **parameters: Any) -> None:
+    def __init_subclass__(cls) -> None:
+        cls.__signature__ = with_keywords(inspect.signature(cls), cls.NAME)
+        cls.__doc__ = (cls.__doc__ or "").rstrip() + lines_on(cls.NAME)
+
+    def __init__(self, *, unit: str = "auto", up: str = "auto", front: str = "auto", garment_unit: str = "auto",
+                 garment_up: str = "auto", joints: Optional[Mapping[str, Sequence[float]]] = None, **parameters: Any) -> None:
         object.__setattr__(self, "_values", {name: default for name, default, *_ in _core.parameters_of(self.NAME)})
         dresses = self.NAME != "rig"
         super().__init__(nInputPorts=1 + dresses, inputType="vtkPolyData", nOutputPorts=2 + dresses,
                          outputType="vtkPolyData")
-        self.unit = self.up = self.front = self.garment_unit = self.garment_up = "auto"
-        self.joints: Dict[str, Tuple[float, float, float]] = {}
+        self.unit: str = unit
+        self.up: str = up
+        self.front: str = front
+        self.garment_unit: str = garment_unit
+        self.garment_up: str = garment_up
+        self.joints: Dict[str, Sequence[float]] = dict(joints or {})
         self.error: Optional[str] = None  #: one line on what went wrong last time
         self._scenes: Dict[str, Any] = {}  # what each step has made, and from what
         for name, value in parameters.items():
-            if name not in self._values and not hasattr(self, name):
+            if name not in self._values:
                 raise InvalidInput(f"{type(self).__name__} has no parameter called {name!r}; there are "
                                    + ", ".join(self._values))
             setattr(self, name, value)
