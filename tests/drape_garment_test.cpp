@@ -183,6 +183,25 @@ TEST(RecoverPose, LetsPartsThatWereHeldBackCatchUp)
     EXPECT_EQ(result.body, skin);
 }
 
+TEST(RecoverPose, TurnsBackWhereThereIsNoRoomForClothOnTheWay)
+{
+    const Dressing d = person();
+    const GarmentMesh loose = trousers(0.02);
+    Pose crossed;
+    crossed.rotations[lfemur] = Eigen::Quaterniond(Eigen::AngleAxisd(-50 * k_degree, Vec3::UnitZ()));
+    crossed.rotations[rfemur] = crossed.rotations[lfemur].inverse();
+    const RecoverResult result = recover_pose(d.rig, d.body, Pose(), crossed, { { loose, loose.positions, {} } });
+    EXPECT_FALSE(result.certified);
+    EXPECT_LT(result.pose_reached, 1);
+    ASSERT_FALSE(result.held_back.empty());
+    EXPECT_GT(result.held_back[0].distance, 0.05);
+    EXPECT_TRUE(result.garments[0].certificate.clean());
+    EXPECT_LT(result.garments[0].certificate.strain.p95, 0.1) << "the cloth was torn";
+    const Pose last = slerp(Pose(), crossed, result.pose_reached);
+    const Positions posed = skin(d.body.surface.positions, d.rig.weights, bone_transforms(d.rig.skeleton, last));
+    EXPECT_LT((result.body - posed).rowwise().norm().maxCoeff(), 1e-3);
+}
+
 TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
 {
     const Dressing d = person();

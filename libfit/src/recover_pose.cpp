@@ -21,6 +21,9 @@ constexpr int k_smoothing_passes = 30;
 constexpr double k_moving_friction = 0.25;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
+// Where cloth holds a part of the body back by this much (metres), there is no room for it further on: it would only be torn. On ways that
+// end well no part lags by more than 0.02.
+constexpr double k_stuck = 0.05;
 
 BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 {
@@ -142,16 +145,21 @@ private:
     std::vector<RecoverFrame> kept_;
 };
 
-/// Moves body and cloth along the way. @return the last share of it at which the whole body was in place
-double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, const SkinWeights& cloth_weights,
-          const RecoverOptions& options, Recording& recording, const Progress& progress)
+struct Gone {
+    double in_place = 0;  ///< the last share of the way at which the whole body was in its place
+    double share = 0;  ///< how far the way was gone: 1, or less where the body got stuck
+};
+
+/// Moves body and cloth along the way.
+Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, const SkinWeights& cloth_weights,
+        const RecoverOptions& options, Recording& recording, const Progress& progress)
 {
     const double length = way.length(motion.cloth(), cloth_weights);
     const int steps = std::clamp(int(std::ceil(length / options.step_length)), 1, options.largest_steps);
     MotionStep step;
     step.gravity = k_gravity;
     step.friction_share = k_moving_friction;
-    double reached = 0;
+    Gone gone;
     for (int i = 1; i <= steps; ++i) {
         progress.at(double(i) / steps);
         const double t = double(i) / steps;
@@ -159,15 +167,19 @@ double go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, 
         const Positions cloth = motion.cloth(), body = motion.obstacle(), target = way.bridged(t);
         motion.carry(skin(cloth, cloth_weights, along) - cloth, skin(body, body_weights, along) - body);
         step.obstacle_target = &target;
-        if (motion.advance(step) < k_in_place)
-            reached = t;
+        const double lag = motion.advance(step);
+        gone.share = t;
+        if (lag < k_in_place)
+            gone.in_place = t;
+        if (lag > k_stuck)
+            return gone;
         if (i < steps)
             recording.see(motion, t);
     }
     const Positions bridged = way.bridged(1);
     step.obstacle_target = &bridged;
     arrive(motion, step);
-    return reached;
+    return gone;
 }
 
 }  // namespace
@@ -194,24 +206,33 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     ClothMotion motion({ rest.positions, rest.triangles }, cloth.positions, start, options.cloth);
     Recording recording(worn, body.surface.triangles, options.frames);
     recording.see(motion, 0);
-    const double reached = go(motion, way, rig.weights, cloth_weights, options, recording, progress.part(0, 0.8));
-    motion.carry_obstacle(way.withdrawn());
-    motion.carry_obstacle(way.at(1));
-    const auto [arrived, speed] = settle(motion, way.at(1), options.settling_steps, progress.part(0.8, 1));
+    const Gone gone = go(motion, way, rig.weights, cloth_weights, options, recording, progress.part(0, 0.8));
+    const bool stuck = gone.share < 1;
+    result.held_back
+        = stuck ? held_back(motion.obstacle(), way.bridged(gone.share), rig.weights) : std::vector<HeldBack>();
+    if (!stuck) {
+        motion.carry_obstacle(way.withdrawn());
+        motion.carry_obstacle(way.at(1));
+    }
+    const Positions end = way.at(stuck ? gone.in_place : 1);
+    const auto [arrived, speed] = settle(motion, end, options.settling_steps, progress.part(0.8, 1));
 
-    recording.see(motion, 1);
+    if (!stuck)
+        recording.see(motion, 1);
     result.frames = std::move(recording).take();
 
     put_positions(result.garments, motion.cloth());
     result.body = motion.obstacle();
-    result.held_back = held_back(result.body, way.at(1), rig.weights);
-    result.too_tight
-        = too_tight(result.garments, result.body, rig.weights, posed(rig.skeleton, to), options.cloth.largest_stretch);
+    if (!stuck) {
+        result.held_back = held_back(result.body, end, rig.weights);
+        result.too_tight = too_tight(result.garments, result.body, rig.weights, posed(rig.skeleton, to),
+                                     options.cloth.largest_stretch);
+    }
     result.speed = speed;
     result.seconds = motion.seconds();
-    result.pose_reached = arrived ? 1 : std::min(reached, 1 - 1e-3);
-    result.certified
-        = certify_all(result.garments, { result.body, body.surface.triangles }) && arrived && result.too_tight.empty();
+    result.pose_reached = arrived && !stuck ? 1 : std::min(gone.in_place, 1 - 1e-3);
+    const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
+    result.certified = clean && result.pose_reached == 1 && result.too_tight.empty();
     return result;
 }
 

@@ -32,9 +32,12 @@ struct RecoverResult {
     std::vector<WornGarment> garments;
     Positions body;  ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
     std::vector<TooTight> too_tight;  ///< in the pose `to`, worst first
-    std::vector<HeldBack> held_back;  ///< where cloth had no room in the pose `to`; worst first
+    std::vector<HeldBack>
+        held_back;  ///< where cloth had no room, in the pose `to` or where the body got stuck; worst first
     std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
-    double pose_reached = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place
+    double pose_reached
+        = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place. Where it got
+        ///< stuck further on, with some part more than 5 cm behind, it is left there
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
     ClothSeconds seconds;
