@@ -124,7 +124,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
         if (i > 0 && !dressing.certified)
             break;
         const DrapeResult result = drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
-                                                 slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments);
+                                                 slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments, dressing.body);
         const ClothSeconds before = dressing.seconds;
         dressing = dressing_of(result, pose);
         dressing.seconds += before;

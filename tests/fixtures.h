@@ -156,6 +156,7 @@ inline TriangleMesh sheet(int n, double spacing, const std::function<double(doub
 struct PersonOptions {
     double arm_angle = 45;   ///< degrees below the horizontal: 0 = T-pose, 70 = arms down, -70 = arms up
     double elbow_angle = 15; ///< degrees that the elbows flex, forearms forward
+    double wrist_angle = 0;  ///< degrees that the hands hang down from the forearms
     double knee_angle = 0;   ///< degrees that the knees flex, shins back
     double hip_angle = 0;    ///< degrees that the thighs are raised forward
     double scale = 1;        ///< 1: 1.75 m tall in the A-pose
@@ -193,7 +194,10 @@ inline Skeleton person_skeleton(const PersonOptions& options)
         const Vec3 along(std::cos(arm), -std::sin(arm), 0);
         const Vec3 shoulder(side * 0.18, 1.40, -0.01), elbow = place(shoulder, 0.28, along);
         const Vec3 forearm = std::cos(elbow_flex) * along + std::sin(elbow_flex) * Vec3::UnitZ();
-        const Vec3 wrist = place(elbow, 0.265, forearm), hand = place(wrist, 0.18, forearm);
+        const double wrist_bend = options.wrist_angle * degree;
+        const Vec3 down = (forearm.y() * forearm - Vec3::UnitY()).normalized();
+        const Vec3 wrist = place(elbow, 0.265, forearm),
+                   hand = place(wrist, 0.18, std::cos(wrist_bend) * forearm + std::sin(wrist_bend) * down);
         s.tails[left ? lhipjoint : rhipjoint] = hip;
         s.tails[left ? lfemur : rfemur] = knee;
         s.tails[left ? ltibia : rtibia] = ankle;

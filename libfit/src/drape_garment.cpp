@@ -11,6 +11,7 @@
 #include "fit/error.h"
 #include "fit/fit_skeleton.h"
 #include "layers.h"
+#include "straight_hands.h"
 #include "tightness.h"
 
 namespace fit {
@@ -32,19 +33,22 @@ struct Inflatable {
 };
 
 Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
-                      const std::vector<WornGarment>& worn)
+                      const std::vector<WornGarment>& worn, const Positions& left)
 {
     Inflatable result;
     const Eigen::Index body_vertices = body.surface.positions.rows();
+    const StraightHands hands(rig, body.surface.positions);
+    const StraightHands::Stretch stretch = worn.empty() ? hands.clear_of(garment, pose) : hands.of(left, pose);
     result.full
-        = { skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
+        = { skin(hands.stretched(stretch), rig.weights, bone_transforms(rig.skeleton, pose)), body.surface.triangles };
     SkinWeights weights = rig.weights;
     for (const WornGarment& under : worn) {
         append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(body_vertices), rig.weights));
         append(result.full, { under.positions, under.rest.triangles });
     }
-    // hands and feet do not bend: where one would poke through the cloth, it grows out of its wrist or ankle instead
-    result.core = collapse(result.full.positions, weights, with_clear_tips(posed(rig.skeleton, pose), garment));
+    // a hand or foot that would still poke through the cloth grows out of its wrist or ankle instead
+    result.core
+        = collapse(result.full.positions, weights, with_clear_tips(posed(hands.skeleton(stretch), pose), garment));
     const Positions skinned = result.full.positions.topRows(body_vertices);
     const Creases creases({ skinned, body.surface.triangles });
     result.bridged = result.withdrawn = result.full.positions;
@@ -154,9 +158,10 @@ bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
 }
 
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
-                          const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn)
+                          const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn,
+                          const Positions& left)
 {
-    const Inflatable inside = inflatable(rig, body, pose, garment, worn);
+    const Inflatable inside = inflatable(rig, body, pose, garment, worn, left);
     const TriangleMesh collapsed { inside.at(k_first_size), inside.full.triangles };
     require_free(collapsed, garment, rig.weights);
 

@@ -10,6 +10,7 @@
 #include "creases.h"
 #include "fit/error.h"
 #include "layers.h"
+#include "straight_hands.h"
 #include "tightness.h"
 
 namespace fit {
@@ -36,13 +37,14 @@ BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 /// The body on its way from one pose to another.
 class Way {
 public:
-    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to) :
-        rig_(rig), body_(body), from_(from), to_(to), creases_({ at(1), body.surface.triangles })
+    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start) :
+        rig_(rig), hands_(rig, body.surface.positions), stretch_(hands_.of(start, from)), from_(from), to_(to),
+        creases_({ at(1), body.surface.triangles })
     {
     }
 
     BoneTransforms transforms(double t) const { return bone_transforms(rig_.skeleton, slerp(from_, to_, t)); }
-    Positions at(double t) const { return skin(body_.surface.positions, rig_.weights, transforms(t)); }
+    Positions at(double t) const { return skin(hands_.stretched(stretch(t)), rig_.weights, transforms(t)); }
 
     /// With the creases of the last pose bridged, more and more up to half of the way.
     Positions bridged(double t) const
@@ -74,8 +76,16 @@ public:
     }
 
 private:
+    /// Hands that were stretched out to put garments on are bent back on the way to the own pose.
+    StraightHands::Stretch stretch(double t) const
+    {
+        const double left = is_own(to_) ? 1 - t : 1;
+        return { left * stretch_[0], left * stretch_[1] };
+    }
+
     const Rig& rig_;
-    const BodyMesh& body_;
+    StraightHands hands_;
+    StraightHands::Stretch stretch_;  // at the start
     const Pose &from_, &to_;
     Creases creases_;
 };
@@ -190,7 +200,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
 {
     RecoverResult result;
     result.garments = worn;
-    const Way way(rig, body, from, to);
+    const Way way(rig, body, from, to, start_positions);
     const TriangleMesh start { start_positions.rows() > 0 ? start_positions : way.at(0), body.surface.triangles };
     TriangleMesh rest, cloth;
     for (const WornGarment& garment : worn) {

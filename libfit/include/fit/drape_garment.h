@@ -57,7 +57,9 @@ FIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh&
 
 struct DrapeResult {
     std::vector<WornGarment> garments;  ///< from the inside out; the last one is new
-    Positions body;  ///< the user's vertices in the fitted pose, at the size reached
+    Positions
+        body;  ///< the user's vertices in the fitted pose, at the size reached; hands that would stand across a sleeve are
+        ///< stretched out
     double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
@@ -68,9 +70,10 @@ struct DrapeResult {
 
 /// @param pose    takes the body from its own pose into the garment (from fit_skeleton)
 /// @param worn    garments that the body wears already, in that pose, from the inside out; they move with the body
+/// @param left    the body's vertices as it wears those garments: what draping them gave
 /// @throws InvalidInput when bones and garment cross, naming bone and place. Cancelled.
 FIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                                   const DrapeOptions& options = {}, const Progress& progress = {},
-                                  const std::vector<WornGarment>& worn = {});
+                                  const std::vector<WornGarment>& worn = {}, const Positions& left = Positions(0, 3));
 
 }  // namespace fit

@@ -37,7 +37,7 @@ struct RecoverResult {
     std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
     double pose_reached
         = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place. Where it got
-        ///< stuck further on, with some part more than 5 cm behind, it is left there
+    ///< stuck further on, with some part more than 5 cm behind, it is left there
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
     ClothSeconds seconds;
@@ -45,7 +45,7 @@ struct RecoverResult {
 
 /// @param from, to  poses of the rig; Pose() is the body's own
 /// @param start     the body's vertices at the beginning, where cloth holds some back from pose `from` (DrapeResult::body);
-///                  they catch up on the way. Empty: all of them as in that pose.
+///                  they catch up on the way, and hands that it stretched out are bent back. Empty: all of them as in that pose.
 /// @throws InvalidInput when the garments cross the body at the beginning. Cancelled.
 FIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
                                    const std::vector<WornGarment>& worn, const RecoverOptions& options = {},
