@@ -93,7 +93,7 @@ std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
 }
 
 // Where the trunk has room, for each heading, with limbs as far as a coarse look finds them.
-std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
+std::vector<Scored> wide_starts(const Rig& rig, const SkeletonSearch& search)
 {
     const ClothRoom& cloth = search.metric().cloth();
     const RoomPyramid room(cloth.tree(), cloth.low(), cloth.high());
@@ -124,10 +124,11 @@ Scored with_limbs_found(const SkeletonSearch& search, const Posture& start)
     return { posture, search.energy(posture) - k_early_crossing * search.crossing_cost(posture) };
 }
 
+// Hands and feet that stick in cloth are freed later.
 Scored roughly_polished(const SkeletonSearch& search, const Scored& start)
 {
     const Posture posture = polished(search, start.posture, k_rough);
-    return { posture, search.total(posture) };
+    return { posture, search.total(posture) + (1 - k_early_crossing) * search.stuck_cost(posture) };
 }
 
 bool faces_away(const Rig& rig, const Scored& a, const Scored& b)
@@ -179,6 +180,27 @@ std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search
     return result;
 }
 
+void polish(const SkeletonSearch& search, std::vector<Scored>& candidates)
+{
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
+}
+
+// Of those that face as one does whose bones the polish could not free.
+std::vector<Scored> others_instead(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& polished,
+                                   const std::vector<Scored>& starts)
+{
+    std::vector<Scored> result;
+    for (const Scored& start : starts) {
+        const auto is_stuck_alike = [&](const Scored& one) {
+            return !faces_away(rig, one, start) && search.bones_through_cloth(one.posture) > 0;
+        };
+        if (&start != &starts[0] && std::any_of(polished.begin(), polished.end(), is_stuck_alike))
+            result.push_back(start);
+    }
+    return result;
+}
+
 }  // namespace
 
 Eigen::Quaterniond upright(const Rig& rig, double heading)
@@ -189,15 +211,18 @@ Eigen::Quaterniond upright(const Rig& rig, double heading)
 
 BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
 {
-    std::vector<Scored> candidates = distinct(starts(rig, search), k_wide_starts);
+    std::vector<Scored> candidates = distinct(wide_starts(rig, search), k_wide_starts);
     progress.at(0.4);
     parallel_for<std::size_t>(candidates.size(),
                               [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
     progress.at(0.6);
     std::stable_sort(candidates.begin(), candidates.end(), better);
-    candidates = both_ways_round(rig, search, candidates);
-    parallel_for<std::size_t>(candidates.size(),
-                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
+    const std::vector<Scored> starts = candidates;
+    candidates = both_ways_round(rig, search, starts);
+    polish(search, candidates);
+    std::vector<Scored> others = others_instead(rig, search, candidates, starts);
+    polish(search, others);
+    candidates.insert(candidates.end(), others.begin(), others.end());
     progress.at(0.8);
     std::stable_sort(candidates.begin(), candidates.end(), better);
     const auto other = std::find_if(candidates.begin(), candidates.end(),

@@ -31,7 +31,7 @@ constexpr double k_least_room = 0.2;  // share of the room that covered bones ne
 constexpr double k_tight = 0.7, k_wide = 0.95;  // of the same
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
-constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
+constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.08, 0.005 };  // rad
 constexpr double k_spoken_for = 0.5;  // m of energy that clear evidence for a way up is worth
 constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than that do not compete
 
@@ -103,6 +103,23 @@ void require_clear(const SkeletonSearch& search, const Posture& posture)
     require("the head", joints.tail(upperneck), joints.tips[head_top]);
 }
 
+void require_way_in(const TriangleMesh& outward)
+{
+    constexpr double k_small = 0.25;  // m; no garment goes round a body with less
+    const Pieces pieces = pieces_in(outward);
+    char text[256];
+    if (pieces.count > 1 && pieces.largest < k_small) {
+        std::snprintf(
+            text, sizeof text,
+            "garment is %d loose pieces, the largest %.3g cm across, such as buttons: none of them goes round a "
+            "body; give the cloth that they belong to, or check its unit",
+            pieces.count, 100 * pieces.largest);
+        throw InvalidInput(text);
+    }
+    if (is_sealed(outward))
+        throw InvalidInput("garment is closed all round: nobody can get in; give a garment with openings");
+}
+
 // The paper's start: the root in the middle of the cloth.
 Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
 {
@@ -115,7 +132,9 @@ Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, 
 {
     if (share_of_room(search, posture) < k_tight)
         return posture;
-    const Posture together = raised(search, posture, paper, k_last_steps);
+    // Twice: where small steps led to the end of the first climb, large ones may go on.
+    const Posture first = raised(search, posture, paper, k_last_steps),
+                  together = raised(search, first, paper, k_last_steps);
     return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
 }
 
@@ -299,8 +318,7 @@ FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given
 {
     const Progress stage = progress.part(0, 1, "fit the skeleton");
     const TriangleMesh outward = outward_cloth(garment);
-    if (is_sealed(outward))
-        throw InvalidInput("garment is closed all round: nobody can get in; give a garment with openings");
+    require_way_in(outward);
     const Tried best = best_way_up(rig, outward, given, stage.part(0, 0.8));
     stage.at(0.8);
     FitResult result = best.attempt->result(best.turn.conjugate());

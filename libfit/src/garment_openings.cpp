@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <queue>
-#include <set>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "buckets.h"
 #include "joined_vertices.h"
@@ -162,22 +164,32 @@ private:
     double longest_edge_ = 0;  // m
 };
 
+// Of a tube, between two distances from its opening.
+struct Slice {
+    double girth = 0;  // m
+    Vec3 middle = Vec3::Zero();
+};
+
 // The area between two distances from the opening is the girth there times their difference.
-std::vector<double> girths_along(const TriangleMesh& mesh, const std::vector<double>& distance, double slice)
+std::vector<Slice> slices_along(const TriangleMesh& mesh, const std::vector<double>& distance, double width)
 {
-    std::vector<double> girths(1, 0.0);
+    std::vector<Slice> slices(1);
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
         const double mean = (distance[a] + distance[b] + distance[c]) / 3;
         if (!std::isfinite(mean))
             continue;
-        const Vec3 u = mesh.positions.row(b) - mesh.positions.row(a), v = mesh.positions.row(c) - mesh.positions.row(a);
-        const std::size_t bin = std::size_t(mean / slice);
-        if (bin >= girths.size())
-            girths.resize(bin + 1, 0.0);
-        girths[bin] += 0.5 * u.cross(v).norm() / slice;
+        const Vec3 p = mesh.positions.row(a), q = mesh.positions.row(b), r = mesh.positions.row(c);
+        const std::size_t bin = std::size_t(mean / width);
+        if (bin >= slices.size())
+            slices.resize(bin + 1);
+        const double girth = 0.5 * (q - p).cross(r - p).norm() / width;
+        slices[bin].girth += girth;
+        slices[bin].middle += girth * (p + q + r) / 3;
     }
-    return girths;
+    for (Slice& slice : slices)
+        slice.middle /= std::max(slice.girth, 1e-300);
+    return slices;
 }
 
 // At vertices: does another of the openings pass there?
@@ -203,20 +215,22 @@ double reach_of(const std::vector<double>& distance, const std::vector<Ring>& ri
 }
 
 // Hems may be turned in or gathered: the first slices neither end a tube nor count as its waist. A single wide slice is a fold.
-void measure_tube(Opening& opening, const std::vector<double>& girths, double slice)
+void measure_tube(Opening& opening, const std::vector<Slice>& slices, double width)
 {
     constexpr std::size_t hem = 3;
     std::vector<double> sorted;
     double median = opening.girth;
     opening.tube_waist = std::numeric_limits<double>::infinity();
-    const auto is_wide = [&](std::size_t i) { return i >= girths.size() || girths[i] > k_widening * median; };
-    for (std::size_t i = 0; i < girths.size() && (i < hem || !is_wide(i) || !is_wide(i + 1)); ++i) {
-        sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), girths[i]), girths[i]);
+    const auto is_wide = [&](std::size_t i) { return i >= slices.size() || slices[i].girth > k_widening * median; };
+    for (std::size_t i = 0; i < slices.size() && (i < hem || !is_wide(i) || !is_wide(i + 1)); ++i) {
+        const double girth = slices[i].girth;
+        sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), girth), girth);
         median = sorted[sorted.size() / 2];
         if (i >= hem)
-            opening.tube_waist = std::min(opening.tube_waist, girths[i]);
+            opening.tube_waist = std::min(opening.tube_waist, girth);
+        opening.tube_end = slices[i].middle;
     }
-    opening.tube_length = slice * double(sorted.size());
+    opening.tube_length = width * double(sorted.size());
     opening.tube_girth = median;
     opening.tube_waist = std::min(opening.tube_waist, median);
 }
@@ -262,7 +276,7 @@ void measure_heights(Opening& opening, const std::vector<Range>& ranges)
 
 std::vector<Opening> openings_of(const TriangleMesh& outward)
 {
-    const double diagonal = diagonal_of(outward), slice = k_slice * diagonal;
+    const double diagonal = diagonal_of(outward), width = k_slice * diagonal;
     const std::vector<int> pieces = pieces_of(outward);
     const std::vector<Range> ranges = ranges_of(outward.positions, pieces);
     const auto rings = large_rings(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
@@ -275,10 +289,9 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
         measure_heights(opening, ranges);
         const std::vector<double> distance
             = paths.distances_from(rings[r], others_at(rings, r, outward.positions.rows()));
-        std::vector<double> girths = girths_along(outward, distance, slice);
-        const double slices = std::clamp(reach_of(distance, rings, r) / slice, 1.0, double(girths.size()));
-        girths.resize(std::size_t(slices));
-        measure_tube(opening, girths, slice);
+        std::vector<Slice> slices = slices_along(outward, distance, width);
+        slices.resize(std::size_t(std::clamp(reach_of(distance, rings, r) / width, 1.0, double(slices.size()))));
+        measure_tube(opening, slices, width);
     });
     return openings;
 }
@@ -289,6 +302,7 @@ std::vector<Opening> turned(std::vector<Opening> openings, const TriangleMesh& c
     for (Opening& opening : openings) {
         opening.centre = turn * opening.centre;
         opening.facing = turn * opening.facing;
+        opening.tube_end = turn * opening.tube_end;
         opening.rim = (opening.rim * turn.toRotationMatrix().transpose()).eval();
         measure_heights(opening, ranges);
     }
@@ -303,10 +317,21 @@ bool face_alike(const Opening& a, const Opening& b, const Vec3& axis)
 
 bool is_sealed(const TriangleMesh& outward)
 {
-    const std::vector<int> pieces = pieces_of(outward);
-    const auto spheres = Eigen::Index(std::set<int>(pieces.begin(), pieces.end()).size());
     const Eigen::Index edges = 3 * outward.triangles.rows() / 2;  // if none is open
-    return outward.positions.rows() - edges + outward.triangles.rows() == 2 * spheres && border_edges(outward).empty();
+    return outward.positions.rows() - edges + outward.triangles.rows() == 2 * pieces_in(outward).count
+        && border_edges(outward).empty();
+}
+
+Pieces pieces_in(const TriangleMesh& outward)
+{
+    const std::vector<int> pieces = pieces_of(outward);
+    std::map<int, Eigen::AlignedBox3d> boxes;
+    for (std::size_t v = 0; v < pieces.size(); ++v)
+        boxes[pieces[v]].extend(Vec3(outward.positions.row(Eigen::Index(v))));
+    Pieces result { int(boxes.size()), 0 };
+    for (const auto& [name, box] : boxes)
+        result.largest = std::max(result.largest, box.sizes().maxCoeff());
+    return result;
 }
 
 }  // namespace fit

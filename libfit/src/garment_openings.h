@@ -15,6 +15,7 @@ struct Opening {
     Vec3 low, high;  ///< corners of its box
     double girth = 0;  ///< m, length of its edge
     double tube_length = 0;  ///< m along the cloth, until the tube widens, forks or ends
+    Vec3 tube_end = Vec3::Zero();  ///< the middle of its last slice
     double tube_girth = 0;  ///< m, median
     double tube_waist = 0;  ///< m, smallest, the hem itself left out
     Positions rim;  ///< along its edge
@@ -36,5 +37,11 @@ bool face_alike(const Opening& a, const Opening& b, const Vec3& axis);
 /// Closed like a ball: no edge is open, and no hole goes through. (A garment with thickness has no open edge either, but
 /// holes: its genus is above 0.)
 bool is_sealed(const TriangleMesh& outward);
+
+struct Pieces {
+    int count = 0;
+    double largest = 0;  ///< m, the longest side of the largest one's box
+};
+Pieces pieces_in(const TriangleMesh& outward);
 
 }  // namespace fit

@@ -32,6 +32,7 @@ std::vector<Bone> together(std::initializer_list<std::vector<Bone>> groups)
 }
 
 constexpr double k_armhole = 0.55;  // of armhole_likeness; sleeves have 0.1 to 0.4, a vest 0.7
+constexpr double k_armhole_length = 0.25;  // girths at most; a T-shirt's sleeve has 0.35
 constexpr double k_long_sleeve = 0.9;  // girths; to the elbow 0.5, to the wrist 1.4
 
 // One connected piece of cloth, its openings told apart.
@@ -39,7 +40,7 @@ struct Piece {
     std::vector<Opening> sleeves, legs;  // two each, or none
     std::vector<Opening> others;  // neck, hem, waist, an open front
     double height = 0;  // m
-    double middle = 0;  // m; half-way up
+    double middle = 0;  // m; arms are above it, also below a hood
     double margin = 1;  // of the closest decision so far
 
     // Is `value` above `threshold`? Half as much again is clear.
@@ -139,7 +140,7 @@ std::vector<Piece> pieces_of(const std::vector<Opening>& openings)
         std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.centre.y() < b.centre.y(); });
         Piece piece;
         piece.height = some[0].piece_height;
-        piece.middle = some[0].piece_low + 0.5 * piece.height;
+        piece.middle = some[0].piece_low + 0.45 * piece.height;
         piece.others = some;
         take_legs(piece);
         take_sleeves(piece);
@@ -162,10 +163,16 @@ GarmentType type_with_legs(Piece& piece)
     return piece.above(length_in_girths(piece.legs), 1.0) ? GarmentType::trousers : GarmentType::shorts;
 }
 
-// A front is open where one opening runs from the neck to the hem; a blouse's edges meet, a jacket's stand apart.
+// A front is open where one opening runs from the neck to the hem; a blouse's edges meet, a jacket's stand apart. A coat's skirts reach further
+// below the arms than it is wide.
 GarmentType type_with_open_front(Piece& piece, const Opening& front)
 {
-    if (piece.above(piece.height / length_of(piece.sleeves), 1.65))
+    if (!piece.above(length_in_girths(piece.sleeves), k_armhole_length))
+        return GarmentType::vest;
+    const Opening &a = piece.sleeves[0], &b = piece.sleeves[1];
+    const double chest = (a.tube_end - b.tube_end).norm(),
+                 skirts = 0.5 * (a.tube_end.y() + b.tube_end.y()) - a.piece_low;
+    if (piece.above(skirts / chest, 1.5))
         return GarmentType::coat;
     return piece.above(std::hypot(front.facing.x(), front.facing.z()), 0.3) ? GarmentType::jacket : GarmentType::blouse;
 }
@@ -206,15 +213,19 @@ std::optional<GarmentType> type_of(Piece& piece)
     return type_with_hem(piece, lowest, highest);
 }
 
+bool are_armholes(const Piece& piece)
+{
+    const double length = length_in_girths(piece.sleeves);
+    return length < k_armhole_length
+        || (length < k_long_sleeve && piece.legs.empty() && piece.others.size() > 1
+            && armhole_likeness(piece.sleeves, piece.others.front()) > k_armhole);
+}
+
 enum class Sleeves { none, upper_arm, whole_arm };
 
 Sleeves sleeves_of(const Piece& piece)
 {
-    constexpr double armhole = 0.25;  // girths long at most
-    if (piece.sleeves.empty() || length_in_girths(piece.sleeves) < armhole)
-        return Sleeves::none;
-    if (piece.legs.empty() && piece.others.size() > 1
-        && armhole_likeness(piece.sleeves, piece.others.front()) > k_armhole)
+    if (piece.sleeves.empty() || are_armholes(piece))
         return Sleeves::none;
     return length_in_girths(piece.sleeves) > k_long_sleeve ? Sleeves::whole_arm : Sleeves::upper_arm;
 }
@@ -255,6 +266,35 @@ double uprightness(const Piece& piece)
     const double height = 0.5 * (piece.sleeves[0].centre.y() + piece.sleeves[1].centre.y());
     const bool points_down = facing < -level || (facing < level && height > piece.middle);
     return points_down && piece.height > depth_of(piece) ? 1 : 0;
+}
+
+// Where elbows bend; across, two sleeves need not be alike.
+Vec3 bend_of(const std::vector<Opening>& sleeves)
+{
+    const Vec3 across = (sleeves[1].centre - sleeves[0].centre).stableNormalized();
+    Vec3 bend = sleeves[0].facing + sleeves[1].facing;
+    bend -= bend.dot(across) * across;
+    bend.y() = 0;
+    return bend;
+}
+
+// Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face the front. A hem faces
+// down, and the one opening above a bib, round straps, faces anywhere.
+Vec3 front_of(const Piece& piece)
+{
+    const auto share_of_height
+        = [](const Opening& opening) { return (opening.high.y() - opening.low.y()) / opening.piece_height; };
+    Vec3 sum = Vec3::Zero();
+    for (const Opening& leg : piece.legs)
+        sum += leg.facing;
+    if (!piece.sleeves.empty())
+        sum += bend_of(piece.sleeves);
+    for (const Opening& opening : piece.others) {
+        const bool is_hem = opening.facing.y() < -0.8 && share_of_height(opening) < 0.5;
+        if (!is_hem && (piece.legs.empty() || share_of_height(opening) < 0.25))
+            sum += opening.facing;
+    }
+    return sum - sum.y() * Vec3::UnitY();
 }
 
 bool is_for_legs(GarmentType type)
@@ -371,11 +411,11 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
 GarmentCues cues_of(const std::vector<Opening>& openings)
 {
     GarmentCues cues;
-    // Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face front.
-    for (const Opening& opening : openings)
-        cues.front += opening.facing - opening.facing.y() * Vec3::UnitY();
     double longest = 0, tallest = 0;
     for (const Piece& piece : pieces_of(openings)) {
+        cues.front += front_of(piece);
+        if (!piece.legs.empty())
+            cues.hems = { piece.legs[0].centre, piece.legs[1].centre };
         const auto& pair = piece.legs.empty() ? piece.sleeves : piece.legs;
         if (!pair.empty() && piece.height > tallest) {
             tallest = piece.height;

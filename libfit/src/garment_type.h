@@ -23,6 +23,7 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
 struct GarmentCues {
     Vec3 across = Vec3::Zero();  // horizontal, from sleeve to sleeve or leg to leg of the tallest piece that has two
     Vec3 front = Vec3::Zero();  // horizontal; where openings face, longer the more of them agree
+    std::vector<Vec3> hems;  // middles of two legs', or none
     std::vector<Vec3> cuffs;  // middles of two, of the longest sleeves, or none: where hands come out
 };
 GarmentCues cues_of(const std::vector<Opening>& openings);

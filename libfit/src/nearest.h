@@ -56,6 +56,7 @@ public:
         double distance;
         bool from_behind;  ///< along the triangle's normal
         double cosine;  ///< of the angle between the ray and that normal
+        int triangle;
     };
     /// First triangle met by a ray (of unit direction) and not parallel to it.
     std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;

@@ -5,15 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "buckets.h"
 #include "joined_vertices.h"
-#include "nearest.h"
-#include "parallel.h"
+#include "outer_sheet.h"
 #include "winding_number.h"
 
 namespace fit {
@@ -22,9 +23,6 @@ namespace {
 constexpr double k_weld_fraction = 1e-6;  // of the diagonal: what file formats round away, far below a stitch
 constexpr double k_flat_patch = 0.01;  // volume / area^1.5; a sphere has 0.094, a sleeve 0.03, a pocket 0.002
 constexpr double k_thickest = 0.02;  // m between the sheets of cloth that has two
-constexpr double k_backing = 3;  // thicknesses; along a rim it is further to the next cloth
-constexpr double k_back = 0.5;  // cosine; less, and what lies behind a face is not the other sheet
-constexpr double k_fold = -0.2;  // cosine of the angle between two faces; sharper, and they belong to two sheets
 constexpr double k_side_step = 0.02;  // m; how far a flat patch looks to either side of itself
 
 // Turned round to begin with their lowest corner: the same face, however it was written.
@@ -214,87 +212,52 @@ bool faces_inwards(const TriangleMesh& cloth, const Patch& patch, const WindingN
 
 // ---- cloth with thickness ------------------------------------------------------------------------------------------
 
+// m, between the sheets of a closed patch.
+double thickness_of(const Patch& patch) { return 2 * std::abs(patch.volume) / patch.area; }
+
+// Edges of more than two faces, at which it touches itself; none where an edge is open.
+std::optional<std::ptrdiff_t> edges_touched(const Patch& patch)
+{
+    std::map<std::pair<int, int>, int> balance;  // open edges are left over when those run back and forth cancel
+    for (const auto& [a, b] : patch.border)
+        balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    for (const auto& [edge, count] : balance)
+        if (count != 0)
+            return {};
+    return std::ptrdiff_t(balance.size());
+}
+
 // Closed all round, but for tunnels, with no more between its two sheets than padding.
 bool is_thick_cloth(const Patch& patch, const Triangles& triangles)
 {
+    if (thickness_of(patch) > k_thickest)
+        return false;
+    const auto touched = edges_touched(patch);
+    if (!touched)
+        return false;
     std::set<int> vertices;
     for (const int f : patch.faces)
         for (int k = 0; k < 3; ++k)
             vertices.insert(triangles(f, k));
     const auto faces = std::ptrdiff_t(patch.faces.size());
-    const bool has_tunnels
-        = std::ptrdiff_t(vertices.size()) - faces / 2 <= 0;  // Euler; each face has one and a half edges
-    return patch.border.empty() && has_tunnels && 2 * std::abs(patch.volume) < k_thickest * patch.area;
-}
-
-// Which of its faces have the other sheet close behind them; the others are rims.
-std::vector<char> backed_faces(const TriangleMesh& cloth, const Patch& patch)
-{
-    const double thickness = 2 * std::abs(patch.volume) / patch.area;
-    const TriangleTree tree({ cloth.positions, cloth.triangles(patch.faces, Eigen::all) });
-    std::vector<char> backed(std::size_t(cloth.triangles.rows()), 0);
-    parallel_for<std::size_t>(
-        patch.faces.size(),
-        [&](std::size_t i) {
-            const int f = patch.faces[i];
-            const Vec3 area = area_vector(cloth.positions, cloth.triangles, f);
-            if (area.norm() == 0)
-                return;
-            const Vec3 inwards = -area.normalized();
-            const Vec3 middle = cloth.positions(cloth.triangles.row(f), Eigen::all).colwise().mean();
-            const auto hit = tree.first_hit(middle + 1e-3 * thickness * inwards, inwards);
-            backed[f] = hit && hit->distance < k_backing * thickness && hit->cosine > k_back;
-        },
-        256);
-    return backed;
-}
-
-// Parts of it that hang together without rims and folds. What is turned towards the body encloses less than nothing.
-std::vector<Patch> sheets_of(const TriangleMesh& cloth, const Patch& patch)
-{
-    const std::vector<char> backed = backed_faces(cloth, patch);
-    const std::vector<int> opposite = opposite_edges(cloth.triangles, int(cloth.positions.rows()));
-    const auto normal = [&](int f) { return area_vector(cloth.positions, cloth.triangles, f).normalized(); };
-    const auto next_to = [&](int e) {  // the face beyond an edge, -1 where the sheet ends
-        const int other = opposite[e] < 0 ? -1 : opposite[e] / 3;
-        return other >= 0 && backed[other] && normal(e / 3).dot(normal(other)) > k_fold ? other : -1;
-    };
-    std::vector<char> seen(backed.size(), 0);
-    JoinedVertices rings(int(cloth.positions.rows()));
-    std::vector<Patch> sheets;
-    for (const int seed : patch.faces) {
-        if (!backed[seed] || seen[seed])
-            continue;
-        Patch sheet { { seed }, {}, 0, 0 };
-        seen[seed] = 1;
-        for (std::size_t next = 0; next < sheet.faces.size(); ++next)
-            for (int k = 0; k < 3; ++k) {
-                const int f = sheet.faces[next], other = next_to(3 * f + k);
-                if (other < 0)
-                    sheet.border.emplace_back(cloth.triangles(f, k), cloth.triangles(f, (k + 1) % 3));
-                else if (!std::exchange(seen[other], 1))
-                    sheet.faces.push_back(other);
-            }
-        measure(sheet, cloth, rings);
-        sheets.push_back(std::move(sheet));
-    }
-    return sheets;
+    const auto edges = (3 * faces - std::ptrdiff_t(patch.border.size())) / 2 + *touched;
+    return std::ptrdiff_t(vertices.size()) - edges + faces <= 0;  // Euler: tunnels
 }
 
 // Cloth with thickness has two sheets, and only the outer one is what a garment looks like without.
 TriangleMesh without_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches)
 {
-    std::vector<int> kept;
-    const auto keep = [&](const Patch& patch) { kept.insert(kept.end(), patch.faces.begin(), patch.faces.end()); };
-    for (const Patch& patch : patches) {
-        const bool thick = is_thick_cloth(patch, cloth.triangles);
-        const std::vector<Patch> sheets = thick ? sheets_of(cloth, patch) : std::vector<Patch> { patch };
-        for (const Patch& sheet : sheets)
-            if (!thick || sheet.volume > 0)
-                keep(sheet);
-    }
-    if (kept.empty() || kept.size() == std::size_t(cloth.triangles.rows()))
+    if (std::none_of(patches.begin(), patches.end(),
+                     [&](const Patch& patch) { return is_thick_cloth(patch, cloth.triangles); }))
         return cloth;
+    const std::vector<int> opposite = opposite_edges(cloth.triangles, int(cloth.positions.rows()));
+    std::vector<int> kept;
+    for (const Patch& patch : patches) {
+        const std::vector<int> faces = is_thick_cloth(patch, cloth.triangles)
+            ? outer_sheet(cloth, patch.faces, opposite, thickness_of(patch))
+            : patch.faces;
+        kept.insert(kept.end(), faces.begin(), faces.end());
+    }
     GarmentMesh outer;
     outer.positions = cloth.positions;
     outer.triangles = cloth.triangles(kept, Eigen::all);
@@ -323,8 +286,7 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
         if (patch.volume < 0)
             for (const int f : patch.faces)
                 turn(cloth.triangles, f);
-        const bool is_sure
-            = patch.border.empty() || std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5);
+        const bool is_sure = patch.border.empty() || std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5);
         (is_sure ? outward : flat).push_back(&patch);
     }
     if (!outward.empty() && !flat.empty()) {

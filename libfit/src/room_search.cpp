@@ -24,8 +24,8 @@ struct Cell {
 
 }  // namespace
 
-RoomSearch::RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope) :
-    cloth_(cloth), samples_(std::move(samples)), slope_(slope)
+RoomSearch::RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab) :
+    cloth_(cloth), samples_(std::move(samples)), slope_(slope), slab_(slab)
 {
 }
 
@@ -55,7 +55,8 @@ std::vector<Place> RoomSearch::best(const Vec3& low, const Vec3& high, double sp
     std::priority_queue<Cell> cells;
     int made = 0;
     const auto add = [&](const Vec3& centre, const Vec3& half_size) {
-        cells.push({ bound(centre, half_size), made++, centre, half_size });
+        if (!slab_.is_missed_by(centre, half_size))
+            cells.push({ bound(centre, half_size), made++, centre, half_size });
     };
     // Halves along the axes that are still longer than `longest`.
     const auto split = [&](const Vec3& centre, const Vec3& half_size, double longest) {
@@ -83,7 +84,7 @@ std::vector<Place> RoomSearch::best(const Vec3& low, const Vec3& high, double sp
                 places.push_back({ cell.centre, cell.bound });
         } else if (2 * cell.half_size.maxCoeff() > spacing) {
             split(cell.centre, cell.half_size, std::max(spacing, cell.half_size.maxCoeff()));
-        } else {
+        } else if (!slab_.is_missed_by(cell.centre, Vec3::Zero())) {
             cells.push({ value(cell.centre), made++, cell.centre, Vec3::Zero(), true });
         }
     }

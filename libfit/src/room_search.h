@@ -4,6 +4,8 @@
 // Where a rigid set of points has the most room: branch and bound, so that the best place is certain without trying all
 // (derived in docs/fit.md).
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "room_pyramid.h"
@@ -21,10 +23,23 @@ struct Place {
     double value;  // m
 };
 
+/// What lies between two parallel planes; everything, unless told otherwise.
+struct Slab {
+    Vec3 middle = Vec3::Zero();  // m
+    Vec3 across = Vec3::UnitX();
+    double half_width = std::numeric_limits<double>::infinity();  // m
+
+    bool is_missed_by(const Vec3& centre, const Vec3& half_size) const
+    {
+        return std::abs(across.dot(centre - middle)) > half_width + across.cwiseAbs().dot(half_size);
+    }
+};
+
 class RoomSearch {
 public:
-    /// @param slope  what a metre along each axis is worth besides, m/m. Keeps a reference to the cloth.
-    RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope);
+    /// @param slope  what a metre along each axis is worth besides, m/m
+    /// @param slab  where to look. Keeps a reference to the cloth.
+    RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab = {});
 
     double value(const Vec3& at) const;
 
@@ -38,6 +53,7 @@ private:
     const RoomPyramid& cloth_;
     std::vector<RoomSample> samples_;
     Vec3 slope_;
+    Slab slab_;
 };
 
 }  // namespace fit

@@ -25,10 +25,11 @@ constexpr double k_upright = 3;  // m/rad^2; the trunk stands
 constexpr double k_sag = 1.5;  // m/m; a shirt hangs from the shoulders, trousers are pulled up
 constexpr double k_cuff = 0.3;  // m/rad^2; arms point from the shoulder to the cuff
 constexpr double k_front = 0.6;  // m; for each opening that faces forwards
-constexpr double k_own_front = 0.03;  // m; where the garment does not tell its front, the body keeps its own
+constexpr double k_own_front = 0.05;  // m; where the garment does not tell its front, the body keeps its own
 constexpr double k_empty = 8;  // m/m; mean distance of the cloth from the nearest limb that could fill it
 constexpr double k_far_cloth = 0.25;  // m; cloth further away than this is just far: trains, wide skirts
 constexpr double k_cover_cells = 8;  // along the garment's longest side
+constexpr double k_between_legs = 0.25;  // of the distance between their hems
 constexpr double k_better = 1e-9;  // m; below this two poses are equal, and the nearer one wins
 
 constexpr std::array<int, 7> k_trunk { lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle };
@@ -277,6 +278,15 @@ double SkeletonSearch::crossing_cost(const Posture& posture) const
     return cost;
 }
 
+double SkeletonSearch::stuck_cost(const Posture& posture) const
+{
+    const PlacedBones bones = placed(rig_.skeleton, posture);
+    double cost = 0;
+    for (int e = 0; e < extremity_count; ++e)
+        cost += may_stick(Extremity(e)) ? crossing_cost(bones, Extremity(e)) : 0;
+    return cost;
+}
+
 double SkeletonSearch::crossing_cost(const Posture& posture, const Limb& limb) const
 {
     const PlacedBones bones = placed(rig_.skeleton, posture);
@@ -311,8 +321,17 @@ std::vector<Place> SkeletonSearch::trunk_places(const RoomPyramid& room, const P
     const ClothRoom& cloth = metric_.cloth();
     const double hem
         = hangs_from_shoulders_ ? (joints.tail(thorax) - joints.root).norm() : 0;  // its root may lie below
-    return RoomSearch(room, samples, sag() * Vec3::UnitY())
+    return RoomSearch(room, samples, sag() * Vec3::UnitY(), between_legs())
         .best(cloth.low() - 1.2 * hem * Vec3::UnitY(), cloth.high(), spacing, apart, count);
+}
+
+// A slim body may find room for all of it in one of a wide garment's legs.
+Slab SkeletonSearch::between_legs() const
+{
+    if (cues_.hems.empty())
+        return {};
+    const Vec3 apart = cues_.hems[1] - cues_.hems[0];
+    return { 0.5 * (cues_.hems[0] + cues_.hems[1]), apart.stableNormalized(), k_between_legs * apart.norm() };
 }
 
 // About the middle of the trunk: a turn about the root would swing the shoulders out of the garment.

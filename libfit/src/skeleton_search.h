@@ -61,6 +61,7 @@ public:
     /// feet, which may find none.
     double crossing_cost(const Posture& posture) const;
     double crossing_cost(const Posture& posture, const Limb& limb) const;
+    double stuck_cost(const Posture& posture) const;  ///< of hands and feet alone
     int bones_through_cloth(const Posture& posture) const;
     /// E_B of equation (1) of each covered bone, m; 0 for the others.
     std::array<double, bone_count> scores(const Posture& posture) const;
@@ -108,6 +109,7 @@ private:
     template <class BoneEnergy, class TipEnergy, class Lower>
     double sum_of(const Posture& posture, const BoneEnergy& by_bone, const TipEnergy& by_tip, const Lower& lower) const;
     double tip_energy(const PlacedBones& bones, int extremity) const;
+    Slab between_legs() const;
     bool fills_tube(const Limb& limb) const;
     std::vector<Chain> extended(const Chain& chain, const Limb& limb, int link, const Vec3& start,
                                 const Skeleton& joints, const Reach& reach, double least) const;
