@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "fit/mesh.h"
+#include "joined_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
 
@@ -16,6 +17,8 @@ constexpr double k_clearance = 1e-3;
 // The sides of a crease are part of it this far (metres, along edges) from where it is shut: where its membrane begins, cloth
 // must find room again.
 constexpr double k_side = 0.03;
+// Metres; cloth further away from a crease at the start does not get into it on the way.
+constexpr double k_reach = 0.15;
 // A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
 constexpr double k_enclosed = 0.01;
 
@@ -116,15 +119,31 @@ void drop_without_border(std::vector<char>& marked, const std::vector<std::vecto
     marked = anchored;
 }
 
+// Creases that no cloth will come to stay as they are: mouths and toes would be smoothed away on the way.
+void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std::vector<char>& near)
+{
+    JoinedVertices creases(int(marked.size()));
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+        if (marked[edges(e, 0)] && marked[edges(e, 1)])
+            creases.join(edges(e, 0), edges(e, 1));
+    std::vector<char> kept(marked.size(), 0);
+    for (std::size_t v = 0; v < marked.size(); ++v)
+        if (near[v])
+            kept[creases.root(int(v))] = 1;
+    for (std::size_t v = 0; v < marked.size(); ++v)
+        marked[v] = marked[v] && kept[creases.root(int(v))];
+}
+
 }  // namespace
 
-Creases::Creases(const TriangleMesh& surface)
+Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth)
 {
     const Edges edges = edges_of(surface.triangles);
     const auto neighbours = neighbours_of(edges, std::size_t(surface.positions.rows()));
     std::vector<char> inside = creased(surface.positions, room_above(surface), neighbours);
     add_enclosed(inside, neighbours);
     drop_without_border(inside, neighbours);
+    drop_without_cloth(inside, edges, near_cloth);
 
     std::vector<int> row(inside.size(), -1);
     for (std::size_t v = 0; v < inside.size(); ++v)
@@ -171,6 +190,14 @@ Positions Creases::withdrawn(const Positions& positions, const Positions& core) 
     Positions result = positions;
     for (int v : inner_)
         result.row(v) = 0.5 * (core.row(v) + positions.row(v));
+    return result;
+}
+
+std::vector<char> near_cloth(const Positions& body, const Positions& cloth)
+{
+    const NearestPoint nearest(cloth);
+    std::vector<char> result(body.rows());
+    parallel_for(body.rows(), [&](Eigen::Index v) { result[v] = nearest.distance(body.row(v)) < k_reach; });
     return result;
 }
 

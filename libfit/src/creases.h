@@ -17,7 +17,8 @@ class Creases {
 public:
     /// Finds the creases of a surface as it stands (n x 3): vertices that face another part of it without room for cloth
     /// between, or lie inside another part. Cost O(n log n).
-    explicit Creases(const TriangleMesh& surface);
+    /// @param near_cloth  of each vertex; creases without any such vertex (a mouth, say, or toes) are left alone
+    Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth);
 
     /// The surface, in any pose (n x 3), with its creases bridged: each crease is a harmonic membrane over its border.
     Positions bridged(const Positions& positions) const;
@@ -31,5 +32,8 @@ private:
     Eigen::SparseMatrix<double> to_border_;  // couples inner vertices to the fixed ones
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> membrane_;
 };
+
+/// Whether cloth (m x 3) is so near to each point of a body (n x 3, as it wears it) that it may get into creases there. O((n + m) log m).
+std::vector<char> near_cloth(const Positions& body, const Positions& cloth);
 
 }  // namespace fit

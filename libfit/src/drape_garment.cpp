@@ -50,7 +50,10 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
     result.core
         = collapse(result.full.positions, weights, with_clear_tips(posed(hands.skeleton(stretch), pose), garment));
     const Positions skinned = result.full.positions.topRows(body_vertices);
-    const Creases creases({ skinned, body.surface.triangles });
+    TriangleMesh cloth { garment.positions, garment.triangles };
+    for (const WornGarment& under : worn)
+        append(cloth, { under.positions, under.rest.triangles });
+    const Creases creases({ skinned, body.surface.triangles }, near_cloth(skinned, cloth.positions));
     result.bridged = result.withdrawn = result.full.positions;
     result.bridged.topRows(body_vertices) = creases.bridged(skinned);
     result.withdrawn.topRows(body_vertices) = creases.withdrawn(skinned, result.core.topRows(body_vertices));

@@ -37,9 +37,11 @@ BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 /// The body on its way from one pose to another.
 class Way {
 public:
-    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start) :
-        rig_(rig), hands_(rig, body.surface.positions), stretch_(hands_.of(start, from)), from_(from), to_(to),
-        creases_({ at(1), body.surface.triangles })
+    Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start,
+        const Positions& cloth) :
+        rig_(rig),
+        hands_(rig, body.surface.positions), stretch_(hands_.of(start, from)), from_(from), to_(to),
+        creases_({ at(1), body.surface.triangles }, near_cloth(at(0), cloth))
     {
     }
 
@@ -200,13 +202,13 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
 {
     RecoverResult result;
     result.garments = worn;
-    const Way way(rig, body, from, to, start_positions);
-    const TriangleMesh start { start_positions.rows() > 0 ? start_positions : way.at(0), body.surface.triangles };
     TriangleMesh rest, cloth;
     for (const WornGarment& garment : worn) {
         append(rest, { garment.rest.positions, garment.rest.triangles });
         append(cloth, { garment.positions, garment.rest.triangles });
     }
+    const Way way(rig, body, from, to, start_positions, cloth.positions);
+    const TriangleMesh start { start_positions.rows() > 0 ? start_positions : way.at(0), body.surface.triangles };
     if (const int crossing = crossing_count(cloth, start); crossing > 0)
         throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing)
                            + " places at the start; drape the garment first");
