@@ -24,23 +24,20 @@ float rounded_down(double x)
 
 bool BoxTree::Bounds::meets(const Bounds& other) const
 {
-    return bool((low[0] <= other.high[0]) & (other.low[0] <= high[0]) & (low[1] <= other.high[1])
-                & (other.low[1] <= high[1]) & (low[2] <= other.high[2]) & (other.low[2] <= high[2]));
+    return (low - other.high).max(other.low - high).maxCoeff() <= 0;
 }
 
 void BoxTree::Bounds::extend(const Bounds& other)
 {
-    for (int k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], other.low[k]);
-        high[k] = std::max(high[k], other.high[k]);
-    }
+    low = low.min(other.low);
+    high = high.max(other.high);
 }
 
-float BoxTree::Bounds::girth() const { return high[0] - low[0] + high[1] - low[1] + high[2] - low[2]; }
+float BoxTree::Bounds::girth() const { return (high - low).sum(); }
 
 BoxTree::Bounds BoxTree::rounded(const Box& box)
 {
-    Bounds result;
+    Bounds result { Eigen::Array4f::Zero(), Eigen::Array4f::Zero() };
     for (int k = 0; k < 3; ++k) {
         result.low[k] = rounded_down(box.min()[k]);
         result.high[k] = -rounded_down(-box.max()[k]);

@@ -4,7 +4,6 @@
 // A hierarchy of boxes over the primitives of a moving mesh: built once, its boxes renewed at every step.
 
 #include <Eigen/Geometry>
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -33,9 +32,9 @@ public:
     static void overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit);
 
 private:
-    /// A box in single precision, rounded outwards: half the memory, and it misses nothing.
+    /// A box in single precision, rounded outwards, so it misses nothing. The fourth number, 0, is there for wide instructions.
     struct Bounds {
-        std::array<float, 3> low, high;
+        Eigen::Array4f low, high;
         bool meets(const Bounds& other) const;
         float girth() const;
         void extend(const Bounds& other);

@@ -148,10 +148,15 @@ void SinglePrecisionFactor::forward(Quads& x, int begin, int end, Eigen::Vector4
 void SinglePrecisionFactor::backward(Quads& x, int begin, int end) const
 {
     for (int j = end - 1; j >= begin; --j) {
-        Eigen::Vector4f sum = x[j];
-        for (int i = begin_[j]; i < begin_[j + 1]; ++i)
+        Eigen::Vector4f sum = x[j], other = Eigen::Vector4f::Zero();  // two sums: neither waits for the other
+        int i = begin_[j];
+        for (; i + 1 < begin_[j + 1]; i += 2) {
             sum -= below_[i] * x[rows_[i]];
-        x[j] = inverse_diagonal_[j] * sum;
+            other -= below_[i + 1] * x[rows_[i + 1]];
+        }
+        if (i < begin_[j + 1])
+            sum -= below_[i] * x[rows_[i]];
+        x[j] = inverse_diagonal_[j] * (sum + other);
     }
 }
 
