@@ -186,21 +186,6 @@ void polish(const SkeletonSearch& search, std::vector<Scored>& candidates)
                               [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
 }
 
-// Of those that face as one does whose bones the polish could not free.
-std::vector<Scored> others_instead(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& polished,
-                                   const std::vector<Scored>& starts)
-{
-    std::vector<Scored> result;
-    for (const Scored& start : starts) {
-        const auto is_stuck_alike = [&](const Scored& one) {
-            return !faces_away(rig, one, start) && search.bones_through_cloth(one.posture) > 0;
-        };
-        if (&start != &starts[0] && std::any_of(polished.begin(), polished.end(), is_stuck_alike))
-            result.push_back(start);
-    }
-    return result;
-}
-
 }  // namespace
 
 Eigen::Quaterniond upright(const Rig& rig, double heading)
@@ -217,12 +202,8 @@ BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progres
                               [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
     progress.at(0.6);
     std::stable_sort(candidates.begin(), candidates.end(), better);
-    const std::vector<Scored> starts = candidates;
-    candidates = both_ways_round(rig, search, starts);
+    candidates = both_ways_round(rig, search, candidates);
     polish(search, candidates);
-    std::vector<Scored> others = others_instead(rig, search, candidates, starts);
-    polish(search, others);
-    candidates.insert(candidates.end(), others.begin(), others.end());
     progress.at(0.8);
     std::stable_sort(candidates.begin(), candidates.end(), better);
     const auto other = std::find_if(candidates.begin(), candidates.end(),

@@ -31,7 +31,7 @@ constexpr double k_least_room = 0.2;  // share of the room that covered bones ne
 constexpr double k_tight = 0.7, k_wide = 0.95;  // of the same
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
-constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.08, 0.005 };  // rad
+constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
 constexpr double k_spoken_for = 0.5;  // m of energy that clear evidence for a way up is worth
 constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than that do not compete
 
@@ -132,9 +132,7 @@ Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, 
 {
     if (share_of_room(search, posture) < k_tight)
         return posture;
-    // Twice: where small steps led to the end of the first climb, large ones may go on.
-    const Posture first = raised(search, posture, paper, k_last_steps),
-                  together = raised(search, first, paper, k_last_steps);
+    const Posture together = raised(search, posture, paper, k_last_steps);
     return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
 }
 
