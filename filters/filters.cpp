@@ -100,14 +100,6 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     }
 }
 
-bool is_same(const Pose& a, const Pose& b)
-{
-    for (int bone = 0; bone < bone_count; ++bone)
-        if (a.rotations[bone].coeffs() != b.rotations[bone].coeffs())
-            return false;
-    return a.root_translation == b.root_translation && a.root_rotation.coeffs() == b.root_rotation.coeffs();
-}
-
 /// From the inside out. The garments already worn go along to the pose of the next one; ends where one cannot be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {

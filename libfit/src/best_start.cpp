@@ -93,7 +93,7 @@ std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
 }
 
 // Where the trunk has room, for each heading, with limbs as far as a coarse look finds them.
-std::vector<Scored> wide_starts(const Rig& rig, const SkeletonSearch& search)
+std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
 {
     const ClothRoom& cloth = search.metric().cloth();
     const RoomPyramid room(cloth.tree(), cloth.low(), cloth.high());
@@ -180,12 +180,6 @@ std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search
     return result;
 }
 
-void polish(const SkeletonSearch& search, std::vector<Scored>& candidates)
-{
-    parallel_for<std::size_t>(candidates.size(),
-                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
-}
-
 }  // namespace
 
 Eigen::Quaterniond upright(const Rig& rig, double heading)
@@ -196,14 +190,15 @@ Eigen::Quaterniond upright(const Rig& rig, double heading)
 
 BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
 {
-    std::vector<Scored> candidates = distinct(wide_starts(rig, search), k_wide_starts);
+    std::vector<Scored> candidates = distinct(starts(rig, search), k_wide_starts);
     progress.at(0.4);
     parallel_for<std::size_t>(candidates.size(),
                               [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
     progress.at(0.6);
     std::stable_sort(candidates.begin(), candidates.end(), better);
     candidates = both_ways_round(rig, search, candidates);
-    polish(search, candidates);
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
     progress.at(0.8);
     std::stable_sort(candidates.begin(), candidates.end(), better);
     const auto other = std::find_if(candidates.begin(), candidates.end(),

@@ -81,7 +81,7 @@ private:
     /// Hands that were stretched out to put garments on are bent back on the way to the own pose.
     StraightHands::Stretch stretch(double t) const
     {
-        const double left = is_own(to_) ? 1 - t : 1;
+        const double left = is_same(to_, Pose()) ? 1 - t : 1;
         return { left * stretch_[0], left * stretch_[1] };
     }
 
@@ -220,9 +220,9 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     recording.see(motion, 0);
     const Gone gone = go(motion, way, rig.weights, cloth_weights, options, recording, progress.part(0, 0.8));
     const bool stuck = gone.share < 1;
-    result.held_back
-        = stuck ? held_back(motion.obstacle(), way.bridged(gone.share), rig.weights) : std::vector<HeldBack>();
-    if (!stuck) {
+    if (stuck)
+        result.held_back = held_back(motion.obstacle(), way.bridged(gone.share), rig.weights);
+    else {
         motion.carry_obstacle(way.withdrawn());
         motion.carry_obstacle(way.at(1));
     }

@@ -66,6 +66,14 @@ const Vec3& Skeleton::head(int bone) const
 
 Pose::Pose() { rotations.fill(Eigen::Quaterniond::Identity()); }
 
+bool is_same(const Pose& a, const Pose& b)
+{
+    for (int bone = 0; bone < bone_count; ++bone)
+        if (a.rotations[bone].coeffs() != b.rotations[bone].coeffs())
+            return false;
+    return a.root_translation == b.root_translation && a.root_rotation.coeffs() == b.root_rotation.coeffs();
+}
+
 BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose)
 {
     const auto about = [](const Vec3& from, const Vec3& to, const Eigen::Quaterniond& rotation) {

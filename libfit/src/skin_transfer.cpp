@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include <flann/flann.hpp>
 
 #include "joined_vertices.h"
+#include "layers.h"
 #include "loose_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
@@ -121,21 +121,6 @@ private:
     flann::Index<flann::L2<double>> tree_;
 };
 
-void keep_four(const Eigen::RowVectorXd& row, Eigen::Index v, SkinWeights& weights)
-{
-    std::array<int, bone_count> order;
-    std::iota(order.begin(), order.end(), 0);
-    std::partial_sort(order.begin(), order.begin() + 4, order.end(),
-                      [&](int a, int b) { return row[a] != row[b] ? row[a] > row[b] : a < b; });
-    double sum = 0;
-    for (int k = 0; k < 4; ++k)
-        sum += std::max(0.0, row[order[k]]);
-    for (int k = 0; k < 4; ++k) {
-        weights.bones(v, k) = order[k];
-        weights.weights(v, k) = std::max(0.0, row[order[k]]) / sum;
-    }
-}
-
 template <typename Visit>
 void for_each_edge(const Triangles& triangles, Visit&& visit)
 {
@@ -222,13 +207,7 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     for (const StrayPatch& patch : stray_patches(to.surface.triangles, main_bones(carried)))
         carried(patch.vertices, Eigen::all)
             = weights_on(patch.near_bones, bone_of_point, points, weights).at(queries(patch.vertices, Eigen::all));
-
-    SkinWeights result;
-    result.bones.resize(carried.rows(), 4);
-    result.weights.resize(carried.rows(), 4);
-    for (Eigen::Index v = 0; v < carried.rows(); ++v)
-        keep_four(carried.row(v), v, result);
-    return result;
+    return strongest_four(std::move(carried));
 }
 
 }  // namespace fit

@@ -124,10 +124,4 @@ Positions StraightHands::posed(const Stretch& stretch, const Pose& pose) const
     return skin(stretched(stretch), rig_.weights, bone_transforms(rig_.skeleton, pose));
 }
 
-bool is_own(const Pose& pose)
-{
-    return std::all_of(pose.rotations.begin(), pose.rotations.end(),
-                       [](const auto& q) { return q.coeffs() == Eigen::Quaterniond::Identity().coeffs(); });
-}
-
 }  // namespace fit

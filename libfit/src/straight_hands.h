@@ -44,7 +44,4 @@ private:
     std::array<Hand, 2> hands_;  // a stump has no skin to turn
 };
 
-/// Whether no bone is turned away from the body's own pose.
-bool is_own(const Pose& pose);
-
 }  // namespace fit

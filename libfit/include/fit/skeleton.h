@@ -78,6 +78,9 @@ struct Pose {
     FIT_API Pose();  ///< the own pose
 };
 
+/// Whether two poses are alike, bit for bit.
+FIT_API bool is_same(const Pose& a, const Pose& b);
+
 /// Where each bone goes: world-from-own rigid transforms.
 using BoneTransforms = std::array<Eigen::Isometry3d, bone_count>;
 
