@@ -176,14 +176,6 @@ void require_inputs(const Filter& filter, const Scene& scene)
 
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
 
-/// A garment is the same cloth while it is put on and while its wearer moves.
-Parameters with_one_cloth(const Filter& filter, Parameters p)
-{
-    if (filter.has(Stage::drape))
-        p.recover.cloth = p.drape.cloth;
-    return p;
-}
-
 }  // namespace
 
 std::string_view name_of(Stage stage) { return row(stage).name; }
@@ -242,11 +234,17 @@ bool Filter::reads(Data data) const { return std::find(inputs.begin(), inputs.en
 
 bool Filter::makes(Data data) const { return std::find(outputs.begin(), outputs.end(), data) != outputs.end(); }
 
+const ClothOptions& Filter::cloth(const Parameters& parameters) const
+{
+    return has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
+}
+
 void Filter::run(Scene& scene, const Parameters& parameters, const Progress& progress) const
 {
     require_inputs(*this, scene);
     describe(*this, parameters, CheckRanges());
-    const Parameters p = with_one_cloth(*this, parameters);
+    Parameters p = parameters;
+    p.recover.cloth = cloth(parameters);
 
     double total = 0, done = 0;
     for (const Stage stage : stages)

@@ -77,6 +77,8 @@ struct Filter {
     bool has(Stage stage) const;
     bool reads(Data data) const;
     bool makes(Data data) const;
+    /// The same while a garment is put on and while its wearer moves, where the filter does both.
+    const ClothOptions& cloth(const Parameters& parameters) const;
 
     /// Checks inputs and ranges, then fills the outputs of each stage. Draping is the last one when not all
     /// could be put on.

@@ -19,6 +19,18 @@ FrameGuess chosen(FrameGuess guess, const FrameChoice& choice)
 
 }  // namespace
 
+const std::vector<std::string_view>& unit_choices()
+{
+    static const std::vector<std::string_view> choices { "auto", "m", "dm", "cm", "mm", "in", "ft" };
+    return choices;
+}
+
+const std::vector<std::string_view>& axis_choices()
+{
+    static const std::vector<std::string_view> choices { "auto", "+x", "-x", "+y", "-y", "+z", "-z" };
+    return choices;
+}
+
 FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice)
 {
     return chosen(guess_body_frame(positions, triangles), choice);

@@ -4,6 +4,8 @@
 // The door of every host: the user's word, or a guess, on a mesh's units and axes.
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "fit/units.h"
 
@@ -13,6 +15,10 @@ namespace fit {
 struct FrameChoice {
     std::string unit = "auto", up = "auto";
 };
+
+/// All that may be said, for hosts that show a list; "auto" comes first.
+const std::vector<std::string_view>& unit_choices();
+const std::vector<std::string_view>& axis_choices();
 
 /// The guess, with the user's word put before it; margins are 1 where the user said it. @throws InvalidInput.
 FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice = {});

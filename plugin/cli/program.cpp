@@ -75,8 +75,7 @@ void compute(const Call& call, Session& session)
     const Progress progress = bar.progress();
     const std::vector<std::string_view> names = filters_for(call, session);
     Parameters parameters = call.parameters;
-    if (call.filter->has(Stage::drape))
-        parameters.recover.cloth = parameters.drape.cloth;  // one flag for both
+    parameters.recover.cloth = call.filter->cloth(parameters);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double n = double(names.size());
         filter_of(names[i]).run(session.scene, parameters, progress.part(double(i) / n, double(i + 1) / n));

@@ -94,11 +94,12 @@ void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& 
 void read_frames(Choice& choice, const RichParameterList& list, const MenuEntry& entry)
 {
     if (entry.begins_with_body()) {
-        choice.body_frame = { read_word(list, k_unit, k_units), read_word(list, k_up, k_axes) };
-        choice.front = read_word(list, k_front, k_axes);
+        choice.body_frame = { read_word(list, k_unit, unit_choices()), read_word(list, k_up, axis_choices()) };
+        choice.front = read_word(list, k_front, axis_choices());
     }
     if (entry.filter && entry.filter->has(Stage::fit))
-        choice.garment_frame = { read_word(list, k_garment_unit, k_units), read_word(list, k_garment_up, k_axes) };
+        choice.garment_frame
+            = { read_word(list, k_garment_unit, unit_choices()), read_word(list, k_garment_up, axis_choices()) };
 }
 
 /// MeshLab's own dialog begins without a name, whatever the default.

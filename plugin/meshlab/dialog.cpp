@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fields.h"
+#include "filters/frame_choice.h"
 #include "fit/units.h"
 #include "fitting.h"
 #include "layers.h"
@@ -130,15 +131,15 @@ void add_garments(RichParameterList& list, const Defaults& defaults, ShownDocume
 void add_frames(RichParameterList& list, const MenuEntry& entry)
 {
     if (entry.begins_with_body()) {
-        add_choice(list, k_unit, k_units, "Unit of the body",
+        add_choice(list, k_unit, unit_choices(), "Unit of the body",
                    "MeshLab has no units; auto guesses from the body's size");
-        add_choice(list, k_up, k_axes, "Up axis of the body", "auto guesses from the body's shape");
-        add_choice(list, k_front, k_axes, "Front of the body", "Where the chest faces, roughly; auto finds it");
+        add_choice(list, k_up, axis_choices(), "Up axis of the body", "auto guesses from the body's shape");
+        add_choice(list, k_front, axis_choices(), "Front of the body", "Where the chest faces, roughly; auto finds it");
     }
     if (entry.filter && entry.filter->has(Stage::fit)) {
-        add_choice(list, k_garment_unit, k_units, "Unit of the garments",
+        add_choice(list, k_garment_unit, unit_choices(), "Unit of the garments",
                    "auto takes the body's unless their size speaks against it");
-        add_choice(list, k_garment_up, k_axes, "Up axis of the garments",
+        add_choice(list, k_garment_up, axis_choices(), "Up axis of the garments",
                    "auto takes the body's unless their shape speaks against it");
     }
 }

@@ -18,8 +18,6 @@ inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit =
 inline const QString k_garments[] = { "garment", "second_garment", "third_garment" };
 inline const QString k_types[] = { "type", "second_type", "third_type" };
 
-inline const std::vector<std::string_view> k_units { "auto", "m", "dm", "cm", "mm", "in", "ft" };
-inline const std::vector<std::string_view> k_axes { "auto", "+x", "-x", "+y", "-y", "+z", "-z" };
 inline const std::vector<std::string_view> k_maps { "ease", "strain", "pressure", "none" };
 
 inline QString text(std::string_view words) { return QString::fromUtf8(words.data(), int(words.size())); }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "filters/filters.h"
+#include "filters/frame_choice.h"
 
 namespace {
 
@@ -107,30 +108,27 @@ void print_input(std::ostream& out, const char* name, int port, const char* help
 
 /// A text that the setter takes, out of a list.
 void print_choice(std::ostream& out, const std::string& name, const std::string& help,
-                  const std::vector<const char*>& values)
+                  const std::vector<std::string_view>& values)
 {
     out << "      <StringVectorProperty name=\"" << name << "\" label=\"" << label_of(name) << "\" command=\"Set"
         << name << "\" number_of_elements=\"1\" default_values=\"auto\" panel_visibility=\"advanced\">\n"
         << "        <StringListDomain name=\"list\">\n";
-    for (const char* value : values)
+    for (const std::string_view value : values)
         out << "          <String value=\"" << value << "\"/>\n";
     out << "        </StringListDomain>\n        <Documentation>" << help << "</Documentation>\n"
         << "      </StringVectorProperty>\n";
 }
 
-const std::vector<const char*> k_units { "auto", "m", "dm", "cm", "mm", "in", "ft" };
-const std::vector<const char*> k_axes { "auto", "+x", "-x", "+y", "-y", "+z", "-z" };
-
 void print_choices(std::ostream& out, const Filter& filter)
 {
     if (filter.has(Stage::rig)) {
-        print_choice(out, "Unit", "Unit of the body.", k_units);
-        print_choice(out, "Up", "Up axis of the body.", k_axes);
-        print_choice(out, "Front", "Where the chest faces.", k_axes);
+        print_choice(out, "Unit", "Unit of the body.", unit_choices());
+        print_choice(out, "Up", "Up axis of the body.", axis_choices());
+        print_choice(out, "Front", "Where the chest faces.", axis_choices());
     }
     if (filter.has(Stage::fit)) {
-        print_choice(out, "GarmentUnit", "Unit of the garments.", k_units);
-        print_choice(out, "GarmentUp", "Up axis of the garments.", k_axes);
+        print_choice(out, "GarmentUnit", "Unit of the garments.", unit_choices());
+        print_choice(out, "GarmentUp", "Up axis of the garments.", axis_choices());
     }
 }
 

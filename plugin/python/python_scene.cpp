@@ -170,7 +170,7 @@ PythonScene run(const PythonScene& given, const std::string& name, const nb::dic
     const Progress report = progress_to(progress);
     const nb::gil_scoped_release others_may_run;
     filter.run(made.scene, parameters, report);
-    made.cloth = filter.has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
+    made.cloth = filter.cloth(parameters);
     return made;
 }
 

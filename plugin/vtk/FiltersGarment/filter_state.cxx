@@ -105,7 +105,7 @@ bool FilterState::has(Stage stage) const
 void FilterState::run(Stage stage, const Progress& progress)
 {
     Parameters p = parameters;
-    p.recover.cloth = cloth();
+    p.recover.cloth = filter.cloth(parameters);
     try {
         filter_of(name_of(stage)).run(known_.scene, p, progress);
     } catch (...) {
@@ -137,12 +137,7 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
 
 // ---- what is shown ---------------------------------------------------------------------------------------------------
 
-const ClothOptions& FilterState::cloth() const
-{
-    return filter.has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
-}
-
-Moment FilterState::moment(double time) const { return moment_of(known_.scene, time, cloth()); }
+Moment FilterState::moment(double time) const { return moment_of(known_.scene, time, filter.cloth(parameters)); }
 
 std::string FilterState::note() const
 {

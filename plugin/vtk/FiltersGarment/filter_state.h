@@ -62,7 +62,6 @@ private:
     bool has(Stage stage) const;
     void run(Stage stage, const Progress& progress);
     void run(const Progress& progress);
-    const ClothOptions& cloth() const;
 
     KnownScene known_;
     Source body_source_, garment_source_;
