@@ -2,6 +2,7 @@
 
 // The plugin in MeshLab 2020.09's own PluginManager, without windows.
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -238,21 +239,56 @@ TEST_F(MeshLab, ShowsTheWeightOfTheChosenBoneAsQuality)
     EXPECT_GT(most, 0.9F);
 }
 
+/// Body and skirt with a matrix, or moved themselves; rigged and fitted.
+void fit_moved(MeshDocument& document, const Matrix44m& matrix, bool by_layer)
+{
+    for (const fs::path& file : { k_body, k_skirt }) {
+        MeshModel& layer = meshlab::open_layer(document, file);
+        if (by_layer)
+            layer.cm.Tr = matrix;
+        else
+            for (CVertexO& vertex : layer.cm.vert)
+                vertex.P() = matrix * vertex.cP();
+    }
+    ASSERT_TRUE(run("Rig Body", document).well);
+    ASSERT_TRUE(run("Fit Skeleton", document).well);
+}
+
 TEST_F(MeshLab, TakesTheLayersMatrixForWhatIsSeen)
+{
+    const Matrix44m z_up = Matrix44m(std::array<float, 16> { 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1 }.data()),
+                    aside = Matrix44m(std::array<float, 16> { 0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1 }.data()),
+                    millimetres = Matrix44m().SetScale(1024, 1024, 1024);  // nearly; a power of two rounds no number
+    for (const Matrix44m& matrix : { z_up, aside, millimetres, millimetres * z_up * aside }) {
+        MeshDocument by_layer, by_mesh;
+        fit_moved(by_layer, matrix, true);
+        fit_moved(by_mesh, matrix, false);
+        ASSERT_EQ(names_of(by_layer), names_of(by_mesh));
+        for (int made = 2; made < by_mesh.size(); ++made) {
+            EXPECT_EQ(by_layer.meshList[made]->cm.Tr, Matrix44m().Identity());
+            for (int vertex = 0; vertex < by_mesh.meshList[made]->cm.vn; ++vertex)
+                ASSERT_EQ(point_of(*by_layer.meshList[made], vertex), point_of(*by_mesh.meshList[made], vertex));
+        }
+    }
+}
+
+TEST_F(MeshLab, RigsAShiftedTurnedAndScaledLayerWhereItIsSeen)
 {
     meshlab::open_layer(document, k_body);
     MeshDocument moved;
+    const float scale = 39.37F;  // to inches
+    const Matrix44m matrix = Matrix44m().SetTranslate(3, -0.5F, 1) * Matrix44m().SetRotateDeg(50, Point3m(0, 1, 0))
+        * Matrix44m().SetScale(scale, scale, scale);
     MeshModel& body = meshlab::open_layer(moved, k_body);
-    body.cm.Tr.SetTranslate(3, -0.5, 1);
+    body.cm.Tr = matrix;
     ASSERT_TRUE(run("Rig Body", document).well);
     ASSERT_TRUE(run("Rig Body", moved).well);
-    for (int joint = 0; joint < 1 + bone_count; ++joint)
-        EXPECT_NEAR(
-            (point_of(*moved.meshList[2], joint) - point_of(*document.meshList[2], joint) - Vec3(3, -0.5, 1)).norm(), 0,
-            0.02)
-            << joint;
-    EXPECT_NEAR(point_of(*moved.meshList[1], 0).x(), point_of(body, 0).x() + 3, 1e-5);
-    EXPECT_EQ(moved.meshList[1]->cm.Tr, Matrix44m().Identity());
+    for (int joint = 0; joint < 1 + bone_count; ++joint) {
+        const Point3m expected = matrix * document.meshList[2]->cm.vert[joint].cP();
+        EXPECT_LT((moved.meshList[2]->cm.vert[joint].cP() - expected).Norm(), 0.04 * scale) << joint;
+    }
+    for (int vertex = 0; vertex < body.cm.vn; ++vertex)
+        ASSERT_LT((moved.meshList[1]->cm.vert[vertex].cP() - matrix * body.cm.vert[vertex].cP()).Norm(), 1e-6 * scale);
 }
 
 TEST_F(MeshLab, SkipsDeletedVerticesAndKeepsThem)
