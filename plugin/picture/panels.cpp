@@ -304,6 +304,24 @@ vtkNew<vtkRenderer> renderer_of(const Panel& panel, double scale)
     return renderer;
 }
 
+/// What stands behind the panels: paper and words.
+vtkNew<vtkRenderer> page_of(const std::string& headline, int font)
+{
+    vtkNew<vtkRenderer> page;
+    page->SetBackground(k_paper.data());
+    page->AddActor2D(text_of(headline, font, 0.5, 1 - 0.5 * k_text_height));
+    return page;
+}
+
+/// Right of the panels, which end at `left`.
+void add_legend(vtkRenderer* page, const Scale& scale, int font, double left)
+{
+    const vtkNew<vtkScalarBarActor> legend = legend_of(scale, font);
+    legend->SetPosition(left + 0.2 * (1 - left), 0.2);
+    legend->SetPosition2(0.6 * (1 - left), 0.6);
+    page->AddActor2D(legend);
+}
+
 void write_png(vtkRenderWindow* window, const std::filesystem::path& png)
 {
     vtkNew<vtkWindowToImageFilter> pixels;
@@ -330,9 +348,7 @@ void draw(const std::vector<Panel>& panels, const std::string& headline, int hei
     window->SetMultiSamples(8);
     window->SetSize(static_cast<int>(std::lround(all_aspects * figure_height * height)), height);
 
-    vtkNew<vtkRenderer> page;  // behind the panels: paper and words
-    page->SetBackground(k_paper.data());
-    page->AddActor2D(text_of(headline, font, 0.5, 1 - 0.5 * k_text_height));
+    const vtkNew<vtkRenderer> page = page_of(headline, font);
     window->AddRenderer(page);
 
     double left = 0;
@@ -344,12 +360,8 @@ void draw(const std::vector<Panel>& panels, const std::string& headline, int hei
         window->AddRenderer(renderer);
         left = right;
     }
-    if (has_legend) {
-        const vtkNew<vtkScalarBarActor> legend = legend_of(panels.front().state->scale, font);
-        legend->SetPosition(left + 0.2 * (1 - left), 0.2);
-        legend->SetPosition2(0.6 * (1 - left), 0.6);
-        page->AddActor2D(legend);
-    }
+    if (has_legend)
+        add_legend(page, panels.front().state->scale, font, left);
     window->Render();
     write_png(window, png);
 }
