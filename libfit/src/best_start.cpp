@@ -180,6 +180,37 @@ std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search
     return result;
 }
 
+void polish(const SkeletonSearch& search, std::vector<Scored>& candidates)
+{
+    parallel_for<std::size_t>(candidates.size(),
+                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
+}
+
+// Bones stay stuck in the cloth, or a limb that should be worn is not.
+bool has_failed(const SkeletonSearch& search, const Posture& posture)
+{
+    if (search.bones_through_cloth(posture) > 0)
+        return true;
+    const Skeleton joints = placed(search.own(), posture).joints;
+    return std::any_of(k_limbs.begin(), k_limbs.end(), [&](const Limb& limb) {
+        const int upper = limb.bones[0];
+        return is_worn(search, limb) && search.metric().samples_inside(joints.head(upper), joints.tail(upper)) == 0;
+    });
+}
+
+// Of those that face as one does that the polish could not mend.
+std::vector<Scored> others_instead(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& polished,
+                                   const std::vector<Scored>& sorted)
+{
+    std::vector<Scored> result;
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (std::any_of(polished.begin(), polished.end(), [&](const Scored& one) {
+                return !faces_away(rig, one, sorted[i]) && has_failed(search, one.posture);
+            }))
+            result.push_back(sorted[i]);
+    return result;
+}
+
 }  // namespace
 
 Eigen::Quaterniond upright(const Rig& rig, double heading)
@@ -196,9 +227,12 @@ BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progres
                               [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
     progress.at(0.6);
     std::stable_sort(candidates.begin(), candidates.end(), better);
-    candidates = both_ways_round(rig, search, candidates);
-    parallel_for<std::size_t>(candidates.size(),
-                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
+    const std::vector<Scored> sorted = candidates;
+    candidates = both_ways_round(rig, search, sorted);
+    polish(search, candidates);
+    std::vector<Scored> others = others_instead(rig, search, candidates, sorted);
+    polish(search, others);
+    candidates.insert(candidates.end(), others.begin(), others.end());
     progress.at(0.8);
     std::stable_sort(candidates.begin(), candidates.end(), better);
     const auto other = std::find_if(candidates.begin(), candidates.end(),

@@ -33,6 +33,7 @@ constexpr int k_most_stuck = 1;  // bones that pass through cloth before they ar
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
 constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
 constexpr double k_spoken_for = 0.5;  // m of energy that clear evidence for a way up is worth
+constexpr double k_as_given = 1;  // m of energy; most garments are given the way they are worn, and so is one of which nothing else is known
 constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than that do not compete
 
 // The evidence: of the bones that the type names, those that have at least so many of their five samples inside.
@@ -132,7 +133,9 @@ Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, 
 {
     if (share_of_room(search, posture) < k_tight)
         return posture;
-    const Posture together = raised(search, posture, paper, k_last_steps);
+    // Twice: where small steps led to the end of the first climb, large ones may go on.
+    const Posture first = raised(search, posture, paper, k_last_steps),
+                  together = raised(search, first, paper, k_last_steps);
     return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
 }
 
@@ -246,6 +249,13 @@ struct Tried {
     Vec3 up() const { return turn.conjugate() * Vec3::UnitY(); }
 };
 
+bool is_as_given(const WayUp& way) { return way.turn.w() == 1; }
+
+double spoken_for(const WayUp& way)
+{
+    return is_as_given(way) && way.evidence <= 0 ? k_as_given : k_spoken_for * way.evidence;
+}
+
 bool is_spoken_for(const Tried& best) { return best.attempt && best.evidence > 0; }
 
 // How much better the best is than any that is really another way up.
@@ -270,7 +280,7 @@ Tried best_of(const Rig& rig, const Seen& garment, const std::vector<WayUp>& way
         try {
             auto attempt
                 = std::make_unique<const Attempt>(rig, turned(garment, ways[i].turn), given, progress.part(from, from));
-            const double merit = attempt->merit() + k_spoken_for * ways[i].evidence;
+            const double merit = attempt->merit() + spoken_for(ways[i]);
             merits.emplace_back(ways[i].turn.conjugate() * Vec3::UnitY(), merit);
             if (!best.attempt || merit > best.merit)
                 best = { std::move(attempt), ways[i].turn, merit, ways[i].evidence };
