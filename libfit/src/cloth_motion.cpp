@@ -99,6 +99,12 @@ void ClothMotion::set_rest(const GarmentMesh& rest)
     energy_.emplace(rest_, ties_, options_);
 }
 
+void ClothMotion::put_back(const Positions& state)
+{
+    x_ = state;
+    velocity_.setZero();
+}
+
 Positions ClothMotion::cloth() const { return weld_.spread(x_.topRows(cloth_vertices_)); }
 
 double ClothMotion::speed() const { return velocity_.rowwise().norm().maxCoeff(); }

@@ -52,6 +52,11 @@ public:
     /// @return the longest way that an obstacle vertex still has to its target, metres
     double advance(const MotionStep& step);
 
+    /// Everything's place, to be put back there later.
+    const Positions& state() const { return x_; }
+    /// Puts cloth and obstacle back where they were, at rest.
+    void put_back(const Positions& state);
+
     Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
     const ClothSeconds& seconds() const { return seconds_; }

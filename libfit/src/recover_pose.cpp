@@ -159,6 +159,7 @@ private:
 
 struct Gone {
     double in_place = 0;  ///< the last share of the way at which the whole body was in its place
+    Positions state;  ///< of the motion, there
     double share = 0;  ///< how far the way was gone: 1, or less where the body got stuck
 };
 
@@ -171,7 +172,7 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
     MotionStep step;
     step.gravity = k_gravity;
     step.friction_share = k_moving_friction;
-    Gone gone;
+    Gone gone { 0, motion.state(), 0 };
     for (int i = 1; i <= steps; ++i) {
         progress.at(double(i) / steps);
         const double t = double(i) / steps;
@@ -181,8 +182,10 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
         step.obstacle_target = &target;
         const double lag = motion.advance(step);
         gone.share = t;
-        if (lag < k_in_place)
+        if (lag < k_in_place) {
             gone.in_place = t;
+            gone.state = motion.state();
+        }
         if (lag > k_stuck)
             return gone;
         if (i < steps)
@@ -220,9 +223,10 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     recording.see(motion, 0);
     const Gone gone = go(motion, way, rig.weights, cloth_weights, options, recording, progress.part(0, 0.8));
     const bool stuck = gone.share < 1;
-    if (stuck)
+    if (stuck) {
         result.held_back = held_back(motion.obstacle(), way.bridged(gone.share), rig.weights);
-    else {
+        motion.put_back(gone.state);
+    } else {
         motion.carry_obstacle(way.withdrawn());
         motion.carry_obstacle(way.at(1));
     }
