@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 
@@ -19,6 +20,7 @@ constexpr std::size_t k_places_a_heading = 4, k_wide_starts = 6;
 constexpr double k_clear_front = 0.5;  // m; a garment that much better one way round leaves no doubt
 constexpr double k_early_crossing = 0.1;  // of a crossing's cost
 constexpr double k_same_heading = 0.25;  // rad
+constexpr double k_promising = 0.3;  // m of energy; worth the work of freeing bones
 constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
 constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
 constexpr Reach k_near_limbs { 0.6, 0.15, 8, true };
@@ -168,6 +170,16 @@ Posture freed(const SkeletonSearch& search, Posture present)
     return present;
 }
 
+// The best but for what still passes through cloth, if that makes a clear difference.
+std::optional<Scored> best_if_freed(const SkeletonSearch& search, const std::vector<Scored>& sorted)
+{
+    const auto most = std::max_element(sorted.begin(), sorted.end(), [&](const Scored& a, const Scored& b) {
+        return search.energy(a.posture) < search.energy(b.posture);
+    });
+    const bool is_clear = search.energy(most->posture) > search.energy(sorted[0].posture) + k_promising;
+    return is_clear ? std::optional<Scored>(*most) : std::nullopt;
+}
+
 // The best start, the best that faces the other way, and the best turned half round: most garments have as much room like that.
 std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& sorted)
 {
@@ -177,6 +189,8 @@ std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search
     if (other != sorted.end())
         result.push_back(*other);
     result.push_back(with_limbs_found(search, search.turned(sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
+    if (const auto freed = best_if_freed(search, sorted))
+        result.push_back(*freed);
     return result;
 }
 

@@ -148,7 +148,7 @@ std::vector<Posture> with_mean_root(std::vector<Posture> postures)
 
 double angle_apart(const OwnFit& a, const OwnFit& b, int bone)
 {
-    return std::acos(std::clamp(a.direction_from_root(bone).dot(b.direction_from_root(bone)), -1.0, 1.0));
+    return angle_between(a.direction_from_root(bone), b.direction_from_root(bone));
 }
 
 // With the garment that holds the bone furthest from where this one has it; rather one that covers it.

@@ -53,7 +53,7 @@ Anatomy anatomy_of(const Rig& rig)
 
 Vec3 within(double angle, const Vec3& axis, const Vec3& direction)
 {
-    const double present = std::acos(std::clamp(axis.dot(direction), -1.0, 1.0));
+    const double present = angle_between(axis, direction);
     if (present <= angle)
         return direction;
     return Eigen::Quaterniond::Identity().slerp(angle / present, shortest_arc(axis, direction)) * axis;
@@ -84,7 +84,7 @@ Vec3 standing(int bone, const Skeleton& own, const Anatomy& a)
 Vec3 hinge_direction(int bone, const Skeleton& own, const Anatomy& a)
 {
     const Vec3 upper = own.direction(parent_of(bone)), lower = own.direction(bone);
-    if (std::acos(std::clamp(upper.dot(lower), -1.0, 1.0)) > k_bent_limb)
+    if (angle_between(upper, lower) > k_bent_limb)
         return across_of(upper, lower);
     if (bone == ltibia || bone == rtibia)
         return across_of(upper, shortest_arc(-a.up, upper) * -a.front);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "posture.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fit {
+
+double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); }
 
 Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
 {
@@ -10,6 +15,7 @@ Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
         const Vec3 axis = from.unitOrthogonal();
         return { 0, axis.x(), axis.y(), axis.z() };
     }
+
     const Vec3 axis = from.cross(to);
     return Eigen::Quaterniond(w, axis.x(), axis.y(), axis.z()).normalized();
 }

@@ -32,6 +32,8 @@ struct PlacedBones {
 /// The shortest rotation that takes one unit vector to another.
 Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to);
 
+double angle_between(const Vec3& a, const Vec3& b);  ///< rad, of unit vectors
+
 /// The turn of a bone that points along `direction` and hangs on a bone turned by `parent_turn`.
 Eigen::Quaterniond bone_turn(const Skeleton& own, int bone, const Eigen::Quaterniond& parent_turn, const Vec3& direction);
 

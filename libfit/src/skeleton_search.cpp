@@ -40,8 +40,6 @@ constexpr std::array<int, 9> k_placed { lhipjoint, rhipjoint, lowerback, upperba
 
 bool is_trunk(int bone) { return std::find(k_trunk.begin(), k_trunk.end(), bone) != k_trunk.end(); }
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); }
-
 bool is_foot(Extremity extremity) { return extremity == lfoot_tip || extremity == rfoot_tip; }
 
 // Ankles and wrists do not bend: what lies beyond is as the body held it.

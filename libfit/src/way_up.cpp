@@ -19,8 +19,6 @@ namespace {
 constexpr double k_nearly_along = 0.26;  // rad, 15 degrees: so far a worn garment's axes lean from the vertical
 constexpr double k_apart = 0.17;  // rad; between ways that are worth trying apart
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); }
-
 // Along which the cloth is spread, most first.
 std::vector<Vec3> axes_of(const TriangleMesh& cloth)
 {
