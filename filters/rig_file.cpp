@@ -85,12 +85,13 @@ Json ends(const Frame& frame, const Skeleton& skeleton, int bone)
     return { { "head", point(frame, skeleton.head(bone)) }, { "tail", point(frame, skeleton.tail(bone)) } };
 }
 
-Json bones_of(const Frame& frame, const Skeleton& skeleton)
+Json bones_of(const Frame& frame, const Rig& rig)
 {
     Json bones = Json::array();
     for (int b = 0; b < bone_count; ++b) {
         Json bone { { "name", bone_name(b) }, { "parent", parent_of(b) < 0 ? "root" : bone_name(parent_of(b)) } };
-        bone.update(ends(frame, skeleton, b));
+        bone.update(ends(frame, rig.skeleton, b));
+        bone["radius"] = rig.radii[b] / frame.metres_per_unit;
         bones.push_back(bone);
     }
     return bones;
@@ -194,6 +195,15 @@ Json weights_of(const SkinWeights& skin)
              { "values", std::vector<double>(skin.weights.data(), skin.weights.data() + skin.weights.size()) } };
 }
 
+/// 0, which is unknown, in files of programs that do not measure them.
+std::array<double, bone_count> radii_of(const Frame& frame, const Json& json)
+{
+    std::array<double, bone_count> radii {};
+    for (const Json& bone : json.at("bones"))
+        radii[bone_of(bone.at("name").get<std::string>())] = bone.value("radius", 0.0) * frame.metres_per_unit;
+    return radii;
+}
+
 SkinWeights weights_of(const Json& json)
 {
     const auto bones = json.at("bones").get<std::vector<int>>();
@@ -220,6 +230,7 @@ RigFile rig_file_of(const Json& json)
     RigFile contents;
     contents.frame = frame_of(json);
     contents.rig.skeleton = skeleton_of(contents.frame, json);
+    contents.rig.radii = radii_of(contents.frame, json);
     contents.rig.up = direction(contents.frame, json.at("trunk_up"));
     contents.rig.front = direction(contents.frame, json.at("front"));
     contents.rig.side_margin = json.at("side_margin").get<double>();
@@ -305,7 +316,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
     json["trunk_up"] = direction(contents.frame, contents.rig.up);
     json["side_margin"] = contents.rig.side_margin;
     json["root"] = point(contents.frame, skeleton.root);
-    json["bones"] = bones_of(contents.frame, skeleton);
+    json["bones"] = bones_of(contents.frame, contents.rig);
     json["tips"] = tips_of(contents.frame, skeleton);
     if (!contents.garments.empty())
         json["fitted"] = fitted_joints(contents.frame, posed(skeleton, contents.garments.back().fit.pose));

@@ -5,6 +5,7 @@
 
 #include "filters/joint_names.h"
 #include "filters/outcome.h"
+#include "filters/own_rig.h"
 #include "fit/error.h"
 
 namespace fit {
@@ -219,14 +220,11 @@ MeshArrays arrays_of_skeleton()
              {} };
 }
 
-Rig rig_from(const FindArray& find, Eigen::Index vertices)
+Rig rig_from(const FindArray& find, const Positions& own)
 {
     Rig rig;
     rig.weights = weights_of(required(find, "JointIndices", -1, 4, k_rig_first),
                              required(find, "JointWeights", -1, 4, k_rig_first));
-    if (rig.weights.weights.rows() != vertices)
-        throw InvalidInput("the rig belongs to a body of " + std::to_string(rig.weights.weights.rows())
-                           + " vertices, this one has " + std::to_string(vertices) + "; rig this body");
     rig.skeleton = skeleton_of(required(find, "RigJoints", k_joint_rows, 3, k_rig_first));
     const Rows axes = required(find, "RigAxes", 2, 3, k_rig_first);
     const Rows radii = required(find, "RigRadii", bone_count, 1, k_rig_first);
@@ -234,7 +232,7 @@ Rig rig_from(const FindArray& find, Eigen::Index vertices)
     rig.front = axes.row(1);
     std::copy_n(radii.data(), radii.size(), rig.radii.begin());
     rig.side_margin = required(find, "RigSideMargin", 1, 1, k_rig_first)(0, 0);
-    return rig;
+    return rig_on(std::move(rig), own);
 }
 
 Frame body_frame_from(const FindArray& find)

@@ -65,7 +65,8 @@ using FindArray = std::function<std::optional<Rows>(const char* name)>;
 
 /// @throws InvalidInput naming the array that is missing or mangled and the filter that makes it, or both numbers of
 ///         vertices where the rig is another body's. So do the others.
-Rig rig_from(const FindArray& find, Eigen::Index vertices);
+/// @param own  the body's positions in its own pose, metres
+Rig rig_from(const FindArray& find, const Positions& own);
 Frame body_frame_from(const FindArray& find);
 std::vector<FitResult> fits_from(const FindArray& find);
 Pose dressed_pose_from(const FindArray& find);

@@ -16,6 +16,7 @@ RigFile small_rig()
     contents.frame = { 0.01, Vec3::UnitZ() };
     for (int b = 0; b < bone_count; ++b)
         contents.rig.skeleton.tails[b] = { 0.1 * b, 1. / 3, -0.2 };
+    contents.rig.radii[lfemur] = 0.07;
     contents.rig.weights.bones.resize(2, 4);
     contents.rig.weights.bones << lfemur, ltibia, 0, 0, thorax, 0, 0, 0;
     contents.rig.weights.weights.resize(2, 4);
@@ -41,6 +42,7 @@ TEST_F(RigFiles, GiveWeightsBackWithTheVeryBitsTheyWereWrittenWith)
     EXPECT_EQ(read.rig.weights.bones, written.rig.weights.bones);
     EXPECT_EQ(read.rig.weights.weights, written.rig.weights.weights);
     EXPECT_EQ(read.frame.metres_per_unit, written.frame.metres_per_unit);
+    EXPECT_NEAR(read.rig.radii[lfemur], 0.07, 1e-15);
     EXPECT_NEAR((read.rig.skeleton.tails[rradius] - written.rig.skeleton.tails[rradius]).norm(), 0, 1e-15);
 }
 

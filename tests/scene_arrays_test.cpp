@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "filters/own_rig.h"
 #include "fixtures.h"
 
 namespace fit {
@@ -33,14 +34,14 @@ FindArray find_in(const std::map<std::string, Rows>& arrays)
 }
 
 struct SceneArrays : testing::Test {
-    const Rig rig = simple_rig(capsule_person());
-    const Eigen::Index vertices = rig.weights.weights.rows();
+    const Positions own = capsule_person().mesh.positions;
+    const Rig rig = rig_on(simple_rig(capsule_person()), own);
     std::map<std::string, Rows> arrays = by_name(arrays_of(rig, { 0.01, Vec3::UnitZ() }));
 };
 
 TEST_F(SceneArrays, GiveARigBackWithTheVeryBitsItWasWrittenWith)
 {
-    const Rig back = rig_from(find_in(arrays), vertices);
+    const Rig back = rig_from(find_in(arrays), own);
     EXPECT_EQ(back.weights.bones, rig.weights.bones);
     EXPECT_EQ(back.weights.weights, rig.weights.weights);
     EXPECT_EQ(back.skeleton.tails, rig.skeleton.tails);
@@ -52,11 +53,11 @@ TEST_F(SceneArrays, GiveARigBackWithTheVeryBitsItWasWrittenWith)
 
 TEST_F(SceneArrays, NameWhatIsMissingMangledOrAnotherBodys)
 {
-    expect_invalid([&] { rig_from(find_in(arrays), vertices + 1); }, "belongs to a body of");
+    expect_invalid([&] { rig_from(find_in(arrays), own.topRows(7)); }, "belongs to a body of");
     arrays["RigRadii"].conservativeResize(3, 1);
-    expect_invalid([&] { rig_from(find_in(arrays), vertices); }, "RigRadii");
+    expect_invalid([&] { rig_from(find_in(arrays), own); }, "RigRadii");
     arrays.erase("RigJoints");
-    expect_invalid([&] { rig_from(find_in(arrays), vertices); }, "RigJoints");
+    expect_invalid([&] { rig_from(find_in(arrays), own); }, "RigJoints");
     arrays["BodyFrame"](0, 0) = -1;
     expect_invalid([&] { body_frame_from(find_in(arrays)); }, "BodyFrame");
     expect_invalid([&] { fits_from(find_in(arrays)); }, "Fit Skeleton");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "filters/moment.h"
+#include "filters/own_rig.h"
 #include "filters/rig_file.h"
 #include "fit/error.h"
 #include "fit/reconstruct.h"
@@ -55,14 +56,6 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     session.garments.push_back(std::move(garment));
 }
 
-void require_same_count(const Session& session, const fs::path& rig)
-{
-    const auto rigged = session.scene.rig->weights.weights.rows(), given = session.body.file.positions().rows();
-    if (rigged != given)
-        throw InvalidInput(rig.string() + " belongs to a body of " + std::to_string(rigged) + " vertices, "
-                           + session.body.path.string() + " has " + std::to_string(given) + "; rig this body");
-}
-
 /// The units and axes in which a rig's own mesh lies on the body: the body's, or glTF's own.
 Frame frame_on_body(const Session& session, const fs::path& glb)
 {
@@ -85,13 +78,10 @@ void read_skinned(Session& session, const fs::path& glb)
     rig.skeleton.root = in_metres(rig.skeleton.root);
     std::transform(rig.skeleton.tails.begin(), rig.skeleton.tails.end(), rig.skeleton.tails.begin(), in_metres);
     std::transform(rig.skeleton.tips.begin(), rig.skeleton.tips.end(), rig.skeleton.tips.begin(), in_metres);
-    session.scene.rig = std::move(rig);
-    require_same_count(session, glb);
-    Rig& made = *session.scene.rig;
-    made.up = (made.skeleton.tail(thorax) - made.skeleton.root).normalized();
-    made.front = (made.skeleton.tail(lhipjoint) - made.skeleton.tail(rhipjoint)).cross(made.up).normalized();
-    made.side_margin = 1;
-    made.radii = bone_radii(made.skeleton, made.weights, session.scene.body->surface.positions);
+    rig.up = (rig.skeleton.tail(thorax) - rig.skeleton.root).normalized();
+    rig.front = (rig.skeleton.tail(lhipjoint) - rig.skeleton.tail(rhipjoint)).cross(rig.up).normalized();
+    rig.side_margin = 1;
+    session.scene.rig = rig_on(std::move(rig), session.scene.body->surface.positions, glb.string());
 }
 
 /// Body, rig and fits as `fit` and `drape` leave them; the garments as given lie in `rest`.
@@ -157,11 +147,10 @@ bool read_rig(Session& session, const fs::path& rig)
     if (!fs::exists(rig.parent_path() / "rigged.ply") && !read_rig_file(rig).has_weights())
         return false;
     const RigFile contents = read_whole_rig(rig);
-    session.scene.rig = contents.rig;
-    require_same_count(session, rig);
     if (!same(contents.frame, session.body.frame.frame))
         throw InvalidInput(rig.string() + " has other units or axes than were found for " + session.body.path.string()
                            + "; give the same --unit and --up as to garmentfit rig");
+    session.scene.rig = rig_on(contents.rig, session.scene.body->surface.positions, rig.string());
     return true;
 }
 

@@ -4,6 +4,8 @@
 #include <map>
 #include <mutex>
 
+#include "filters/own_rig.h"
+
 namespace fit::meshlab {
 namespace {
 
@@ -109,17 +111,11 @@ std::filesystem::path rig_file_beside(const MeshModel& body)
 Fitting fitting_from_file(const std::filesystem::path& path, const std::string& body_name, const TriangleMesh& body)
 {
     RigFile contents = read_whole_rig(path);
-    const auto rigged = contents.rig.weights.weights.rows();
-    if (rigged != body.positions.rows())
-        throw InvalidInput(path.string() + " belongs to a body of " + std::to_string(rigged) + " vertices, " + body_name
-                           + " has " + std::to_string(body.positions.rows()) + "; choose the layer that was rigged");
     Fitting fitting;
     fitting.body_name = body_name;
     fitting.body_frame = contents.frame;
     fitting.scene.body = make_body(contents.frame.to_metres(body.positions), body.triangles);
-    fitting.scene.rig = std::move(contents.rig);
-    fitting.scene.rig->radii
-        = bone_radii(fitting.scene.rig->skeleton, fitting.scene.rig->weights, fitting.scene.body->surface.positions);
+    fitting.scene.rig = rig_on(std::move(contents.rig), fitting.scene.body->surface.positions, path.string());
     for (const FittedGarment& garment : contents.garments) {
         fitting.garment_names.push_back(garment.file);
         fitting.garment_frames.push_back(garment.frame);

@@ -133,7 +133,7 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
     const FindArray find_array = find_with(find);
     made.body_frame = body_frame_from(find_array);
     made.scene.body = body_from(made.body_frame, positions_from(positions), triangles_from(triangles));
-    made.scene.rig = rig_from(find_array, Eigen::Index(positions.shape(0)));
+    made.scene.rig = rig_from(find_array, made.scene.body->surface.positions);
     if (fitted)
         made.scene.fits = fits_from(find_array);
     return made;

@@ -428,13 +428,18 @@ TEST_F(MeshLab, RefusesAnotherBodysRig)
     meshlab::open_layer(document, folder / "woman.ply");
     ASSERT_TRUE(run("Rig Body", document).well);
     ASSERT_TRUE(run("Save Rig", document).well);
-    const RichParameterList list = dialog_of("Load Rig", document);
     MeshDocument other;
     const MeshFile skirt = MeshFile::read(k_skirt);
     meshlab::add_mesh(other, folder / "woman.ply", { skirt.positions(), skirt.triangles() });
-    const Ended loaded = run("Load Rig", other, dialog_of("Load Rig", other));
+    const Ended loaded = run("Load Rig", other);
     EXPECT_FALSE(loaded.well);
     EXPECT_NE(loaded.message.find("belongs to a body of 13380 vertices"), std::string::npos) << loaded.message;
+
+    MeshDocument taller;
+    meshlab::open_layer(taller, folder / "woman.ply").cm.Tr.SetScale(1.1F, 1.1F, 1.1F);
+    const Ended loaded_on_taller = run("Load Rig", taller);
+    EXPECT_FALSE(loaded_on_taller.well);
+    EXPECT_NE(loaded_on_taller.message.find("belongs to another body"), std::string::npos) << loaded_on_taller.message;
 }
 
 TEST_F(MeshLab, StopsWhenToldToAndRunsAgainAfterwards)

@@ -67,7 +67,7 @@ def _find_in(data: vtkPolyData) -> Callable[[str], Optional[np.ndarray]]:
 
 def _mesh(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
     """Points, or those kept under a name, and polygons as fans of triangles."""
-    if data.GetNumberOfPolys() == 0 or data.GetNumberOfStrips():
+    if data.GetNumberOfPolys() == 0 or data.GetNumberOfStrips() or data.GetNumberOfPoints() == 0:
         raise InvalidInput(f"{what} has {data.GetNumberOfPolys()} polygons, {data.GetNumberOfPoints()} points, "
                            f"{data.GetNumberOfLines()} lines and {data.GetNumberOfStrips()} strips; give a surface of polygons, "
                            "of strips vtkTriangleFilter makes one")
@@ -244,6 +244,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         return super().ProcessRequest(request, inputs, outputs)
 
     def RequestDataObject(self, request: Any, inputs: Any, outputs: Any) -> int:
+        self.error = None  # an input that the executive refuses never gets to RequestData
         for port in range(self.GetNumberOfOutputPorts()):
             info = outputs.GetInformationObject(port)
             garments = port == 1 and port != self.skeleton_port
@@ -272,7 +273,6 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 for port in range(self.GetNumberOfInputPorts())]
         made = [outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                 for port in range(self.GetNumberOfOutputPorts())]
-        self.error = None
         try:
             scene = self._updated(data[0], data[1] if len(data) > 1 else None)
             self._write(scene, self._time(request, outputs), data, made)

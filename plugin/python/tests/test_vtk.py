@@ -135,6 +135,10 @@ def only_lines(data):
     data.SetLines(lines)
 
 
+def no_points(data):
+    data.SetPoints(None)
+
+
 def strips(data):
     data.SetStrips(data.GetPolys())
 
@@ -149,6 +153,7 @@ BAD_BODIES = {
     "0 polygons": lambda body: vtkPolyData(),
     "1 lines": lambda body: changed(body, only_lines),
     "strips": lambda body: changed(body, strips),
+    "0 points": lambda body: changed(body, no_points),
     "finite": lambda body: changed(body, lambda data: data.GetPoints().SetPoint(7, np.nan, 0, 0)),
 }
 BAD_GARMENTS = {
@@ -216,15 +221,30 @@ def test_what_the_filter_before_made_is_asked_for_by_name(rig, sources):
 
 
 def test_a_rig_of_another_body_is_refused(rig, sources):
-    other = changed(sources[1].GetOutput(), lambda data: data.GetFieldData().ShallowCopy(rig.GetOutput(0).GetFieldData()))
-    for name in ("JointIndices", "JointWeights"):
-        other.GetPointData().AddArray(rig.GetOutput(0).GetPointData().GetArray(name))
+    man = reader(BODY.with_name("man_a_pose.ply"))
+    man.Update()
     fit = FitSkeleton()
     listening(fit)
-    fit.SetInputData(0, other)
     fit.SetInputConnection(1, sources[1].GetOutputPort())
-    fit.Update()
-    assert "3000 vertices, this one has 3055" in fit.error
+    for other, part in ((sources[1], "3000 vertices, this one has 3055"), (man, "belongs to another body")):
+        wrong = changed(other.GetOutput(), lambda data: data.GetFieldData().ShallowCopy(rig.GetOutput(0).GetFieldData()))
+        for name in ("JointIndices", "JointWeights"):
+            wrong.GetPointData().AddArray(rig.GetOutput(0).GetPointData().GetArray(name))
+        fit.SetInputData(0, wrong)
+        fit.Update()
+        assert part in fit.error
+
+
+def test_what_the_executive_refuses_leaves_no_older_line(sources):
+    rig = RigBody()
+    heard = listening(rig)
+    rig.SetInputData(vtkPolyData())
+    rig.Update()
+    assert rig.error
+    heard.clear()
+    rig.SetInputData(vtkImageData())
+    rig.Update()
+    assert heard and rig.error is None
 
 
 def test_a_missing_input_is_an_error_event(sources):

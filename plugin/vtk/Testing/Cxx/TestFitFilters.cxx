@@ -462,26 +462,30 @@ TEST(RigBody, RefusesBadInputInOneLineAndWorksAfterwards)
 
 TEST(FitSkeleton, RefusesABodyWithoutARigOrWithAnothers)
 {
-    vtkNew<vtkFitSkeleton> fit;
-    Errors errors(*fit);
-    fit->SetInputData(0, body());
-    fit->SetInputData(1, shorts());
-    fit->Update();
-    EXPECT_NE(errors.heard->GetErrorMessage().find("Rig Body"), std::string::npos);
-    errors.heard->Clear();
-
     vtkNew<vtkRigBody> rig;
     rig->SetInputData(body());
     rig->Update();
-    auto other = polydata_of(capsule_person({ .arm_angle = 0, .spacing = 0.06 }).mesh);
-    other->GetFieldData()->ShallowCopy(polydata(*rig, 0)->GetFieldData());
-    for (const char* name : { "JointIndices", "JointWeights" })
-        other->GetPointData()->AddArray(polydata(*rig, 0)->GetPointData()->GetArray(name));
-    fit->SetInputData(0, other);
-    fit->Update();
-    EXPECT_NE(errors.heard->GetErrorMessage().find("belongs to a body of"), std::string::npos)
-        << errors.heard->GetErrorMessage();
-    EXPECT_EQ(polydata(*fit, 1)->GetNumberOfPoints(), 0);
+    const auto with_its_rig = [&](const TriangleMesh& mesh) {
+        auto other = polydata_of(mesh);
+        other->GetFieldData()->ShallowCopy(polydata(*rig, 0)->GetFieldData());
+        for (const char* name : { "JointIndices", "JointWeights" })
+            other->GetPointData()->AddArray(polydata(*rig, 0)->GetPointData()->GetArray(name));
+        return other;
+    };
+    vtkNew<vtkFitSkeleton> fit;
+    Errors errors(*fit);
+    fit->SetInputData(1, shorts());
+    const std::pair<vtkSmartPointer<vtkPolyData>, const char*> bad[]
+        = { { body(), "Rig Body" },
+            { with_its_rig(capsule_person({ .arm_angle = 0, .spacing = 0.06 }).mesh), "belongs to a body of" },
+            { with_its_rig({ 1.1 * body_mesh().positions, body_mesh().triangles }), "belongs to another body" } };
+    for (const auto& [data, part] : bad) {
+        fit->SetInputData(0, data);
+        fit->Update();
+        EXPECT_NE(errors.heard->GetErrorMessage().find(part), std::string::npos) << errors.heard->GetErrorMessage();
+        EXPECT_EQ(polydata(*fit, 1)->GetNumberOfPoints(), 0);
+        errors.heard->Clear();
+    }
 }
 
 TEST(DressBody, NamesAMissingInput)

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters/own_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fit/error.h"
+
+namespace fit {
+namespace {
+
+// Files may keep fewer digits than the rig was found with, but people of one size are further apart than that.
+constexpr double k_same_radius = 0.02;  // share of the radius
+constexpr double k_same_place = 5e-4;  // m, for thin bones
+
+using Radii = std::array<double, bone_count>;
+
+bool is_known(const Radii& radii)
+{
+    return std::any_of(radii.begin(), radii.end(), [](double radius) { return radius > 0; });
+}
+
+std::string millimetres(double metres) { return std::to_string(std::lround(1000 * metres)) + " mm"; }
+
+void require_same_count(Eigen::Index rigged, Eigen::Index here, const std::string& called)
+{
+    if (rigged != here)
+        throw InvalidInput(called + " belongs to a body of " + std::to_string(rigged) + " vertices, this one has "
+                           + std::to_string(here) + "; rig this body");
+}
+
+void require_same_radii(const Radii& rigged, const Radii& here, const std::string& called)
+{
+    for (int b = 0; b < bone_count; ++b)
+        if (std::abs(rigged[b] - here[b]) > k_same_radius * rigged[b] + k_same_place)
+            throw InvalidInput(called + " belongs to another body, or this one was moved since: the skin was "
+                               + millimetres(rigged[b]) + " from " + std::string(bone_name(b)) + " and is "
+                               + millimetres(here[b]) + "; rig this body");
+}
+
+}  // namespace
+
+Rig rig_on(Rig rig, const Positions& own, const std::string& called)
+{
+    require_same_count(rig.weights.weights.rows(), own.rows(), called);
+    const Radii here = bone_radii(rig.skeleton, rig.weights, own);
+    if (is_known(rig.radii))
+        require_same_radii(rig.radii, here, called);
+    rig.radii = here;
+    return rig;
+}
+
+}  // namespace fit
