@@ -66,15 +66,21 @@ double heading_across(const SkeletonSearch& search)
 
 double turned_apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
 
-// Left to right as the garment is, or across it, either way round; and as the body stands.
+// Left to right as the garment is, either way round; where no pair of sleeves or legs tells how that is, also across it, and as the body stands.
+// What is nearly as the body stands is taken for that.
 std::vector<double> headings(const Rig& rig, const SkeletonSearch& search)
 {
     const Vec3 left = rig.up.cross(rig.front);
     const double own = std::atan2(-left.z(), left.x()), across = heading_across(search) - own;
-    std::vector<double> result { 0 };
-    for (int quarter = 0; quarter < 4; ++quarter)
-        if (turned_apart(across + quarter * std::numbers::pi / 2, 0) > k_same_heading)
-            result.push_back(across + quarter * std::numbers::pi / 2);
+    const bool is_told = !search.cues().across.isZero();
+    std::vector<double> result;
+    for (int quarter = 0; quarter < 4; quarter += is_told ? 2 : 1) {
+        const double heading = across + quarter * std::numbers::pi / 2;
+        result.push_back(turned_apart(heading, 0) > k_same_heading ? heading : 0);
+    }
+    if (!is_told && std::find(result.begin(), result.end(), 0.0) == result.end())
+        result.push_back(0);
+    std::stable_partition(result.begin(), result.end(), [](double heading) { return heading == 0; });
     return result;
 }
 

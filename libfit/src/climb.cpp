@@ -8,8 +8,8 @@ namespace {
 
 constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
 constexpr double k_least_gain = 1e-4;  // m; of a step
-constexpr double k_furthest_way = 0.03;  // m; that a joint goes for the paper's E alone
-constexpr double k_room_lost = 0.005;  // m, of a bone's five samples: a millimetre each
+constexpr double k_furthest_way = 0.05;  // m; that a joint goes for the paper's E alone
+constexpr double k_room_lost = 0.04;  // m, of a bone's five samples: 8 mm each
 constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
 // All but the hip joints, which are as good as fixed to the pelvis. First the trunk.
 constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
@@ -45,10 +45,10 @@ Posture with_bare_limbs_along(const SkeletonSearch& search, const Posture& befor
 }
 
 // Arms and legs stay where they are, as far as they can, while the trunk moves.
-Posture with_limbs_kept(const Skeleton& own, const Posture& before, Posture after)
+Posture with_limbs_kept(const Skeleton& own, const PlacedBones& before, Posture after)
 {
-    const Skeleton from = placed(own, before).joints;
-    Skeleton to = placed(own, after).joints;
+    const Skeleton& from = before.joints;
+    Skeleton to = placed(own, after, before).joints;
     for (const Limb& limb : k_limbs)
         for (const int b : limb.bones)
             if (limb.end != head_top) {
@@ -97,15 +97,16 @@ void climb(const State& present, int freedoms, const Steps& steps, const StepTak
         }
 }
 
-// The trunk moves with its limbs or between them; what is bare goes along with what it hangs on.
+// The trunk moves with its limbs or between them; what is bare goes along with what it hangs on. `bones` are the present posture's.
 template <class Taken>
-void climb_in_cloth(const SkeletonSearch& search, const Posture& present, const Steps& steps, const Taken& taken)
+void climb_in_cloth(const SkeletonSearch& search, const Posture& present, const PlacedBones& bones, const Steps& steps,
+                    const Taken& taken)
 {
     const auto taken_whole = [&](const Posture& next) { return taken(with_bare_limbs_along(search, present, next)); };
     const auto step_taken = [&](int freedom, double step) {
         const Posture next = moved(search, present, freedom, step);
         return taken_whole(next)
-            || (freedom < k_trunk_freedoms && taken_whole(with_limbs_kept(search.own(), present, next)));
+            || (freedom < k_trunk_freedoms && taken_whole(with_limbs_kept(search.own(), bones, next)));
     };
     climb(present, k_freedoms, steps, step_taken, taken_whole);
 }
@@ -257,9 +258,10 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
     const int corners = corners_through_cloth(search, start);
     paper.is_above(placed(search.own(), start).joints, 0);
     paper.accept();
-    climb_in_cloth(search, present, steps, [&](const Posture& next) {
+    climb_in_cloth(search, present, parts.bones, steps, [&](const Posture& next) {
         const double bound = search.energy(next, parts);  // crossings only cost
-        if (bound < least || !paper.is_above(placed(search.own(), next).joints, score - bound + k_least_gain))
+        if (bound < least
+            || !paper.is_above(placed(search.own(), next, parts.bones).joints, score - bound + k_least_gain))
             return false;
         const double next_score = bound - search.crossing_cost(next);
         if (next_score < least || paper.gain() + next_score <= score + k_least_gain
@@ -277,11 +279,14 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
 Posture raised_alone(const SkeletonSearch& search, const Posture& start, PaperClimb& paper, const Steps& steps)
 {
     Posture present = start;
+    PlacedBones bones = placed(search.own(), start);
     const RoomKept room(search, start);
-    climb_in_cloth(search, present, steps, [&](const Posture& next) {
-        if (!paper.is_above(placed(search.own(), next).joints, k_least_gain) || !room.holds(next))
+    climb_in_cloth(search, present, bones, steps, [&](const Posture& next) {
+        const PlacedBones next_bones = placed(search.own(), next, bones);
+        if (!paper.is_above(next_bones.joints, k_least_gain) || !room.holds(next))
             return false;
         present = next;
+        bones = next_bones;
         paper.accept();
         return true;
     });

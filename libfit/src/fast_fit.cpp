@@ -31,7 +31,7 @@ constexpr double k_least_room = 0.2;  // share of the room that covered bones ne
 constexpr double k_tight = 0.7, k_wide = 0.95;  // of the same
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
-constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.04, 0.005 };  // rad
+constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.08, 0.005 };  // rad
 constexpr double k_spoken_for = 0.5;  // m of energy that clear evidence for a way up is worth
 constexpr double k_as_given = 1;  // m of energy; most garments are given the way they are worn, and so is one of which nothing else is known
 constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than that do not compete

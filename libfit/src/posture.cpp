@@ -25,13 +25,17 @@ Eigen::Quaterniond bone_turn(const Skeleton& own, int bone, const Eigen::Quatern
     return (shortest_arc(parent_turn * own.direction(bone), direction) * parent_turn).normalized();
 }
 
-PlacedBones placed(const Skeleton& own, const Posture& posture)
+namespace {
+
+template <class Turn>
+PlacedBones placed(const Skeleton& own, const Posture& posture, const Turn& turn_of)
 {
     PlacedBones result;
     result.root_turn = posture.turn;
     result.joints.root = posture.root;
+    result.directions = posture.directions;
     for (int b = 0; b < bone_count; ++b) {
-        result.turns[b] = bone_turn(own, b, result.parent_turn(b), posture.directions[b]);
+        result.turns[b] = turn_of(b, result.parent_turn(b));
         result.joints.tails[b] = result.joints.head(b) + own.length(b) * posture.directions[b];
     }
     for (int e = 0; e < extremity_count; ++e) {
@@ -39,6 +43,24 @@ PlacedBones placed(const Skeleton& own, const Posture& posture)
         result.joints.tips[e] = result.joints.tail(b) + result.turns[b] * (own.tips[e] - own.tail(b));
     }
     return result;
+}
+
+}  // namespace
+
+PlacedBones placed(const Skeleton& own, const Posture& posture)
+{
+    return placed(own, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
+        return bone_turn(own, b, parent_turn, posture.directions[b]);
+    });
+}
+
+PlacedBones placed(const Skeleton& own, const Posture& posture, const PlacedBones& near)
+{
+    return placed(own, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
+        const bool is_same = posture.directions[b] == near.directions[b]
+            && parent_turn.coeffs() == near.parent_turn(b).coeffs();
+        return is_same ? near.turns[b] : bone_turn(own, b, parent_turn, posture.directions[b]);
+    });
 }
 
 Pose pose_of(const Skeleton& own, const Posture& posture)

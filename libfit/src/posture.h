@@ -20,6 +20,7 @@ struct Posture {
 /// A posture worked out.
 struct PlacedBones {
     Skeleton joints;                                      // world
+    std::array<Vec3, bone_count> directions {};           // as the posture's
     std::array<Eigen::Quaterniond, bone_count> turns;     // world from own axes, of each bone
     Eigen::Quaterniond root_turn;
 
@@ -38,6 +39,8 @@ double angle_between(const Vec3& a, const Vec3& b);  ///< rad, of unit vectors
 Eigen::Quaterniond bone_turn(const Skeleton& own, int bone, const Eigen::Quaterniond& parent_turn, const Vec3& direction);
 
 PlacedBones placed(const Skeleton& own, const Posture& posture);
+/// The same to the last bit, given what is known of a posture that may differ in a few bones only.
+PlacedBones placed(const Skeleton& own, const Posture& posture, const PlacedBones& near);
 Pose pose_of(const Skeleton& own, const Posture& posture);
 Posture posture_of(const Skeleton& own, const Pose& pose);
 

@@ -209,7 +209,7 @@ EnergyParts SkeletonSearch::parts(const Posture& posture) const
 
 double SkeletonSearch::energy(const Posture& posture, const EnergyParts& near) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, posture);
+    const PlacedBones bones = placed(rig_.skeleton, posture, near.bones);
     const Skeleton &joints = bones.joints, &before = near.bones.joints;
     std::array<bool, bone_count> moved, turned;
     for (int b = 0; b < bone_count; ++b) {
