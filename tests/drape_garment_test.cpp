@@ -105,6 +105,33 @@ TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
     }
 }
 
+// With a patch of 2 cm beside the left shin, so far from its middle.
+GarmentMesh trousers_with_patch(const Skeleton& skeleton, double distance)
+{
+    GarmentMesh result = trousers(0.02);
+    const Vec3 middle = 0.5 * (skeleton.head(ltibia) + skeleton.tail(ltibia)), along = skeleton.direction(ltibia);
+    const Vec3 beside = Vec3::UnitX() - along.x() * along, across = along.cross(beside);
+    const int first = int(result.positions.rows());
+    result.positions.conservativeResize(first + 4, 3);
+    for (int corner = 0; corner < 4; ++corner)
+        result.positions.row(first + corner) = middle + distance * beside.normalized()
+            + 0.01 * ((corner % 2 ? 1 : -1) * along + (corner / 2 ? 1 : -1) * across.normalized());
+    result.triangles.conservativeResize(result.triangles.rows() + 2, 3);
+    result.triangles.bottomRows(2) << first, first + 1, first + 2, first + 1, first + 3, first + 2;
+    return result;
+}
+
+TEST(DrapeGarment, StartsThinnerWhereClothIsVeryNearToABone)
+{
+    const Dressing d = person();
+    const GarmentMesh garment = trousers_with_patch(d.rig.skeleton, 3e-4);
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), garment, short_settling());
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_THROW(drape_garment(d.rig, d.body, Pose(), trousers_with_patch(d.rig.skeleton, 0), short_settling()),
+                 InvalidInput);
+}
+
 TEST(DrapeGarment, PutsASecondGarmentOverTheFirst)
 {
     const Dressing d = person();

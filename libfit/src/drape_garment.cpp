@@ -2,6 +2,7 @@
 #include "fit/drape_garment.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "body_parts.h"
@@ -17,8 +18,9 @@
 namespace fit {
 namespace {
 
-// The share of its thickness that the body starts with: under two millimetres for a limb, yet no face without area.
-constexpr double k_first_size = 0.01;
+// The shares of its thickness that the body may start with. The first is under two millimetres for a limb; the others are for bones that
+// run nearer to the cloth. None leaves faces without area.
+constexpr std::array<double, 3> k_first_sizes { 0.01, 0.003, 0.001 };
 // Where one part stops the inflation, others beyond this share of the limit are worth naming, too.
 constexpr double k_worth_naming = 0.7;
 
@@ -66,20 +68,35 @@ std::string place(const Vec3& p)
     return '(' + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") m";
 }
 
-void require_free(const TriangleMesh& collapsed, const GarmentMesh& garment, const SkinWeights& weights)
+struct Crossings {
+    std::vector<Crossing> through_body, through_cloth;  // edges of the one through faces of the other
+    bool none() const { return through_body.empty() && through_cloth.empty(); }
+};
+
+[[noreturn]] void refuse(const Crossings& found, const TriangleMesh& collapsed, const SkinWeights& weights)
 {
-    const TriangleMesh cloth { garment.positions, garment.triangles };
-    const auto through_body = crossings(cloth, collapsed);
-    const auto through_cloth = crossings(collapsed, cloth);
-    if (through_body.empty() && through_cloth.empty())
-        return;
-    const int vertex = through_body.empty() ? edges_of(collapsed.triangles)(through_cloth.front().first, 0)
-                                            : collapsed.triangles(through_body.front().second, 0);
+    const int vertex = found.through_body.empty() ? edges_of(collapsed.triangles)(found.through_cloth.front().first, 0)
+                                                  : collapsed.triangles(found.through_body.front().second, 0);
     const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
                                                            : std::string("a garment worn under it");
     throw InvalidInput("drape: the garment passes through the body's skeleton, " + what + " at "
                        + place(collapsed.positions.row(vertex))
                        + "; fit the skeleton to this garment first, or give its type");
+}
+
+/// The largest of the sizes to start with that is free of the garment.
+double first_size(const Inflatable& inside, const GarmentMesh& garment, const SkinWeights& weights)
+{
+    const TriangleMesh cloth { garment.positions, garment.triangles };
+    TriangleMesh collapsed;
+    Crossings found;
+    for (const double size : k_first_sizes) {
+        collapsed = { inside.at(size), inside.full.triangles };
+        found = { crossings(cloth, collapsed), crossings(collapsed, cloth) };
+        if (found.none())
+            return size;
+    }
+    refuse(found, collapsed, weights);
 }
 
 /// A garment that may be made larger while the body grows in it, all of it alike.
@@ -124,14 +141,14 @@ private:
 };
 
 /// Inflates the body inside the garment. @return the size reached: 1, or less where the cloth would stretch too far.
-double inflate(ClothMotion& motion, const Inflatable& inside, Grading& grading, const DrapeOptions& options,
-               const Progress& progress)
+double inflate(ClothMotion& motion, const Inflatable& inside, double first, Grading& grading,
+               const DrapeOptions& options, const Progress& progress)
 {
     MotionStep step;
     step.largest_move = step.largest_obstacle_move = 1e-2;
     for (int i = 1; i <= options.inflation_steps; ++i) {
         progress.at(double(i) / options.inflation_steps);
-        const double size = k_first_size + (1 - k_first_size) * i / options.inflation_steps;
+        const double size = first + (1 - first) * i / options.inflation_steps;
         const Positions target = inside.at(size);
         step.obstacle_target = &target;
         motion.advance(step);
@@ -165,17 +182,16 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
                           const Positions& left)
 {
     const Inflatable inside = inflatable(rig, body, pose, garment, worn, left);
-    const TriangleMesh collapsed { inside.at(k_first_size), inside.full.triangles };
-    require_free(collapsed, garment, rig.weights);
+    const double first = first_size(inside, garment, rig.weights);
 
     const Eigen::Index body_vertices = body.surface.positions.rows();
     const SkinWeights follows
         = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
     Grading grading(garment, follows, posed(rig.skeleton, pose), int(worn.size()), options.cloth);
-    ClothMotion motion(garment, garment.positions, collapsed, options.cloth);
+    ClothMotion motion(garment, garment.positions, { inside.at(first), inside.full.triangles }, options.cloth);
 
     DrapeResult result;
-    result.size_reached = inflate(motion, inside, grading, options, progress.part(0, 0.7));
+    result.size_reached = inflate(motion, inside, first, grading, options, progress.part(0, 0.7));
     if (result.size_reached < 1)
         result.too_tight = grading.tightness().too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch,
                                                          result.size_reached);
