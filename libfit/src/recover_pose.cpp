@@ -246,9 +246,9 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     }
     result.speed = speed;
     result.seconds = motion.seconds();
-    result.pose_reached = arrived && !stuck ? 1 : std::min(gone.in_place, 1 - 1e-3);
+    result.pose_reached = stuck ? gone.in_place : 1;
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
-    result.certified = clean && result.pose_reached == 1 && result.too_tight.empty();
+    result.certified = clean && arrived && !stuck && result.too_tight.empty();
     return result;
 }
 

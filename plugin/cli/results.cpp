@@ -50,8 +50,10 @@ std::vector<std::string> comments_of(const Dressing& dressing)
     text << "garmentfit: NOT certified; last certified state, body at ";
     if (dressing.size_reached < 1)
         text << percent(dressing.size_reached) << "% of its size";
-    else
+    else if (dressing.pose_reached < 1)
         text << percent(dressing.pose_reached) << "% of the way between two poses";
+    else
+        text << "its pose, but for parts that cloth holds back";
     return { text.str() };
 }
 

@@ -36,8 +36,9 @@ struct RecoverResult {
         held_back;  ///< where cloth had no room, in the pose `to` or where the body got stuck; worst first
     std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
     double pose_reached
-        = 0;  ///< 1 = arrived; else the last share of the way at which the whole body was in place. Where it got
-    ///< stuck further on, with some part more than 5 cm behind, it is left there
+        = 0;  ///< 1 = the whole way was gone, though parts may be held back; where the body got stuck, with some
+        ///< part more than 5 cm behind, the last share of the way at which all of it was in place:
+        ///< it is left there
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
     ClothSeconds seconds;
