@@ -10,6 +10,8 @@ namespace {
 
 constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a line
 
+constexpr double k_slipped = 0.1;  // m; cloth that settles sinks by some centimetres
+
 constexpr const char* k_guess = " hardly more than a guess";
 
 void doubt_type(std::vector<std::string>& doubts, const std::string& name, const FitResult& fit, const HowToSet& set)
@@ -17,6 +19,15 @@ void doubt_type(std::vector<std::string>& doubts, const std::string& name, const
     if (fit.type_margin < k_doubt)
         doubts.push_back("the type of " + name + " is" + k_guess + ", " + std::string(name_of(fit.type)) + "; "
                          + set("type"));
+}
+
+void doubt_garment(std::vector<std::string>& doubts, const std::string& name, const WornGarment& garment)
+{
+    if (garment.size > 1)
+        doubts.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
+    if (garment.slipped > k_slipped)
+        doubts.push_back(name + " slipped " + std::to_string(std::lround(100 * garment.slipped))
+                         + " cm down: it is too wide for this body to stay where it is worn");
 }
 
 void doubt_dressing(std::vector<std::string>& doubts, const Dressing& end, const std::vector<std::string>& names)
@@ -27,9 +38,8 @@ void doubt_dressing(std::vector<std::string>& doubts, const Dressing& end, const
     for (std::size_t i = 0; i < names.size(); ++i)
         if (i >= end.garments.size())
             doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
-        else if (end.garments[i].size > 1)
-            doubts.push_back(names[i] + " was made " + std::to_string(std::lround(100 * (end.garments[i].size - 1)))
-                             + "% larger");
+        else
+            doubt_garment(doubts, names[i], end.garments[i]);
 }
 
 }  // namespace

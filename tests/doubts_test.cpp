@@ -50,8 +50,10 @@ TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
     scene.draped->speed = 1.5;
     scene.draped->garments.pop_back();
     scene.draped->garments[0].size = 1.08;
+    scene.draped->garments[0].slipped = 0.214;
     EXPECT_EQ(doubts_about(scene),
               (Lines { "the cloth is not at rest yet (1500 mm/s); give more settling steps", "skirt was made 8% larger",
+                       "skirt slipped 21 cm down: it is too wide for this body to stay where it is worn",
                        "coat was not put on, for what is under it was not certified" }));
 }
 

@@ -63,6 +63,19 @@ TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
     EXPECT_LT(result.garments[0].certificate.strain.p95, 0.05);
 }
 
+TEST(DrapeGarment, SaysHowFarAGarmentSlipsThatIsTooWideToStay)
+{
+    const Dressing d = person();
+    const TriangleMesh wide = garment_round(
+        person_skeleton({}), 0.15, [](const Vec3& p) { return p.y() > 0.75 && p.y() < 1.0 && std::abs(p.x()) < 0.4; });
+    DrapeOptions options;
+    options.settling_steps = 30;
+    const DrapeResult result
+        = drape_garment(d.rig, d.body, Pose(), make_garment(wide.positions, wide.triangles), options);
+    EXPECT_GT(result.garments[0].slipped, 0.1);
+    EXPECT_LT(drape_garment(d.rig, d.body, Pose(), trousers(0.02), short_settling()).garments[0].slipped, 0.06);
+}
+
 TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
 {
     const Dressing d = person();

@@ -163,6 +163,15 @@ double inflate(ClothMotion& motion, const Inflatable& inside, double first, Grad
     return 1;
 }
 
+/// The median of how far vertices sank, m.
+double sunk(const Positions& from, const Positions& to)
+{
+    Eigen::VectorXd down = from.col(1) - to.col(1);
+    const auto middle = down.begin() + down.size() / 2;
+    std::nth_element(down.begin(), middle, down.end());
+    return *middle;
+}
+
 }  // namespace
 
 bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
@@ -203,7 +212,8 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     result.body = reached.topRows(body_vertices);
     result.garments = worn;
     put_positions(result.garments, reached.bottomRows(reached.rows() - body_vertices));
-    result.garments.push_back({ grading.garment(), motion.cloth(), {}, grading.size() });
+    result.garments.push_back({ grading.garment(), motion.cloth(), {}, grading.size(),
+                                sunk(grading.garment().positions, motion.cloth()) });
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     if (result.size_reached == 1)
         result.held_back = held_back(result.body, inside.full.positions.topRows(body_vertices), rig.weights);

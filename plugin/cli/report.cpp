@@ -79,6 +79,7 @@ void put_certificate(Json& json, const WornGarment& garment, double metres_per_u
     json["self_kept"] = pairs_of(c.kept_self_crossings, garment.rest.triangles);
     json["vertices_inside"] = c.vertices_inside;
     json["smallest_gap"] = c.smallest_gap / metres_per_unit;
+    json["slipped"] = garment.slipped / metres_per_unit;
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
 }
 

@@ -50,6 +50,9 @@ struct WornGarment {
     Positions positions;  ///< as worn, n x 3
     Certificate certificate;
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
+    double slipped
+        = 0;  ///< m that half of its vertices sank while it was put on: more than some centimetres, and it is too
+        ///< wide to stay where it is worn
 };
 
 /// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n). @return whether all are clean
@@ -59,7 +62,7 @@ struct DrapeResult {
     std::vector<WornGarment> garments;  ///< from the inside out; the last one is new
     Positions
         body;  ///< the user's vertices in the fitted pose, at the size reached; hands that would stand across a sleeve are
-        ///< stretched out
+    ///< stretched out
     double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
