@@ -163,15 +163,6 @@ double inflate(ClothMotion& motion, const Inflatable& inside, double first, Grad
     return 1;
 }
 
-/// The median of how far vertices sank, m.
-double sunk(const Positions& from, const Positions& to)
-{
-    Eigen::VectorXd down = from.col(1) - to.col(1);
-    const auto middle = down.begin() + down.size() / 2;
-    std::nth_element(down.begin(), middle, down.end());
-    return *middle;
-}
-
 }  // namespace
 
 bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
@@ -210,10 +201,11 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     result.seconds = motion.seconds();
     const Positions reached = motion.obstacle();
     result.body = reached.topRows(body_vertices);
+    std::vector<WornGarment> outermost { { grading.garment(), motion.cloth(), {}, grading.size() } };
+    add_slips(outermost, outermost[0].rest.positions);
     result.garments = worn;
     put_positions(result.garments, reached.bottomRows(reached.rows() - body_vertices));
-    result.garments.push_back({ grading.garment(), motion.cloth(), {}, grading.size(),
-                                sunk(grading.garment().positions, motion.cloth()) });
+    result.garments.push_back(outermost[0]);
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     if (result.size_reached == 1)
         result.held_back = held_back(result.body, inside.full.positions.topRows(body_vertices), rig.weights);

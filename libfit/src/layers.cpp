@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layers.h"
 
+#include <algorithm>
+
 #include "nearest.h"
 
 namespace fit {
@@ -29,6 +31,19 @@ void put_positions(std::vector<WornGarment>& garments, const Positions& position
     for (WornGarment& garment : garments) {
         garment.positions = positions.middleRows(first, garment.rest.positions.rows());
         first += garment.rest.positions.rows();
+    }
+}
+
+void add_slips(std::vector<WornGarment>& garments, const Positions& along)
+{
+    Eigen::Index first = 0;
+    for (WornGarment& garment : garments) {
+        const Eigen::Index vertices = garment.positions.rows();
+        Eigen::VectorXd down = along.col(1).segment(first, vertices) - garment.positions.col(1);
+        const auto middle = down.begin() + vertices / 2;
+        std::nth_element(down.begin(), middle, down.end());
+        garment.slipped += *middle;
+        first += vertices;
     }
 }
 

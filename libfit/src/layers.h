@@ -18,6 +18,9 @@ void append(SkinWeights& weights, const SkinWeights& more);
 /// Puts the rows of `positions`, garment after garment, back into the garments.
 void put_positions(std::vector<WornGarment>& garments, const Positions& positions);
 
+/// Adds how far each garment sank from where it would be, its vertices garment after garment, had it gone along with the body.
+void add_slips(std::vector<WornGarment>& garments, const Positions& along);
+
 /// The skin weights of the nearest body vertex for each point (n x 3, same pose as the body). O((n + m) log m).
 SkinWeights weights_of_nearest(const Positions& points, const Positions& body, const SkinWeights& weights);
 

@@ -238,6 +238,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     result.frames = std::move(recording).take();
 
     put_positions(result.garments, motion.cloth());
+    add_slips(result.garments,
+              skin(cloth.positions, cloth_weights, between(way.transforms(0), way.transforms(stuck ? gone.in_place : 1))));
     result.body = motion.obstacle();
     if (!stuck) {
         result.held_back = held_back(result.body, end, rig.weights);

@@ -51,7 +51,7 @@ struct WornGarment {
     Certificate certificate;
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
     double slipped
-        = 0;  ///< m that half of its vertices sank while it was put on: more than some centimetres, and it is too
+        = 0;  ///< m that it sank along the body since it was put on, by the median of its vertices; much, and it is too
         ///< wide to stay where it is worn
 };
 
