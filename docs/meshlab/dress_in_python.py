@@ -6,6 +6,8 @@
 
 import argparse
 import pathlib
+import sys
+import textwrap
 
 import matplotlib
 import numpy
@@ -91,12 +93,13 @@ def draw_all(results, path):
     for (body, garment), dressed in results.items():
         axes = grid[bodies.index(body), garments.index(garment)]
         draw(axes, dressed, scale)
-        axes.set_title(f"{garment} on {body}\n{dressed.in_words()}", fontsize=9, wrap=True)
+        axes.set_title(f"{garment} on {body}\n{textwrap.fill(dressed.in_words(), 40)}", fontsize=9)
     figure.colorbar(scale, ax=grid, label="ease, in the body's unit", extend="max")
     figure.savefig(path, dpi=80)
 
 
 def main():
+    """Returns 1 where a garment is not on."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("plugin", type=pathlib.Path)
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
@@ -114,7 +117,8 @@ def main():
             if not dressed.failure:
                 dressed.meshes.save_current_mesh(str(call.output / f"{garment.stem}_on_{body.stem}.ply"))
     draw_all(results, call.output / "ease.png")
+    return int(any(dressed.failure for dressed in results.values()))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
