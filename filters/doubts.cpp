@@ -10,7 +10,7 @@ namespace {
 
 constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a line
 
-constexpr double k_slipped = 0.1;  // m; cloth that settles sinks by some centimetres
+constexpr double k_slipped = 0.15;  // m; cloth that settles sinks by some centimetres, a wide coat by nine
 
 constexpr const char* k_guess = " hardly more than a guess";
 
