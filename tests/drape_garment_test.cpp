@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "fit/error.h"
+#include "fit/fit_skeleton.h"
+#include "fit/io.h"
 #include "fit/recover_pose.h"
 #include "fit/rig_body.h"
 #include "fixtures.h"
@@ -241,6 +243,34 @@ TEST(RecoverPose, TurnsBackWhereThereIsNoRoomForClothOnTheWay)
     const Positions posed = skin(d.body.surface.positions, d.rig.weights, bone_transforms(d.rig.skeleton, last));
     EXPECT_LT((result.body - posed).rowwise().norm().maxCoeff(), 1e-3);
 }
+
+// Each was refused once, or stopped on the way.
+struct Wearing {
+    const char *name, *body, *garment;
+};
+
+class RealGarment : public testing::TestWithParam<Wearing> { };
+
+TEST_P(RealGarment, IsPutOnAndStaysOn)
+{
+    const MeshFile body_file = MeshFile::read(FIT_BODIES "/" + std::string(GetParam().body) + ".ply"),
+                   cloth = MeshFile::read(FIT_SAMPLES "/" + std::string(GetParam().garment) + ".ply");
+    const BodyMesh body = make_body(body_file.positions(), body_file.triangles());
+    const Rig rig = rig_body(body);
+    const GarmentMesh garment = make_garment(cloth.positions(), cloth.triangles());
+    const Pose fitted = fit_skeleton(rig, garment).pose;
+    const DrapeResult draped = drape_garment(rig, body, fitted, garment, short_settling());
+    ASSERT_EQ(draped.size_reached, 1);
+    RecoverOptions options;
+    options.settling_steps = 10;
+    EXPECT_TRUE(recover_pose(rig, body, fitted, Pose(), draped.garments, options, {}, draped.body).certified);
+}
+
+INSTANTIATE_TEST_SUITE_P(Known, RealGarment,
+                         testing::Values(Wearing { "HemNearAnElbow", "child_a_pose", "tshirt" },
+                                         Wearing { "NecklineNearAShoulder", "tall_man_fighting", "tshirt" },
+                                         Wearing { "FeetInTrouserLegs", "man_a_pose", "trousers" }),
+                         [](const auto& wearing) { return std::string(wearing.param.name); });
 
 TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
 {

@@ -257,10 +257,13 @@ double ClothMotion::settle_obstacle(const Positions& target)
     return longest_lag;
 }
 
-void arrive(ClothMotion& motion, const MotionStep& step)
+double arrive(ClothMotion& motion, const MotionStep& step)
 {
     constexpr int k_patience = 30;
-    for (int i = 0; i < k_patience && motion.advance(step) > 0; ++i) { }
+    double lag = INFINITY;
+    for (int i = 0; i < k_patience && lag > 0; ++i)
+        lag = motion.advance(step);
+    return lag;
 }
 
 Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)

@@ -87,8 +87,8 @@ private:
 };
 
 /// Repeats a step until the whole obstacle is at its target, for as long as is worth waiting: before the bridges over creases are
-/// drawn back, say, for where a bridge is not closed, cloth would go in.
-void arrive(ClothMotion& motion, const MotionStep& step);
+/// drawn back, say, for where a bridge is not closed, cloth would go in. @return as advance()
+double arrive(ClothMotion& motion, const MotionStep& step);
 
 struct Settled {
     bool arrived;  ///< the whole obstacle at its target

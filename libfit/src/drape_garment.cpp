@@ -30,6 +30,7 @@ struct Inflatable {
     Positions bridged;  // full, but for the body's creases
     Positions withdrawn;  // full, with what is in creases drawn back from them
     Positions core;
+    Skeleton bones;  // that the core lies on
 
     Positions at(double size) const { return core + size * (bridged - core); }
 };
@@ -49,8 +50,8 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
         append(result.full, { under.positions, under.rest.triangles });
     }
     // a hand or foot that would still poke through the cloth grows out of its wrist or ankle instead
-    result.core
-        = collapse(result.full.positions, weights, with_clear_tips(posed(hands.skeleton(stretch), pose), garment));
+    result.bones = with_clear_tips(posed(hands.skeleton(stretch), pose), garment);
+    result.core = collapse(result.full.positions, weights, result.bones);
     const Positions skinned = result.full.positions.topRows(body_vertices);
     TriangleMesh cloth { garment.positions, garment.triangles };
     for (const WornGarment& under : worn)
@@ -73,30 +74,66 @@ struct Crossings {
     bool none() const { return through_body.empty() && through_cloth.empty(); }
 };
 
-[[noreturn]] void refuse(const Crossings& found, const TriangleMesh& collapsed, const SkinWeights& weights)
+Crossings crossings_at(double size, const Inflatable& inside, const TriangleMesh& cloth)
 {
-    const int vertex = found.through_body.empty() ? edges_of(collapsed.triangles)(found.through_cloth.front().first, 0)
-                                                  : collapsed.triangles(found.through_body.front().second, 0);
+    const TriangleMesh body { inside.at(size), inside.full.triangles };
+    return { crossings(cloth, body), crossings(body, cloth) };
+}
+
+[[noreturn]] void refuse(const Crossings& found, const Inflatable& inside, const SkinWeights& weights)
+{
+    const int vertex = found.through_body.empty()
+        ? edges_of(inside.full.triangles)(found.through_cloth.front().first, 0)
+        : inside.full.triangles(found.through_body.front().second, 0);
     const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
                                                            : std::string("a garment worn under it");
     throw InvalidInput("drape: the garment passes through the body's skeleton, " + what + " at "
-                       + place(collapsed.positions.row(vertex))
-                       + "; fit the skeleton to this garment first, or give its type");
+                       + place(inside.core.row(vertex)) + "; fit the skeleton to this garment first, or give its type");
+}
+
+Vec3 nearest_joint(const Vec3& p, const Skeleton& bones)
+{
+    Vec3 nearest = bones.root;
+    for (const Vec3& joint : bones.tails)
+        if ((joint - p).squaredNorm() < (nearest - p).squaredNorm())
+            nearest = joint;
+    return nearest;
+}
+
+/// Faces that span a joint cut its corner, where a hem or a cuff may lie. Drawn along the bones to the joint, which no cloth
+/// comes between, they do not.
+void tuck_corners(Inflatable& inside, const TriangleMesh& cloth)
+{
+    const auto edges = edges_of(inside.full.triangles);
+    bool tucked = true;
+    const auto tuck = [&](int vertex) {
+        const Vec3 joint = nearest_joint(inside.core.row(vertex), inside.bones);
+        tucked |= inside.core.row(vertex) != joint.transpose();
+        inside.core.row(vertex) = joint;
+    };
+    while (tucked) {
+        tucked = false;
+        const Crossings found = crossings_at(k_first_sizes.back(), inside, cloth);
+        for (const Crossing& c : found.through_body)
+            for (int k = 0; k < 3; ++k)
+                tuck(inside.full.triangles(c.second, k));
+        for (const Crossing& c : found.through_cloth)
+            for (int k = 0; k < 2; ++k)
+                tuck(edges(c.first, k));
+    }
 }
 
 /// The largest of the sizes to start with that is free of the garment.
-double first_size(const Inflatable& inside, const GarmentMesh& garment, const SkinWeights& weights)
+double first_size(Inflatable& inside, const GarmentMesh& garment, const SkinWeights& weights)
 {
     const TriangleMesh cloth { garment.positions, garment.triangles };
-    TriangleMesh collapsed;
-    Crossings found;
-    for (const double size : k_first_sizes) {
-        collapsed = { inside.at(size), inside.full.triangles };
-        found = { crossings(cloth, collapsed), crossings(collapsed, cloth) };
-        if (found.none())
-            return size;
-    }
-    refuse(found, collapsed, weights);
+    if (!crossings_at(k_first_sizes.back(), inside, cloth).none())
+        tuck_corners(inside, cloth);
+    const auto size = std::find_if(k_first_sizes.begin(), k_first_sizes.end(),
+                                   [&](double s) { return crossings_at(s, inside, cloth).none(); });
+    if (size == k_first_sizes.end())
+        refuse(crossings_at(k_first_sizes.back(), inside, cloth), inside, weights);
+    return *size;
 }
 
 /// A garment that may be made larger while the body grows in it, all of it alike.
@@ -181,7 +218,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
                           const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn,
                           const Positions& left)
 {
-    const Inflatable inside = inflatable(rig, body, pose, garment, worn, left);
+    Inflatable inside = inflatable(rig, body, pose, garment, worn, left);
     const double first = first_size(inside, garment, rig.weights);
 
     const Eigen::Index body_vertices = body.surface.positions.rows();

@@ -22,8 +22,8 @@ constexpr int k_smoothing_passes = 30;
 constexpr double k_moving_friction = 0.25;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
-// Where cloth holds a part of the body back by this much (metres), there is no room for it further on: it would only be torn. On ways that
-// end well no part lags by more than 0.02.
+// Where cloth holds a part of the body back by this much (metres) more than at the start, there is no room for it further on: it would only
+// be torn. On ways that end well no part that was in place lags by more than 0.02; a foot may stand in a trouser leg from the start.
 constexpr double k_stuck = 0.05;
 
 BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
@@ -173,6 +173,7 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
     step.gravity = k_gravity;
     step.friction_share = k_moving_friction;
     Gone gone { 0, motion.state(), 0 };
+    const double stuck = k_stuck + (motion.obstacle() - way.at(0)).rowwise().norm().maxCoeff();
     for (int i = 1; i <= steps; ++i) {
         progress.at(double(i) / steps);
         const double t = double(i) / steps;
@@ -180,13 +181,15 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
         const Positions cloth = motion.cloth(), body = motion.obstacle(), target = way.bridged(t);
         motion.carry(skin(cloth, cloth_weights, along) - cloth, skin(body, body_weights, along) - body);
         step.obstacle_target = &target;
-        const double lag = motion.advance(step);
+        double lag = motion.advance(step);
+        if (lag > stuck)
+            lag = arrive(motion, step);  // it may only be slow
         gone.share = t;
         if (lag < k_in_place) {
             gone.in_place = t;
             gone.state = motion.state();
         }
-        if (lag > k_stuck)
+        if (lag > stuck)
             return gone;
         if (i < steps)
             recording.see(motion, t);
