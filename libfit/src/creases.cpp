@@ -15,8 +15,8 @@ namespace {
 // Layers of cloth need this much room (metres) between two parts of the body.
 constexpr double k_clearance = 1e-3;
 // The sides of a crease are part of it this far (metres, along edges) from where it is shut: where its membrane begins, cloth
-// must find room again.
-constexpr double k_side = 0.03;
+// must find room again, a hem that is folded up, say, in the lap of who sits. With a third of that, hems stayed wedged there.
+constexpr double k_side = 0.09;
 // Metres; cloth further away from a crease at the start does not get into it on the way.
 constexpr double k_reach = 0.15;
 // A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
