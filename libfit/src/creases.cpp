@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "creases.h"
 
+#include <cmath>
 #include <numeric>
 #include <queue>
 
@@ -14,9 +15,6 @@ namespace {
 
 // Layers of cloth need this much room (metres) between two parts of the body.
 constexpr double k_clearance = 1e-3;
-// The sides of a crease are part of it this far (metres, along edges) from where it is shut: where its membrane begins, cloth
-// must find room again, a hem that is folded up, say, in the lap of who sits. With a third of that, hems stayed wedged there.
-constexpr double k_side = 0.09;
 // Metres; cloth further away from a crease at the start does not get into it on the way.
 constexpr double k_reach = 0.15;
 // A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
@@ -53,9 +51,21 @@ std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vert
     return neighbours;
 }
 
-/// Vertices without room, and the sides of the wedges that open from them.
+double area(const TriangleMesh& surface)
+{
+    double sum = 0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const Vec3 a = surface.positions.row(surface.triangles(f, 0)),
+                   b = surface.positions.row(surface.triangles(f, 1)),
+                   c = surface.positions.row(surface.triangles(f, 2));
+        sum += 0.5 * (b - a).cross(c - a).norm();
+    }
+    return sum;
+}
+
+/// Vertices without room, and the sides, so far, of the wedges that open from them.
 std::vector<char> creased(const Positions& positions, const std::vector<double>& room,
-                          const std::vector<std::vector<int>>& neighbours)
+                          const std::vector<std::vector<int>>& neighbours, double side)
 {
     std::vector<double> way(room.size(), INFINITY);  // from the nearest vertex without room; Dijkstra's algorithm
     using Entry = std::pair<double, int>;
@@ -70,12 +80,12 @@ std::vector<char> creased(const Positions& positions, const std::vector<double>&
             continue;
         for (int n : neighbours[v])
             if (const double there = here + (positions.row(v) - positions.row(n)).norm();
-                there < std::min(way[n], k_side))
+                there < std::min(way[n], side))
                 front.emplace(way[n] = there, n);
     }
     std::vector<char> result(room.size());
     for (std::size_t v = 0; v < room.size(); ++v)
-        result[v] = way[v] < k_side;
+        result[v] = way[v] < side;
     return result;
 }
 
@@ -136,11 +146,12 @@ void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std
 
 }  // namespace
 
-Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth)
+Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth, double side)
 {
     const Edges edges = edges_of(surface.triangles);
     const auto neighbours = neighbours_of(edges, std::size_t(surface.positions.rows()));
-    std::vector<char> inside = creased(surface.positions, room_above(surface), neighbours);
+    std::vector<char> inside
+        = creased(surface.positions, room_above(surface), neighbours, side * std::sqrt(area(surface)));
     add_enclosed(inside, neighbours);
     drop_without_border(inside, neighbours);
     drop_without_cloth(inside, edges, near_cloth);

@@ -13,12 +13,16 @@
 
 namespace fit {
 
+/// How far, along edges, the sides of a crease are part of it from where it is shut: where its membrane begins, cloth must find room
+/// again. In square roots of the body's area, which no pose changes: 3 and 9 cm for an adult.
+constexpr double k_narrow_side = 0.023, k_wide_side = 0.067;
+
 class Creases {
 public:
     /// Finds the creases of a surface as it stands (n x 3): vertices that face another part of it without room for cloth
     /// between, or lie inside another part. Cost O(n log n).
     /// @param near_cloth  of each vertex; creases without any such vertex (a mouth, say, or toes) are left alone
-    Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth);
+    Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth, double side = k_narrow_side);
 
     /// The surface, in any pose (n x 3), with its creases bridged: each crease is a harmonic membrane over its border.
     Positions bridged(const Positions& positions) const;

@@ -38,10 +38,10 @@ BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 class Way {
 public:
     Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start,
-        const Positions& cloth) :
+        const Positions& cloth, double crease_side) :
         rig_(rig),
         hands_(rig, body.surface.positions), stretch_(hands_.of(start, from)), from_(from), to_(to),
-        creases_({ at(1), body.surface.triangles }, near_cloth(at(0), cloth))
+        creases_({ at(1), body.surface.triangles }, near_cloth(at(0), cloth), crease_side)
     {
     }
 
@@ -200,11 +200,9 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
     return gone;
 }
 
-}  // namespace
-
-RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
-                           const std::vector<WornGarment>& worn, const RecoverOptions& options,
-                           const Progress& progress, const Positions& start_positions)
+RecoverResult recovered(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
+                        const std::vector<WornGarment>& worn, const RecoverOptions& options, const Progress& progress,
+                        const Positions& start_positions, double crease_side)
 {
     RecoverResult result;
     result.garments = worn;
@@ -213,7 +211,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
         append(rest, { garment.rest.positions, garment.rest.triangles });
         append(cloth, { garment.positions, garment.rest.triangles });
     }
-    const Way way(rig, body, from, to, start_positions, cloth.positions);
+    const Way way(rig, body, from, to, start_positions, cloth.positions, crease_side);
     const TriangleMesh start { start_positions.rows() > 0 ? start_positions : way.at(0), body.surface.triangles };
     if (const int crossing = crossing_count(cloth, start); crossing > 0)
         throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing)
@@ -241,8 +239,9 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     result.frames = std::move(recording).take();
 
     put_positions(result.garments, motion.cloth());
-    add_slips(result.garments,
-              skin(cloth.positions, cloth_weights, between(way.transforms(0), way.transforms(stuck ? gone.in_place : 1))));
+    add_slips(
+        result.garments,
+        skin(cloth.positions, cloth_weights, between(way.transforms(0), way.transforms(stuck ? gone.in_place : 1))));
     result.body = motion.obstacle();
     if (!stuck) {
         result.held_back = held_back(result.body, end, rig.weights);
@@ -255,6 +254,25 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     result.certified = clean && arrived && !stuck && result.too_tight.empty();
     return result;
+}
+
+}  // namespace
+
+// Wide bridges keep hems out of the laps of sitting bodies, but where all is well without, they may pull at cloth for nothing.
+RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
+                           const std::vector<WornGarment>& worn, const RecoverOptions& options,
+                           const Progress& progress, const Positions& start_positions)
+{
+    const auto attempt = [&](double crease_side, const Progress& part) {
+        return recovered(rig, body, from, to, worn, options, part, start_positions, crease_side);
+    };
+    RecoverResult first = attempt(k_narrow_side, progress.part(0, 0.7));
+    if (first.certified || first.pose_reached < 1 || first.held_back.empty())
+        return first;
+    RecoverResult second = attempt(k_wide_side, progress.part(0.7, 1));
+    RecoverResult& better = second.certified ? second : first;
+    better.seconds = ClothSeconds(first.seconds) += second.seconds;
+    return std::move(better);
 }
 
 }  // namespace fit
