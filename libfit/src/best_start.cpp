@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -222,12 +223,12 @@ bool has_failed(const SkeletonSearch& search, const Posture& posture)
 std::vector<Scored> others_instead(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& polished,
                                    const std::vector<Scored>& sorted)
 {
-    std::vector<Scored> result;
-    for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (std::any_of(polished.begin(), polished.end(), [&](const Scored& one) {
-                return !faces_away(rig, one, sorted[i]) && has_failed(search, one.posture);
-            }))
-            result.push_back(sorted[i]);
+    std::vector<Scored> failed, result;
+    std::copy_if(polished.begin(), polished.end(), std::back_inserter(failed),
+                 [&](const Scored& one) { return has_failed(search, one.posture); });
+    std::copy_if(sorted.begin() + 1, sorted.end(), std::back_inserter(result), [&](const Scored& start) {
+        return std::any_of(failed.begin(), failed.end(), [&](const Scored& one) { return !faces_away(rig, one, start); });
+    });
     return result;
 }
 

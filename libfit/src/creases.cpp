@@ -9,6 +9,7 @@
 #include "joined_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "surface_measures.h"
 
 namespace fit {
 namespace {
@@ -49,18 +50,6 @@ std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vert
         neighbours[edges(e, 1)].push_back(edges(e, 0));
     }
     return neighbours;
-}
-
-double area(const TriangleMesh& surface)
-{
-    double sum = 0;
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        const Vec3 a = surface.positions.row(surface.triangles(f, 0)),
-                   b = surface.positions.row(surface.triangles(f, 1)),
-                   c = surface.positions.row(surface.triangles(f, 2));
-        sum += 0.5 * (b - a).cross(c - a).norm();
-    }
-    return sum;
 }
 
 /// Vertices without room, and the sides, so far, of the wedges that open from them.

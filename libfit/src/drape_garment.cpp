@@ -127,10 +127,15 @@ void tuck_corners(Inflatable& inside, const TriangleMesh& cloth)
 double first_size(Inflatable& inside, const GarmentMesh& garment, const SkinWeights& weights)
 {
     const TriangleMesh cloth { garment.positions, garment.triangles };
-    if (!crossings_at(k_first_sizes.back(), inside, cloth).none())
+    const auto largest_free = [&] {
+        return std::find_if(k_first_sizes.begin(), k_first_sizes.end(),
+                            [&](double size) { return crossings_at(size, inside, cloth).none(); });
+    };
+    auto size = largest_free();
+    if (size == k_first_sizes.end()) {
         tuck_corners(inside, cloth);
-    const auto size = std::find_if(k_first_sizes.begin(), k_first_sizes.end(),
-                                   [&](double s) { return crossings_at(s, inside, cloth).none(); });
+        size = largest_free();
+    }
     if (size == k_first_sizes.end())
         refuse(crossings_at(k_first_sizes.back(), inside, cloth), inside, weights);
     return *size;

@@ -15,7 +15,6 @@ Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
         const Vec3 axis = from.unitOrthogonal();
         return { 0, axis.x(), axis.y(), axis.z() };
     }
-
     const Vec3 axis = from.cross(to);
     return Eigen::Quaterniond(w, axis.x(), axis.y(), axis.z()).normalized();
 }
