@@ -269,7 +269,8 @@ TEST_P(RealGarment, IsPutOnAndStaysOn)
 INSTANTIATE_TEST_SUITE_P(Known, RealGarment,
                          testing::Values(Wearing { "HemNearAnElbow", "child_a_pose", "tshirt" },
                                          Wearing { "NecklineNearAShoulder", "tall_man_fighting", "tshirt" },
-                                         Wearing { "FeetInTrouserLegs", "man_a_pose", "trousers" }),
+                                         Wearing { "FeetInTrouserLegs", "man_a_pose", "trousers" },
+                                         Wearing { "WaistInALap", "old_woman_sitting", "trousers" }),
                          [](const auto& wearing) { return std::string(wearing.param.name); });
 
 TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)

@@ -2,8 +2,9 @@
 #include "creases.h"
 
 #include <cmath>
-#include <numeric>
 #include <queue>
+
+#include <Eigen/SparseCholesky>
 
 #include "fit/mesh.h"
 #include "joined_vertices.h"
@@ -14,28 +15,33 @@
 namespace fit {
 namespace {
 
-// Layers of cloth need this much room (metres) between two parts of the body.
-constexpr double k_clearance = 1e-3;
+// Of the ball that needs room above the skin, in square roots of the body's area, which no pose changes: 1 cm for an adult. Larger
+// balls fill laps and crotches further than they have to.
+constexpr double k_ball = 0.0075;
+constexpr double k_fits = 0.9;  // skin is not smooth: a ball that has so much of its room does fit
+// A bridge is drawn so tight between the lips of its crease; the rest is left to a soap film, that no face loses its area.
+constexpr double k_tight = 0.9;
 // Metres; cloth further away from a crease at the start does not get into it on the way.
 constexpr double k_reach = 0.15;
 // A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
 constexpr double k_enclosed = 0.01;
 
-/// How far each vertex sees along its normal until it meets the surface again; 0 when it sees it from behind, as it is inside
-/// then; infinite when it sees nothing.
-std::vector<double> room_above(const TriangleMesh& surface)
+/// Vertices at which a ball has no room.
+std::vector<char> cramped(const TriangleMesh& surface)
 {
     const TriangleTree tree(surface);
     const Positions normals = vertex_normals(surface.positions, surface.triangles);
+    const double radius = k_ball * std::sqrt(area(surface));
     const double above
         = 1e-6 * (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
-    std::vector<double> result(surface.positions.rows(), INFINITY);
+    std::vector<char> result(surface.positions.rows(), 0);
     parallel_for(surface.positions.rows(), [&](Eigen::Index v) {
-        const Vec3 n = normals.row(v);
+        const Vec3 p = surface.positions.row(v), n = normals.row(v);
         if (n.isZero())
             return;
-        if (const auto hit = tree.first_hit(surface.positions.row(v).transpose() + above * n, n))
-            result[v] = hit->from_behind ? 0 : hit->distance;
+        const auto hit = tree.first_hit(p + above * n, n);  // from behind when the vertex is inside another part
+        result[v] = (hit && (hit->from_behind || hit->distance < k_fits * 2 * radius))
+            || tree.distance(p + radius * n) < k_fits * radius;
     });
     return result;
 }
@@ -50,32 +56,6 @@ std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vert
         neighbours[edges(e, 1)].push_back(edges(e, 0));
     }
     return neighbours;
-}
-
-/// Vertices without room, and the sides, so far, of the wedges that open from them.
-std::vector<char> creased(const Positions& positions, const std::vector<double>& room,
-                          const std::vector<std::vector<int>>& neighbours, double side)
-{
-    std::vector<double> way(room.size(), INFINITY);  // from the nearest vertex without room; Dijkstra's algorithm
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    for (std::size_t v = 0; v < room.size(); ++v)
-        if (room[v] < k_clearance)
-            front.emplace(way[v] = 0, int(v));
-    while (!front.empty()) {
-        const auto [here, v] = front.top();
-        front.pop();
-        if (here > way[v])
-            continue;
-        for (int n : neighbours[v])
-            if (const double there = here + (positions.row(v) - positions.row(n)).norm();
-                there < std::min(way[n], side))
-                front.emplace(way[n] = there, n);
-    }
-    std::vector<char> result(room.size());
-    for (std::size_t v = 0; v < room.size(); ++v)
-        result[v] = way[v] < side;
-    return result;
 }
 
 // Patches of skin that a crease encloses belong to it: left out, they would pin its membrane down inside.
@@ -99,25 +79,6 @@ void add_enclosed(std::vector<char>& marked, const std::vector<std::vector<int>>
     }
 }
 
-// A membrane needs a border: pieces that lie in a crease as a whole (eyeballs, say) are left alone.
-void drop_without_border(std::vector<char>& marked, const std::vector<std::vector<int>>& neighbours)
-{
-    std::vector<char> anchored(marked.size(), 0);
-    std::queue<int> front;
-    for (std::size_t v = 0; v < marked.size(); ++v)
-        if (!marked[v])
-            front.push(int(v));
-    while (!front.empty()) {
-        for (int n : neighbours[front.front()])
-            if (marked[n] && !anchored[n]) {
-                anchored[n] = 1;
-                front.push(n);
-            }
-        front.pop();
-    }
-    marked = anchored;
-}
-
 // Creases that no cloth will come to stay as they are: mouths and toes would be smoothed away on the way.
 void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std::vector<char>& near)
 {
@@ -133,63 +94,82 @@ void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std
         marked[v] = marked[v] && kept[creases.root(int(v))];
 }
 
+/// Of each vertex of a crease the nearest one on its lips, along edges, by Dijkstra's algorithm; -1 for all others. Pieces that lie in a
+/// crease as a whole (eyeballs, say) have no lips, and are left alone.
+std::vector<int> nearest_lips(const Positions& positions, const std::vector<char>& marked,
+                              const std::vector<std::vector<int>>& neighbours)
+{
+    std::vector<int> lips(marked.size(), -1);
+    std::vector<double> way(marked.size(), INFINITY);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    const auto look_from = [&](int v, double here, int lip) {
+        for (int n : neighbours[v])
+            if (const double there = here + (positions.row(v) - positions.row(n)).norm(); marked[n] && there < way[n]) {
+                lips[n] = lip;
+                front.emplace(way[n] = there, n);
+            }
+    };
+    for (std::size_t v = 0; v < marked.size(); ++v)
+        if (!marked[v])
+            look_from(int(v), 0, int(v));
+    while (!front.empty()) {
+        const auto [here, v] = front.top();
+        front.pop();
+        if (here == way[v])
+            look_from(v, here, lips[v]);
+    }
+    return lips;
+}
+
+/// Where a soap film over the lips has the inner vertices, m x 3: each in the middle of its neighbours.
+Positions soap_film(const Positions& positions, const std::vector<int>& inner,
+                    const std::vector<std::vector<int>>& neighbours)
+{
+    std::vector<int> row(neighbours.size(), -1);
+    for (std::size_t i = 0; i < inner.size(); ++i)
+        row[inner[i]] = int(i);
+    std::vector<Eigen::Triplet<double>> laplacian;
+    Eigen::MatrixXd lips = Eigen::MatrixXd::Zero(Eigen::Index(inner.size()), 3);
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+        laplacian.emplace_back(int(i), int(i), double(neighbours[inner[i]].size()));
+        for (int n : neighbours[inner[i]])
+            if (row[n] >= 0)
+                laplacian.emplace_back(int(i), row[n], -1.0);
+            else
+                lips.row(Eigen::Index(i)) += positions.row(n);
+    }
+    Eigen::SparseMatrix<double> system(lips.rows(), lips.rows());
+    system.setFromTriplets(laplacian.begin(), laplacian.end());
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(lips);
+}
+
 }  // namespace
 
-Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth, double side)
+Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth) :
+    surface_(surface.positions), bridged_(surface.positions)
 {
     const Edges edges = edges_of(surface.triangles);
-    const auto neighbours = neighbours_of(edges, std::size_t(surface.positions.rows()));
-    std::vector<char> inside
-        = creased(surface.positions, room_above(surface), neighbours, side * std::sqrt(area(surface)));
-    add_enclosed(inside, neighbours);
-    drop_without_border(inside, neighbours);
-    drop_without_cloth(inside, edges, near_cloth);
-
-    std::vector<int> row(inside.size(), -1);
-    for (std::size_t v = 0; v < inside.size(); ++v)
-        if (inside[v]) {
-            row[v] = int(inner_.size());
+    const auto neighbours = neighbours_of(edges, std::size_t(surface_.rows()));
+    std::vector<char> marked = cramped(surface);
+    add_enclosed(marked, neighbours);
+    drop_without_cloth(marked, edges, near_cloth);
+    const std::vector<int> lips = nearest_lips(surface_, marked, neighbours);
+    for (std::size_t v = 0; v < lips.size(); ++v)
+        if (lips[v] >= 0)
             inner_.push_back(int(v));
-        }
-    std::vector<Eigen::Triplet<double>> laplacian, border;
-    const auto couple = [&](int v, int n) {
-        if (row[v] < 0)
-            return;
-        laplacian.emplace_back(row[v], row[v], 1.0);
-        if (row[n] >= 0)
-            laplacian.emplace_back(row[v], row[n], -1.0);
-        else
-            border.emplace_back(row[v], n, 1.0);
-    };
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        couple(edges(e, 0), edges(e, 1));
-        couple(edges(e, 1), edges(e, 0));
-    }
-    Eigen::SparseMatrix<double> system(inner_.size(), inner_.size());
-    system.setFromTriplets(laplacian.begin(), laplacian.end());
-    to_border_.resize(inner_.size(), surface.positions.rows());
-    to_border_.setFromTriplets(border.begin(), border.end());
-    if (!inner_.empty())
-        membrane_.compute(system);
-}
-
-Positions Creases::bridged(const Positions& positions) const
-{
-    Positions result = positions;
     if (inner_.empty())
-        return result;
-    const Eigen::MatrixXd right = to_border_ * positions;
-    const Eigen::MatrixXd membrane = membrane_.solve(right);
+        return;
+    const Positions film = soap_film(surface_, inner_, neighbours);
     for (std::size_t i = 0; i < inner_.size(); ++i)
-        result.row(inner_[i]) = membrane.row(i);
-    return result;
+        bridged_.row(inner_[i]) = k_tight * surface_.row(lips[inner_[i]]) + (1 - k_tight) * film.row(Eigen::Index(i));
 }
 
-Positions Creases::withdrawn(const Positions& positions, const Positions& core) const
+Positions Creases::withdrawn(const Positions& core) const
 {
-    Positions result = positions;
+    Positions result = surface_;
     for (int v : inner_)
-        result.row(v) = 0.5 * (core.row(v) + positions.row(v));
+        result.row(v) = 0.5 * (core.row(v) + surface_.row(v));
     return result;
 }
 

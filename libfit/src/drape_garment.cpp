@@ -58,8 +58,8 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
         append(cloth, { under.positions, under.rest.triangles });
     const Creases creases({ skinned, body.surface.triangles }, near_cloth(skinned, cloth.positions));
     result.bridged = result.withdrawn = result.full.positions;
-    result.bridged.topRows(body_vertices) = creases.bridged(skinned);
-    result.withdrawn.topRows(body_vertices) = creases.withdrawn(skinned, result.core.topRows(body_vertices));
+    result.bridged.topRows(body_vertices) = creases.bridged();
+    result.withdrawn.topRows(body_vertices) = creases.withdrawn(result.core.topRows(body_vertices));
     return result;
 }
 

@@ -23,8 +23,9 @@ constexpr double k_moving_friction = 0.25;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
 // Where cloth holds a part of the body back by this much (metres) more than at the start, there is no room for it further on: it would only
-// be torn. On ways that end well no part that was in place lags by more than 0.02; a foot may stand in a trouser leg from the start.
-constexpr double k_stuck = 0.05;
+// be torn. On ways that end well no part that was in place lags by more than 0.02, but hands that cross come to 0.07; a foot may stand in a
+// trouser leg from the start.
+constexpr double k_stuck = 0.08;
 
 BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 {
@@ -38,29 +39,26 @@ BoneTransforms between(const BoneTransforms& from, const BoneTransforms& to)
 class Way {
 public:
     Way(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start,
-        const Positions& cloth, double crease_side) :
+        const Positions& cloth) :
         rig_(rig),
-        hands_(rig, body.surface.positions), stretch_(hands_.of(start, from)), from_(from), to_(to),
-        creases_({ at(1), body.surface.triangles }, near_cloth(at(0), cloth), crease_side)
+        hands_(rig, body.surface.positions), stretch_(hands_.of(start, from)), from_(from), to_(to), last_(at(1)),
+        creases_({ last_, body.surface.triangles }, near_cloth(at(0), cloth))
     {
     }
 
     BoneTransforms transforms(double t) const { return bone_transforms(rig_.skeleton, slerp(from_, to_, t)); }
     Positions at(double t) const { return skin(hands_.stretched(stretch(t)), rig_.weights, transforms(t)); }
 
-    /// With the creases of the last pose bridged, more and more up to half of the way.
+    /// With the creases of the last pose bridged, more and more up to half of the way. Bridges move as the skin below them does.
     Positions bridged(double t) const
     {
-        const Positions plain = at(t);
-        return plain + std::min(1.0, 2 * t) * (creases_.bridged(plain) - plain);
+        const BoneTransforms along = between(transforms(1), transforms(t));
+        const Positions lifted = skin(creases_.bridged(), rig_.weights, along) - skin(last_, rig_.weights, along);
+        return at(t) + std::min(1.0, 2 * t) * lifted;
     }
 
     /// The last pose, with what is in creases drawn back from them.
-    Positions withdrawn() const
-    {
-        const Positions last = at(1);
-        return creases_.withdrawn(last, collapse(last, rig_.weights, posed(rig_.skeleton, to_)));
-    }
+    Positions withdrawn() const { return creases_.withdrawn(collapse(last_, rig_.weights, posed(rig_.skeleton, to_))); }
 
     /// Metres that the vertex of the cloth with the longest way is carried. Bare hands go further, but they carry nothing.
     double length(const Positions& cloth, const SkinWeights& weights) const
@@ -89,6 +87,7 @@ private:
     StraightHands hands_;
     StraightHands::Stretch stretch_;  // at the start
     const Pose &from_, &to_;
+    Positions last_;
     Creases creases_;
 };
 
@@ -200,9 +199,11 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
     return gone;
 }
 
-RecoverResult recovered(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
-                        const std::vector<WornGarment>& worn, const RecoverOptions& options, const Progress& progress,
-                        const Positions& start_positions, double crease_side)
+}  // namespace
+
+RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
+                           const std::vector<WornGarment>& worn, const RecoverOptions& options,
+                           const Progress& progress, const Positions& start_positions)
 {
     RecoverResult result;
     result.garments = worn;
@@ -211,7 +212,7 @@ RecoverResult recovered(const Rig& rig, const BodyMesh& body, const Pose& from, 
         append(rest, { garment.rest.positions, garment.rest.triangles });
         append(cloth, { garment.positions, garment.rest.triangles });
     }
-    const Way way(rig, body, from, to, start_positions, cloth.positions, crease_side);
+    const Way way(rig, body, from, to, start_positions, cloth.positions);
     const TriangleMesh start { start_positions.rows() > 0 ? start_positions : way.at(0), body.surface.triangles };
     if (const int crossing = crossing_count(cloth, start); crossing > 0)
         throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing)
@@ -231,7 +232,8 @@ RecoverResult recovered(const Rig& rig, const BodyMesh& body, const Pose& from, 
         motion.carry_obstacle(way.withdrawn());
         motion.carry_obstacle(way.at(1));
     }
-    const Positions end = way.at(stuck ? gone.in_place : 1);
+    const double reached = stuck ? gone.in_place : 1;
+    const Positions end = way.at(reached);
     const auto [arrived, speed] = settle(motion, end, options.settling_steps, progress.part(0.8, 1));
 
     if (!stuck)
@@ -239,40 +241,19 @@ RecoverResult recovered(const Rig& rig, const BodyMesh& body, const Pose& from, 
     result.frames = std::move(recording).take();
 
     put_positions(result.garments, motion.cloth());
-    add_slips(
-        result.garments,
-        skin(cloth.positions, cloth_weights, between(way.transforms(0), way.transforms(stuck ? gone.in_place : 1))));
+    add_slips(result.garments,
+              skin(cloth.positions, cloth_weights, between(way.transforms(0), way.transforms(reached))));
     result.body = motion.obstacle();
-    if (!stuck) {
+    if (!stuck)
         result.held_back = held_back(result.body, end, rig.weights);
-        result.too_tight = too_tight(result.garments, result.body, rig.weights, posed(rig.skeleton, to),
-                                     options.cloth.largest_stretch);
-    }
+    result.too_tight = too_tight(result.garments, result.body, rig.weights,
+                                 posed(rig.skeleton, slerp(from, to, reached)), options.cloth.largest_stretch);
     result.speed = speed;
     result.seconds = motion.seconds();
-    result.pose_reached = stuck ? gone.in_place : 1;
+    result.pose_reached = reached;
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     result.certified = clean && arrived && !stuck && result.too_tight.empty();
     return result;
-}
-
-}  // namespace
-
-// Wide bridges keep hems out of the laps of sitting bodies, but where all is well without, they may pull at cloth for nothing.
-RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
-                           const std::vector<WornGarment>& worn, const RecoverOptions& options,
-                           const Progress& progress, const Positions& start_positions)
-{
-    const auto attempt = [&](double crease_side, const Progress& part) {
-        return recovered(rig, body, from, to, worn, options, part, start_positions, crease_side);
-    };
-    RecoverResult first = attempt(k_narrow_side, progress.part(0, 0.7));
-    if (first.certified || first.pose_reached < 1 || first.held_back.empty())
-        return first;
-    RecoverResult second = attempt(k_wide_side, progress.part(0.7, 1));
-    RecoverResult& better = second.certified ? second : first;
-    better.seconds = ClothSeconds(first.seconds) += second.seconds;
-    return std::move(better);
 }
 
 }  // namespace fit

@@ -17,6 +17,8 @@ constexpr double k_across = 0.5;
 constexpr double k_fewest_rounds = 6;
 // Single edges stretch for many reasons; what counts is what all but a twentieth of them stay below.
 constexpr double k_most = 0.95;
+// An edge that is stretched by more than half is caught somewhere (a cuff on a thumb), and no more a measure of girth.
+constexpr double k_caught = 0.5;
 
 std::vector<TooTight> worst_first(std::vector<TooTight> parts)
 {
@@ -51,7 +53,7 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
         const Vec3 out = positions.row(i).transpose() - skeleton_.head(bone);
         Sums& s = sums[part];
         const double rest = (garment_.positions.row(i) - garment_.positions.row(j)).norm();
-        s.now += edge.norm();
+        s.now += std::min(edge.norm(), (1 + k_caught) * rest);
         s.rest += rest;
         s.radius += (out - out.dot(axis) * axis).norm();
         s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
