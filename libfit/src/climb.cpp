@@ -8,7 +8,7 @@ namespace {
 
 constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
 constexpr double k_least_gain = 1e-4;  // m; of a step
-constexpr double k_furthest_way = 0.05;  // m; that a joint goes for the paper's E alone
+constexpr double k_furthest_way = 0.02;  // m; that a joint goes for the paper's E alone
 constexpr double k_room_lost = 0.04;  // m, of a bone's five samples: 8 mm each
 constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
 // All but the hip joints, which are as good as fixed to the pelvis. First the trunk.

@@ -28,10 +28,10 @@ constexpr double k_clear_of_cloth = 0.002,
                  k_clear_step = 0.003;  // m; an extremity keeps so far away, looked at so often
 constexpr int k_partly_inside = 2, k_mostly_inside = 3;  // of a bone's five samples
 constexpr double k_least_room = 0.2;  // share of the room that covered bones need
-constexpr double k_tight = 0.7, k_wide = 0.95;  // of the same
+constexpr double k_tight = 0.58, k_wide = 0.93, k_given_up = 0.05;  // of the same; the last for the paper's E
 constexpr int k_most_stuck = 1;  // bones that pass through cloth before they are freed
 constexpr double k_clear_up = 1;  // m of energy; so much better, a way up leaves no doubt
-constexpr Steps k_last_steps { 0.16, 0.005 }, k_nearby_steps { 0.08, 0.005 };  // rad
+constexpr Steps k_last_steps { 0.16, 0.005 }, k_large_steps { 0.16, 0.04 }, k_nearby_steps { 0.08, 0.0025 };  // rad
 constexpr double k_spoken_for = 0.5;  // m of energy that clear evidence for a way up is worth
 constexpr double k_as_given = 1;  // m of energy; most garments are given the way they are worn, and so is one of which nothing else is known
 constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than that do not compete
@@ -131,12 +131,16 @@ Posture at_barycentre(const Rig& rig, const SkeletonSearch& search)
 // Cloth that is tight leaves no choice; where it is wide, the paper's E has a say, and where there is all the room needed, the last.
 Posture raised_where_wide(const SkeletonSearch& search, const Posture& posture, PaperClimb& paper)
 {
-    if (share_of_room(search, posture) < k_tight)
+    const double before = share_of_room(search, posture);
+    if (before < k_tight)
         return posture;
-    // Twice: where small steps led to the end of the first climb, large ones may go on.
+    // Where small steps led to the end of the first climb, large ones may go on.
     const Posture first = raised(search, posture, paper, k_last_steps),
-                  together = raised(search, first, paper, k_last_steps);
-    return share_of_room(search, together) < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
+                  together = raised(search, first, paper, k_large_steps);
+    const double after = share_of_room(search, together);
+    if (after < before - k_given_up)
+        return posture;
+    return after < k_wide ? together : raised_alone(search, together, paper, k_nearby_steps);
 }
 
 // Refined, and raised: what the second asks is made ready meanwhile.

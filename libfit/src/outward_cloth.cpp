@@ -15,6 +15,7 @@
 #include "buckets.h"
 #include "joined_vertices.h"
 #include "outer_sheet.h"
+#include "parallel.h"
 #include "winding_number.h"
 
 namespace fit {
@@ -82,15 +83,18 @@ Triangles distinct_faces(const Triangles& triangles, int vertices)
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         lowest[f] = triangles.row(f).minCoeff();
     const Buckets faces_at(vertices, lowest);
-    std::vector<Eigen::Index> rows;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    std::vector<char> is_kept(triangles.rows());
+    parallel_for(triangles.rows(), [&](Eigen::Index f) {
         const auto key = sorted_corners(triangles, f);
         const auto at = faces_at[key[0]];
         const bool is_first
             = *std::find_if(at.begin(), at.end(), [&](int g) { return sorted_corners(triangles, g) == key; }) == f;
-        if (is_first && key[0] != key[1] && key[1] != key[2])
+        is_kept[f] = is_first && key[0] != key[1] && key[1] != key[2];
+    });
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (is_kept[f])
             rows.push_back(f);
-    }
     return triangles(rows, Eigen::all);
 }
 
@@ -104,7 +108,7 @@ std::vector<int> opposite_edges(const Triangles& triangles, int vertices)
         lowest[e] = std::min(from(e), to(e));
     const Buckets edges_at(vertices, lowest);
     std::vector<int> opposite(lowest.size(), -1);
-    for (int e = 0; e < int(lowest.size()); ++e) {
+    parallel_for(int(lowest.size()), [&](int e) {
         int found = -1, count = 0;
         for (const int other : edges_at[lowest[e]])
             if (other != e && std::max(from(other), to(other)) == std::max(from(e), to(e))) {
@@ -112,7 +116,7 @@ std::vector<int> opposite_edges(const Triangles& triangles, int vertices)
                 ++count;
             }
         opposite[e] = count == 1 ? found : -1;
-    }
+    });
     return opposite;
 }
 

@@ -38,16 +38,10 @@ BodyMesh body(int level = 0)
     return make_body(mesh.positions, mesh.triangles);
 }
 
-GarmentMesh coat(int level)
-{
-    const TriangleMesh mesh = at_level(FIT_SAMPLES "/coat.ply", level);
-    return make_garment(mesh.positions, mesh.triangles);
-}
-
-FitOptions as_coat()
+FitOptions as(GarmentType type)
 {
     FitOptions options;
-    options.type = GarmentType::coat;
+    options.type = type;
     return options;
 }
 
@@ -82,15 +76,21 @@ BENCHMARK(rig)
     ->Unit(benchmark::kSecond)
     ->Complexity();
 
-void fit_to_garment(benchmark::State& state)
+/// The whole of it, each time: nothing that is known of a garment is kept.
+void fit_to(benchmark::State& state, const char* path, GarmentType type)
 {
     const Rig rigged = rig_body(body());
-    const GarmentMesh garment = coat(int(state.range(0)));
+    const TriangleMesh mesh = at_level(path, int(state.range(0)));
+    const GarmentMesh garment = make_garment(mesh.positions, mesh.triangles);
     for (auto _ : state)
-        benchmark::DoNotOptimize(fit_skeleton(rigged, garment, as_coat()));
+        benchmark::DoNotOptimize(fit_skeleton(rigged, garment, as(type)));
     count_vertices(state, garment.positions);
 }
-BENCHMARK(fit_to_garment)->DenseRange(0, 2)->Unit(benchmark::kSecond);
+
+void fit_skirt(benchmark::State& state) { fit_to(state, FIT_SAMPLES "/skirt.ply", GarmentType::skirt); }
+void fit_coat(benchmark::State& state) { fit_to(state, FIT_SAMPLES "/coat.ply", GarmentType::coat); }
+BENCHMARK(fit_skirt)->DenseRange(0, 3)->Unit(benchmark::kSecond);
+BENCHMARK(fit_coat)->DenseRange(0, 2)->Unit(benchmark::kSecond);
 
 /// A coat of so many vertices, and a body rigged and posed for it.
 struct Fitted {
@@ -103,7 +103,7 @@ struct Fitted {
     {
         const TriangleMesh mesh = resampled(read(FIT_SAMPLES "/coat.ply"), std::size_t(state.range(0)));
         garment = make_garment(mesh.positions, mesh.triangles);
-        pose = fit_skeleton(rigged, garment, as_coat()).pose;
+        pose = fit_skeleton(rigged, garment, as(GarmentType::coat)).pose;
         count_vertices(state, garment.positions);
         state.SetComplexityN(garment.positions.rows());
     }
