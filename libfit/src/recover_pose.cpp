@@ -112,15 +112,27 @@ SkinWeights smoothed(const SkinWeights& weights, const Triangles& triangles)
     return strongest_four(dense);
 }
 
-/// Which garments are too small for a pose that they were big enough for in another.
-std::vector<TooTight> too_tight(const std::vector<WornGarment>& worn, const Positions& body, const SkinWeights& weights,
-                                const Skeleton& skeleton, double allowed)
+/// A body in some pose, and what it wears.
+struct Worn {
+    const std::vector<WornGarment>& garments;
+    const Positions& body;
+    Skeleton skeleton;
+};
+
+/// Which garments are too small for a pose that they were big enough for in another, before. What was wider there than it may stretch is
+/// caught, not tight.
+std::vector<TooTight> too_tight(const Worn& before, const Worn& now, const SkinWeights& weights, double allowed)
 {
     std::vector<TooTight> result;
-    for (std::size_t i = 0; i < worn.size(); ++i) {
-        const Tightness tightness(worn[i].rest, weights_of_nearest(worn[i].positions, body, weights), skeleton, int(i));
-        const std::vector<TooTight> found = tightness.too_tight_at_rest(worn[i].positions, allowed);
-        result.insert(result.end(), found.begin(), found.end());
+    for (std::size_t i = 0; i < now.garments.size(); ++i) {
+        const WornGarment& garment = now.garments[i];
+        const Tightness tightness(garment.rest, weights_of_nearest(garment.positions, now.body, weights), now.skeleton,
+                                  int(i));
+        const auto wider = slack(before.garments[i].positions, before.body, weights, before.skeleton);
+        for (const TooTight& part : tightness.too_tight_at_rest(garment.positions, allowed))
+            for (int p = 0; p < k_body_parts; ++p)
+                if (part.part == part_name(p) && wider[p] <= allowed)
+                    result.push_back(part);
     }
     return result;
 }
@@ -246,8 +258,9 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     result.body = motion.obstacle();
     if (!stuck)
         result.held_back = held_back(result.body, end, rig.weights);
-    result.too_tight = too_tight(result.garments, result.body, rig.weights,
-                                 posed(rig.skeleton, slerp(from, to, reached)), options.cloth.largest_stretch);
+    result.too_tight = too_tight({ worn, start.positions, posed(rig.skeleton, from) },
+                                 { result.garments, result.body, posed(rig.skeleton, slerp(from, to, reached)) },
+                                 rig.weights, options.cloth.largest_stretch);
     result.speed = speed;
     result.seconds = motion.seconds();
     result.pose_reached = reached;

@@ -2,10 +2,9 @@
 #include "tightness.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "body_parts.h"
+#include "nearest.h"
 #include "stretch.h"
 
 namespace fit {
@@ -19,6 +18,16 @@ constexpr double k_fewest_rounds = 6;
 constexpr double k_most = 0.95;
 // An edge that is stretched by more than half is caught somewhere (a cuff on a thumb), and no more a measure of girth.
 constexpr double k_caught = 0.5;
+
+// The hip joints point sideways: what goes round the hips goes round the spine.
+int bone_inside(int bone) { return bone == lhipjoint || bone == rhipjoint ? int(lowerback) : bone; }
+
+// Metres from the bone that it goes round, or from the bone's line.
+double radius(const Vec3& p, const Skeleton& skeleton, int bone)
+{
+    const Vec3 out = p - skeleton.head(bone), axis = skeleton.direction(bone);
+    return (out - out.dot(axis) * axis).norm();
+}
 
 std::vector<TooTight> worst_first(std::vector<TooTight> parts)
 {
@@ -45,17 +54,15 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1), part = part_of(bones_[i]);
         const Vec3 edge = positions.row(j) - positions.row(i);
-        // the hip joints point sideways: what goes round the hips goes round the spine
-        const int bone = bones_[i] == lhipjoint || bones_[i] == rhipjoint ? int(lowerback) : bones_[i];
-        const Vec3 axis = skeleton_.direction(bone);
-        if (part < 0 || part != part_of(bones_[j]) || std::abs(edge.dot(axis)) > k_across * edge.norm())
+        const int bone = bone_inside(bones_[i]);
+        if (part < 0 || part != part_of(bones_[j])
+            || std::abs(edge.dot(skeleton_.direction(bone))) > k_across * edge.norm())
             continue;
-        const Vec3 out = positions.row(i).transpose() - skeleton_.head(bone);
         Sums& s = sums[part];
         const double rest = (garment_.positions.row(i) - garment_.positions.row(j)).norm();
         s.now += std::min(edge.norm(), (1 + k_caught) * rest);
         s.rest += rest;
-        s.radius += (out - out.dot(axis) * axis).norm();
+        s.radius += radius(positions.row(i), skeleton_, bone);
         s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
     }
     std::vector<Round> result;
@@ -98,6 +105,24 @@ std::vector<TooTight> Tightness::too_tight_at_rest(const Positions& positions, d
         if (round.tightest > allowed)
             result.push_back(missing(round, round.tightest, 1));
     return worst_first(result);
+}
+
+std::array<double, k_body_parts> slack(const Positions& cloth, const Positions& body, const SkinWeights& weights,
+                                       const Skeleton& skeleton)
+{
+    const std::vector<int> bones = strongest_bones(weights);
+    const NearestPoint skin(body);
+    std::array<double, k_body_parts> wide {}, needed {}, result {};
+    for (Eigen::Index v = 0; v < cloth.rows(); ++v) {
+        const int under = skin.index(cloth.row(v)), part = part_of(bones[under]), bone = bone_inside(bones[under]);
+        if (part < 0)
+            continue;
+        wide[part] += radius(cloth.row(v), skeleton, bone);
+        needed[part] += radius(body.row(under), skeleton, bone);
+    }
+    for (std::size_t p = 0; p < result.size(); ++p)
+        result[p] = needed[p] > 0 ? wide[p] / needed[p] - 1 : 0;
+    return result;
 }
 
 }  // namespace fit
