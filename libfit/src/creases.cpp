@@ -58,7 +58,7 @@ std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vert
     return neighbours;
 }
 
-// Patches of skin that a crease encloses belong to it: left out, they would pin its membrane down inside.
+// Patches of skin that a crease encloses belong to it: left out, they would be lips at its bottom.
 void add_enclosed(std::vector<char>& marked, const std::vector<std::vector<int>>& neighbours)
 {
     std::vector<char> seen = marked;
