@@ -64,11 +64,14 @@ def shaded(triangles, rgb):
 def draw(axes, dressed, scale):
     """The body and what it wears, from the front: +y up, facing +z."""
     triangles, rgb = corners(dressed.body), [(0.75, 0.75, 0.75)] * dressed.body.face_number()
+    depth = triangles[:, :, 2].min(axis=1)  # cloth lies closer to the skin than faces are wide: of the two it is in front
     if not dressed.failure:
         ease = dressed.ease[dressed.garment.face_matrix()].mean(axis=1)
-        triangles = numpy.concatenate([triangles, corners(dressed.garment)])
+        garment = corners(dressed.garment)
+        triangles = numpy.concatenate([triangles, garment])
+        depth = numpy.concatenate([depth, garment[:, :, 2].max(axis=1)])
         rgb = numpy.concatenate([rgb, scale.to_rgba(ease)[:, :3]])
-    order = numpy.argsort(triangles[:, :, 2].mean(axis=1))  # far ones first
+    order = numpy.argsort(depth)  # far ones first
     axes.add_collection(
         collections.PolyCollection(triangles[order][:, :, :2], facecolors=shaded(triangles, rgb)[order], edgecolors="face")
     )
