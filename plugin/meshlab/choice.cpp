@@ -26,6 +26,17 @@ double as_typed(double value)
     return typed;
 }
 
+/// A choice by its number: in a dialog it is one of those shown, a script may say anything.
+template <class Enum>
+Enum read_number(const RichParameterList& list, const QString& name, std::size_t choices)
+{
+    const int number = list.getEnum(name);
+    if (number < 0 || std::size_t(number) >= choices)
+        throw InvalidInput(name.toStdString() + ": " + std::to_string(number) + " is out of range; give 0.."
+                           + std::to_string(choices - 1));
+    return Enum(number);
+}
+
 class ReadFromDialog {
 public:
     explicit ReadFromDialog(const RichParameterList& list) : list_(list) { }
@@ -35,7 +46,7 @@ public:
     {
         const QString name = text(about.name);
         if constexpr (std::is_enum_v<Value>)
-            value = Value(list_.getEnum(name));
+            value = read_number<Value>(list_, name, about.choices->size());
         else if constexpr (std::is_same_v<Value, bool>)
             value = list_.getBool(name);
         else if constexpr (std::is_integral_v<Value>)
@@ -70,7 +81,7 @@ MeshModel* read_layer(const RichParameterList& list, const QString& name, MeshDo
 
 std::string read_word(const RichParameterList& list, const QString& name, const std::vector<std::string_view>& words)
 {
-    return std::string(words.at(std::size_t(list.getEnum(name))));
+    return std::string(words[read_number<std::size_t>(list, name, words.size())]);
 }
 
 void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& document, const MenuEntry& entry)
@@ -86,8 +97,9 @@ void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& 
             throw InvalidInput(k_garments[i].toStdString() + ": " + name_of(*garment)
                                + " is worn already; choose the first garment again for none");
         choice.garments.push_back(garment);
-        choice.types.push_back(entry.filter->has(Stage::fit) ? GarmentType(list.getEnum(k_types[i]))
-                                                             : GarmentType::automatic);
+        choice.types.push_back(entry.filter->has(Stage::fit)
+                                   ? read_number<GarmentType>(list, k_types[i], garment_type_names().size())
+                                   : GarmentType::automatic);
     }
 }
 
@@ -133,9 +145,9 @@ Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDo
     describe_entry(entry, choice.parameters, ReadFromDialog(list));
     choice.parameters.fit.type = GarmentType::automatic;  // each garment has its own
     if (entry.makes_rig())
-        choice.shown_bone = Bone(list.getEnum(k_bone));
+        choice.shown_bone = read_number<Bone>(list, k_bone, bone_count);
     if (entry.makes_maps())
-        choice.shown_map = ShownMap(list.getEnum(k_map));
+        choice.shown_map = read_number<ShownMap>(list, k_map, k_maps.size());
     return choice;
 }
 

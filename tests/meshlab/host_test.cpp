@@ -351,6 +351,19 @@ TEST_F(MeshLab, RefusesParametersOutOfRange)
     expect_refusal("Rig Body", list, "proxy_vertices: 7 is out of range");
 }
 
+TEST_F(MeshLab, RefusesChoicesThatAreNone)
+{
+    open_samples();
+    using Field = std::pair<std::string, std::string>;
+    for (const auto& [name, filter] : { Field { "unit", "Rig Body" }, Field { "shown_bone", "Rig Body" },
+                                        Field { "type", "Dress Body" }, Field { "shown_map", "Dress Body" } })
+        for (const int number : { -1, 99 }) {
+            RichParameterList list = dialog_of(filter, document);
+            list.setValue(QString::fromStdString(name), EnumValue(number));
+            expect_refusal(filter, list, name + ": " + std::to_string(number) + " is out of range; give 0..");
+        }
+}
+
 TEST_F(MeshLab, SaysWhichFilterMustRunFirst)
 {
     open_samples();
