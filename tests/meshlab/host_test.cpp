@@ -537,6 +537,23 @@ TEST_F(SlowMeshLab, DressesABodyInInchesToTheNumbersOfTheCommandLine)
     expect_same_positions(*document.meshList.back(), folder / "dressed" / "skirt.ply");
 }
 
+TEST_F(SlowMeshLab, DressesTurnedAndScaledLayersToTheNumbersOfTheCommandLine)
+{
+    const Eigen::Matrix3d turned = (Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished() * 1024;  // z up, some mm
+    for (const fs::path& given : { k_small_body, k_skirt }) {
+        const MeshFile file = MeshFile::read(given);
+        file.write(folder / given.filename(), file.positions() * turned.transpose());
+        Matrix44m& matrix = meshlab::open_layer(document, given).cm.Tr;
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                matrix[row][column] = float(turned(row, column));
+    }
+    dress_by_program(folder / k_small_body.filename(), folder / k_skirt.filename(), folder / "dressed");
+    const Ended dressed = run("Dress Body", document);
+    ASSERT_TRUE(dressed.well) << dressed.message;
+    expect_same_positions(*document.meshList.back(), folder / "dressed" / "skirt.ply");
+}
+
 TEST_F(SlowMeshLab, GoesTheSameWayStepByStep)
 {
     open_samples();
