@@ -34,18 +34,32 @@ void make_scroll(QDockWidget& dialog)
     dialog.adjustSize();
 }
 
+/// Words that wrap take more lines than MeshLab reckons with, and its buttons then lie on the last row.
+void make_room(QDockWidget& dialog)
+{
+    const QWidget* const content = dialog.widget();
+    if (!content || !content->hasHeightForWidth())
+        return;
+    const int missing = content->heightForWidth(content->width()) - content->height();
+    if (missing > 0)
+        dialog.resize(dialog.width(), dialog.height() + missing);
+}
+
 }  // namespace
 
 ScrollingDialogs::ScrollingDialogs(const QString& title, QObject* parent) : QObject(parent), title_(title)
 {
-    qApp->installEventFilter(this);
+    if (qApp)  // none in Python, where this plugin does not belong: PyMeshLab refuses it once it is made
+        qApp->installEventFilter(this);
 }
 
 bool ScrollingDialogs::eventFilter(QObject* watched, QEvent* event)
 {
     if (event->type() == QEvent::Show || event->type() == QEvent::LayoutRequest)
         if (auto* const dialog = qobject_cast<QDockWidget*>(watched);
-            dialog && dialog->windowTitle().startsWith(title_))
+            dialog && dialog->windowTitle().startsWith(title_)) {
             make_scroll(*dialog);
+            make_room(*dialog);
+        }
     return QObject::eventFilter(watched, event);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 // MeshLab 2020.09 makes a filter's dialog as high as its parameters are many, with the button that runs the filter at the
-// bottom, where nobody reaches it on a lower screen. Ours get a scroll bar there.
+// bottom, where nobody reaches it on a lower screen. Ours get a scroll bar there, and else the height that they need.
 
 #include <QObject>
 
