@@ -128,8 +128,11 @@ std::vector<TooTight> too_tight(const Worn& before, const Worn& now, const SkinW
         const WornGarment& garment = now.garments[i];
         const Tightness tightness(garment.rest, weights_of_nearest(garment.positions, now.body, weights), now.skeleton,
                                   int(i));
+        const std::vector<TooTight> tight = tightness.too_tight_at_rest(garment.positions, allowed);
+        if (tight.empty())
+            continue;
         const auto wider = slack(before.garments[i].positions, before.body, weights, before.skeleton);
-        for (const TooTight& part : tightness.too_tight_at_rest(garment.positions, allowed))
+        for (const TooTight& part : tight)
             for (int p = 0; p < k_body_parts; ++p)
                 if (part.part == part_name(p) && wider[p] <= allowed)
                     result.push_back(part);

@@ -37,7 +37,7 @@ struct RecoverResult {
     std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
     double pose_reached
         = 0;  ///< 1 = the whole way was gone, though parts may be held back; where the body got stuck, with some
-        ///< part more than 5 cm behind, the last share of the way at which all of it was in place:
+        ///< part more than 8 cm behind, the last share of the way at which all of it was in place:
         ///< it is left there
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
