@@ -2,7 +2,6 @@
 #include "box_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,13 +11,6 @@ namespace fit {
 namespace {
 
 constexpr int k_leaf_size = 4;
-
-// The largest float that is not above x.
-float rounded_down(double x)
-{
-    const float f = float(x);
-    return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
-}
 
 }  // namespace
 
@@ -35,13 +27,17 @@ void BoxTree::Bounds::extend(const Bounds& other)
 
 float BoxTree::Bounds::girth() const { return (high - low).sum(); }
 
+// By one or two units in the last place, which is more than a conversion is ever wrong by.
 BoxTree::Bounds BoxTree::rounded(const Box& box)
 {
-    Bounds result { Eigen::Array4f::Zero(), Eigen::Array4f::Zero() };
-    for (int k = 0; k < 3; ++k) {
-        result.low[k] = rounded_down(box.min()[k]);
-        result.high[k] = -rounded_down(-box.max()[k]);
-    }
+    Bounds result;
+    result.low << box.min().cast<float>(), 0;
+    result.high << box.max().cast<float>(), 0;
+    const auto ulps = [](const Eigen::Array4f& x) {
+        return Eigen::Array4f(x.abs() * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min());
+    };
+    result.low -= ulps(result.low);
+    result.high += ulps(result.high);
     return result;
 }
 

@@ -32,7 +32,7 @@ public:
     static void overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit);
 
 private:
-    /// A box in single precision, rounded outwards, so it misses nothing. The fourth number, 0, is there for wide instructions.
+    /// A box in single precision, rounded outwards, so it misses nothing. The fourth number, about 0, is there for wide instructions.
     struct Bounds {
         Eigen::Array4f low, high;
         bool meets(const Bounds& other) const;
