@@ -74,6 +74,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
     next.held_back = result.held_back;
+    next.overlaps = result.overlaps;
     next.speed = result.speed;
     next.seconds += result.seconds;
     next.frames = result.frames;

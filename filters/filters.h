@@ -43,6 +43,7 @@ struct Dressing {
     double pose_reached = 1;  ///< of the last way between two poses
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
+    std::vector<Overlap> overlaps;  ///< where the body leaves it none, in that pose
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses

@@ -13,6 +13,8 @@
 namespace fit {
 namespace {
 
+constexpr std::size_t k_named = 3;  // parts of the body, in one line
+
 std::string tight_parts(const Dressing& dressing)
 {
     std::ostringstream text;
@@ -24,11 +26,21 @@ std::string tight_parts(const Dressing& dressing)
 
 std::string held_parts(const Dressing& dressing)
 {
-    constexpr std::size_t k_named = 3;
     std::ostringstream text;
     for (std::size_t i = 0; i < std::min(k_named, dressing.held_back.size()); ++i)
         text << (i > 0 ? ", " : "; no room for cloth at ") << dressing.held_back[i].part << " (held back by "
              << std::setprecision(2) << 1000 * dressing.held_back[i].distance << " mm)";
+    return text.str();
+}
+
+std::string entered_parts(const Dressing& dressing)
+{
+    std::ostringstream text;
+    for (std::size_t i = 0; i < std::min(k_named, dressing.overlaps.size()); ++i) {
+        const Overlap& overlap = dressing.overlaps[i];
+        text << (i > 0 ? ", " : "; the body enters itself, and no cloth fits between ") << overlap.part << " and "
+             << overlap.other << " (" << std::lround(1000 * overlap.depth) << " mm deep)";
+    }
     return text.str();
 }
 
@@ -62,7 +74,7 @@ std::string why_not_certified(const Dressing& end, const std::string& last)
         text << "stopped at " << percent(end.pose_reached) << "% of the way between two poses";
     else
         text << "the body is not in its place everywhere";
-    text << held_parts(end);
+    text << held_parts(end) << entered_parts(end);
     return text.str();
 }
 

@@ -55,6 +55,30 @@ std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossi
     return ties;
 }
 
+// A motion that leaves less than this share of the way was worth making.
+constexpr double k_nearer = 0.95;
+
+/// Waiting for what cloth holds back.
+class Patience {
+public:
+    explicit Patience(int most) : most_(most) { }
+
+    /// Whether to take one more step: what lags has come nearer lately.
+    bool goes_on(double lag)
+    {
+        constexpr int k_lately = 15;
+        if (lag < k_nearer * least_) {
+            least_ = lag;
+            since_ = 0;
+        }
+        return lag > 0 && ++since_ <= k_lately && ++taken_ <= most_;
+    }
+
+private:
+    double least_ = INFINITY;
+    int most_, taken_ = 0, since_ = 0;
+};
+
 void shorten(Positions& displacements, double longest)
 {
     for (Eigen::Index v = 0; v < displacements.rows(); ++v)
@@ -194,7 +218,6 @@ std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const
 double ClothMotion::carry_obstacle(const Positions& target)
 {
     constexpr int k_most_motions = 20;
-    constexpr double k_nearer = 0.95;
     double lag = INFINITY, before;
     int motions = 0;
     do {
@@ -259,16 +282,17 @@ double ClothMotion::settle_obstacle(const Positions& target)
 
 double arrive(ClothMotion& motion, const MotionStep& step)
 {
-    constexpr int k_patience = 30;
+    constexpr int k_most_steps = 30;
+    Patience patience(k_most_steps);
     double lag = INFINITY;
-    for (int i = 0; i < k_patience && lag > 0; ++i)
+    while (patience.goes_on(lag))
         lag = motion.advance(step);
     return lag;
 }
 
 Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)
 {
-    constexpr int k_patience = 60;
+    constexpr int k_more_steps = 60;
     constexpr double k_swinging = 0.7;  // share of the steps; then it comes to rest
     MotionStep step;
     step.obstacle_target = &target;
@@ -276,9 +300,10 @@ Settled settle(ClothMotion& motion, const Positions& target, int steps, const Pr
     step.friction_share = 1;
     step.iterations = 18;
     const double pushing = step.contact_stiffness;
+    Patience patience(k_more_steps);
     double lag = INFINITY;
-    for (int i = 0; i < steps || (lag > 0 && i < steps + k_patience); ++i) {
-        progress.at(double(i) / (steps + k_patience));
+    for (int i = 0; i < steps || patience.goes_on(lag); ++i) {
+        progress.at(double(i) / (steps + k_more_steps));
         step.velocity_kept = i < k_swinging * steps ? 0.9 : 0.3;
         step.contact_stiffness = lag > 0 ? pushing : k_settling_contact_stiffness;
         lag = motion.advance(step);

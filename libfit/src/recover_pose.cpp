@@ -10,6 +10,7 @@
 #include "creases.h"
 #include "fit/error.h"
 #include "layers.h"
+#include "overlaps.h"
 #include "straight_hands.h"
 #include "tightness.h"
 
@@ -269,6 +270,9 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     result.pose_reached = reached;
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     result.certified = clean && arrived && !stuck && result.too_tight.empty();
+    if (!result.certified)
+        result.overlaps = overlaps({ way.at(1), body.surface.triangles }, rig.weights,
+                                   near_cloth(result.body, motion.cloth()));
     return result;
 }
 

@@ -117,6 +117,15 @@ Json held_back_of(const Dressing& dressing, double metres_per_unit)
     return parts;
 }
 
+Json overlaps_of(const Dressing& dressing, double metres_per_unit)
+{
+    Json pairs = Json::array();
+    for (const Overlap& overlap : dressing.overlaps)
+        pairs.push_back(
+            { { "parts", { overlap.part, overlap.other } }, { "depth", overlap.depth / metres_per_unit } });
+    return pairs;
+}
+
 /// E_B of each covered bone at the start and at the end, how central it runs there, and how sure the fit is of how the garment is held.
 void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
 {
@@ -183,6 +192,7 @@ Json json_of(const Call& call, const Session& session)
         json["speed"] = end->speed;
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
+        json["overlaps"] = overlaps_of(*end, session.body.frame.frame.metres_per_unit);
         if (!end->certified)
             json["note"] = explain(*end, session.garment_names());
     }

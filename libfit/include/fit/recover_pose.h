@@ -28,12 +28,20 @@ struct RecoverFrame {
     std::vector<Positions> garments;  ///< from the inside out
 };
 
+/// Two parts of a body that enter each other in the pose `to`, where cloth is near: it has no place between them, and is not certified
+/// if it has to be there.
+struct Overlap {
+    std::string part, other;  ///< as in TooTight
+    double depth;  ///< m; the deepest vertex of the one in the other
+};
+
 struct RecoverResult {
     std::vector<WornGarment> garments;
     Positions body;  ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
     std::vector<TooTight> too_tight;  ///< in the pose `to`, worst first
     std::vector<HeldBack>
         held_back;  ///< where cloth had no room, in the pose `to` or where the body got stuck; worst first
+    std::vector<Overlap> overlaps;  ///< why it had none, if it is the body; deepest first; looked for only if not certified
     std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
     double pose_reached
         = 0;  ///< 1 = the whole way was gone, though parts may be held back; where the body got stuck, with some
