@@ -135,6 +135,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
 {
     const std::string note = dressing.certified ? std::string() : explain(dressing, names);
     const auto& held = dressing.held_back;
+    const auto& overlaps = dressing.overlaps;
     return { {},
              {},
              { { "DressedPose", row_of(pose) },
@@ -145,7 +146,12 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
                { "Note", Texts { note } },
                { "HeldBackPart", each(held, [](const HeldBack& part) { return part.part; }) },
                numbers("HeldBackDistance",
-                       each(held, [&](const HeldBack& part) { return part.distance / body.metres_per_unit; })) } };
+                       each(held, [&](const HeldBack& part) { return part.distance / body.metres_per_unit; })),
+               { "OverlapPart", each(overlaps, [](const Overlap& overlap) { return overlap.part; }) },
+               { "OverlapOther", each(overlaps, [](const Overlap& overlap) { return overlap.other; }) },
+               numbers("OverlapDepth", each(overlaps, [&](const Overlap& overlap) {
+                           return overlap.depth / body.metres_per_unit;
+                       })) } };
 }
 
 MeshArrays arrays_of(const Frame& garment) { return { {}, {}, { frame_array("GarmentFrame", garment) } }; }

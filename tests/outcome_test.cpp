@@ -50,6 +50,19 @@ TEST(DressingOutcome, ComesFromThePoseReachedLast)
               "coat could not be certified: stopped at 99% of the way between two poses");
 }
 
+TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoRoom)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->held_back = { { "chest", 0.028 } };
+    scene.draped->overlaps = { { "chest", "left upper arm", 0.027 }, { "chest", "right upper arm", 0.026 } };
+    EXPECT_EQ(
+        explain(*final_dressing(scene), { "coat" }),
+        "coat could not be certified: the body is not in its place everywhere; no room for cloth at chest (held "
+        "back by 28 mm); the body enters itself, and no cloth fits between chest and left upper arm (27 mm deep), "
+        "chest and right upper arm (26 mm deep)");
+}
+
 TEST(DressingOutcome, IsOfPositionsAsTheyAreKept)
 {
     Dressing dressing;

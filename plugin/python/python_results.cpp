@@ -144,6 +144,10 @@ nb::dict verdict_of(const PythonScene& s)
     for (const HeldBack& part : end.held_back)
         held.append(nb::make_tuple(part.part, part.distance / s.body_frame.metres_per_unit));
     made["held_back"] = held;
+    nb::list overlaps;
+    for (const Overlap& overlap : end.overlaps)
+        overlaps.append(nb::make_tuple(overlap.part, overlap.other, overlap.depth / s.body_frame.metres_per_unit));
+    made["overlaps"] = overlaps;
     return made;
 }
 

@@ -164,6 +164,8 @@ class Dressing(_Result):
         self.pose_reached: float = verdict["pose_reached"]
         self.speed: float = verdict["speed"]  #: m/s, of the cloth's fastest vertex at the end
         self.held_back: List[Tuple[str, float]] = verdict["held_back"]
+        #: parts of the body that enter each other where cloth has no room, and how deep
+        self.overlaps: List[Tuple[str, str, float]] = verdict["overlaps"]
 
     @property
     def fits(self) -> List[FitOfGarment]:
