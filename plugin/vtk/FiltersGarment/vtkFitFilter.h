@@ -14,7 +14,8 @@
  *   `BodyFrame`: metres per unit, and the up axis, of the body as given
  * - field data where several garments were fitted: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle` (degrees)
  * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex),
- *   `HeldBackPart`, `HeldBackDistance`, `OverlapPart`, `OverlapOther`, `OverlapDepth`, `Note`: one line where it is not certified
+ *   `HeldBackPart`, `HeldBackDistance`, `OverlapPart`, `OverlapOther`, `OverlapDepth`; `Note`: one line where it is not
+ *   certified
  *
  * port 1, the garments, of the type of the input (not of vtkRigBody)
  * - point data `RestPosition`: as given; `Ease`: gap to the skin; `Strain`: mean stretch of the edges; `Pressure`: Pa
