@@ -13,6 +13,8 @@ namespace {
 // Files may keep fewer digits than the rig was found with, but people of one size are further apart than that.
 constexpr double k_same_radius = 0.02;  // share of the radius
 constexpr double k_same_place = 5e-4;  // m, for thin bones
+constexpr double k_rounding_of_directions = 1e-3;  // kept with few digits
+constexpr double k_rounding_of_weights = 0.02;  // glTF may keep four of 8 bits each
 
 using Radii = std::array<double, bone_count>;
 
@@ -30,6 +32,23 @@ void require_same_count(Eigen::Index rigged, Eigen::Index here, const std::strin
                            + std::to_string(here) + "; rig this body");
 }
 
+void require_directions(const Rig& rig, const std::string& called)
+{
+    const bool right = std::abs(rig.up.norm() - 1) < k_rounding_of_directions
+        && std::abs(rig.front.norm() - 1) < k_rounding_of_directions
+        && std::abs(rig.up.dot(rig.front)) < k_rounding_of_directions;
+    if (!right)
+        throw InvalidInput("up and front of " + called + " are no unit directions at right angles; rig this body");
+}
+
+void require_whole_weights(const SkinWeights& skin, const std::string& called)
+{
+    for (Eigen::Index v = 0; v < skin.weights.rows(); ++v)
+        if (const double sum = skin.weights.row(v).sum(); !(std::abs(sum - 1) < k_rounding_of_weights))
+            throw InvalidInput("weights of " + called + " at vertex " + std::to_string(v) + " sum to "
+                               + std::to_string(sum) + " instead of 1; rig this body");
+}
+
 void require_same_radii(const Radii& rigged, const Radii& here, const std::string& called)
 {
     for (int b = 0; b < bone_count; ++b)
@@ -44,6 +63,8 @@ void require_same_radii(const Radii& rigged, const Radii& here, const std::strin
 Rig rig_on(Rig rig, const Positions& own, const std::string& called)
 {
     require_same_count(rig.weights.weights.rows(), own.rows(), called);
+    require_directions(rig, called);
+    require_whole_weights(rig.weights, called);
     const Radii here = bone_radii(rig.skeleton, rig.weights, own);
     if (is_known(rig.radii))
         require_same_radii(rig.radii, here, called);

@@ -41,5 +41,18 @@ TEST_F(OwnRig, IsNotThatOfABodyThatWasMovedSince)
     expect_invalid([&] { rig_on(rig, own.rowwise() + Vec3(0.05, 0, 0).transpose()); }, "was moved since");
 }
 
+TEST_F(OwnRig, IsNotOneWhoseDirectionsOrWeightsWereSpoilt)
+{
+    Rig spoilt = rig;
+    spoilt.up = spoilt.front = Vec3::Zero();
+    expect_invalid([&] { rig_on(spoilt, own); }, "up and front of the rig");
+    spoilt = rig;
+    spoilt.front = spoilt.up;
+    expect_invalid([&] { rig_on(spoilt, own); }, "at right angles");
+    spoilt = rig;
+    spoilt.weights.weights.row(5).setZero();
+    expect_invalid([&] { rig_on(spoilt, own); }, "vertex 5 sum to 0");
+}
+
 }  // namespace
 }  // namespace fit
