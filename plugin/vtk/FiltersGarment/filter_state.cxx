@@ -21,6 +21,16 @@ struct Numbers {
 
 }  // namespace
 
+FilterState::FilterState(const Filter& table_row) : filter(table_row)
+{
+    if (!filter.reads(Data::rig))
+        for (const char* of_body : { "Unit", "Up", "Front" })
+            hints.choices[of_body] = "auto";
+    if (filter.reads(Data::garments) && !filter.reads(Data::fits) && !filter.reads(Data::draped))
+        for (const char* of_garment : { "GarmentUnit", "GarmentUp" })
+            hints.choices[of_garment] = "auto";
+}
+
 int FilterState::frames() const { return filter.makes(Data::recovered) ? parameters.recover.frames : 0; }
 
 // ---- what changed ----------------------------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ namespace fit {
 
 class FilterState {
 public:
-    explicit FilterState(const Filter& table_row) : filter(table_row) { }
+    explicit FilterState(const Filter& table_row);
 
     const Filter& filter;
     Parameters parameters;

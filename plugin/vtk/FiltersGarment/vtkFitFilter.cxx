@@ -45,6 +45,29 @@ std::vector<vtkPolyData*> copy_leaves(vtkDataObject& from, vtkDataObject& to)
     return leaves;
 }
 
+void empty(vtkInformationVector& outputs)
+{
+    for (int port = 0; port < outputs.GetNumberOfInformationObjects(); ++port)
+        vtkDataObject::GetData(&outputs, port)->Initialize();
+}
+
+bool is_surface_or_several(vtkDataObject* data)
+{
+    return data && (data->IsA("vtkPolyData") || data->IsA("vtkCompositeDataSet"));
+}
+
+/// Whether a filter before this one was told to stop.
+bool is_stopped_before(vtkAlgorithm& filter)
+{
+    for (int port = 0; port < filter.GetNumberOfInputPorts(); ++port) {
+        vtkAlgorithm* before
+            = filter.GetNumberOfInputConnections(port) > 0 ? filter.GetInputAlgorithm(port, 0) : nullptr;
+        if (before && (before->GetAbortExecute() || is_stopped_before(*before)))
+            return true;
+    }
+    return false;
+}
+
 double time_asked(vtkInformation* request, vtkInformationVector* outputs)
 {
     int port = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
@@ -114,7 +137,7 @@ int vtkFitFilter::GetSkeletonPort() { return this->GetNumberOfOutputPorts() - 1;
 
 void vtkFitFilter::SetChoice(const char* what, const char* value)
 {
-    std::string& choice = this->State->hints.choices.try_emplace(what, "auto").first->second;
+    std::string& choice = this->State->hints.choices.at(what);
     const std::string chosen = value ? value : "auto";
     if (choice == chosen)
         return;
@@ -122,10 +145,7 @@ void vtkFitFilter::SetChoice(const char* what, const char* value)
     this->Modified();
 }
 
-const char* vtkFitFilter::GetChoice(const char* what)
-{
-    return this->State->hints.choices.try_emplace(what, "auto").first->second.c_str();
-}
+const char* vtkFitFilter::GetChoice(const char* what) { return this->State->hints.choices.at(what).c_str(); }
 
 void vtkFitFilter::PutJoint(const char* name, double x, double y, double z)
 {
@@ -176,6 +196,9 @@ vtkTypeBool vtkFitFilter::ProcessRequest(vtkInformation* request, vtkInformation
 {
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
         return this->RequestDataObject(inputs, outputs);
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    if (request->Has(Pipeline::REQUEST_UPDATE_TIME()) || request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+        this->KeepTime(inputs);
     return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
@@ -192,7 +215,22 @@ int vtkFitFilter::RequestDataObject(vtkInformationVector** inputs, vtkInformatio
         auto output = vtkSmartPointer<vtkDataObject>::Take(like ? like->NewInstance() : vtkPolyData::New());
         info->Set(vtkDataObject::DATA_OBJECT(), output);
     }
+    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+        if (!is_surface_or_several(
+                vtkDataObject::GetData(inputs[port]))) {  // the executive says so and goes no further
+            empty(*outputs);
+            this->SetErrorCode(InvalidInput);
+        }
     return 1;
+}
+
+/// The times of the way back are this filter's own: a file with a time of its own would be read again, and all of it be
+/// computed again, for each of them.
+void vtkFitFilter::KeepTime(vtkInformationVector** inputs)
+{
+    for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfInputPorts(); ++port)
+        for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+            inputs[port]->GetInformationObject(i)->Remove(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
 }
 
 int vtkFitFilter::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
@@ -228,8 +266,7 @@ bool vtkFitFilter::GoesOn(double fraction, const std::string& stage)
 
 int vtkFitFilter::Refuse(vtkInformationVector* outputs, unsigned long code, const char* message)
 {
-    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-        vtkDataObject::GetData(outputs, port)->Initialize();
+    empty(*outputs);
     if (code == vtkErrorCode::NoError)
         return 1;
     this->SetErrorCode(code);
@@ -257,6 +294,8 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
     this->SetErrorCode(vtkErrorCode::NoError);
     vtkPolyData* body = vtkPolyData::GetData(inputs[0]);
     vtkDataObject* garments = this->GetNumberOfInputPorts() > 1 ? vtkDataObject::GetData(inputs[1]) : nullptr;
+    if (body->GetNumberOfPoints() == 0 && is_stopped_before(*this))
+        return this->Refuse(outputs, vtkErrorCode::NoError, "");
     try {
         this->State->update(*body, garments, fit::Progress([this](double fraction, std::string_view stage) {
             return this->GoesOn(fraction, std::string(stage));

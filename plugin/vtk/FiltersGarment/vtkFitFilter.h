@@ -83,6 +83,8 @@ public:
    */
     int GetSkeletonPort();
 
+    vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
 protected:
     /// @param name  of the filter in the table of filters/filters.h
     explicit vtkFitFilter(const char* name);
@@ -97,7 +99,6 @@ protected:
     void PutJoint(const char* name, double x, double y, double z);
     void ForgetJoints();
 
-    vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
     int FillInputPortInformation(int port, vtkInformation* info) override;
     int FillOutputPortInformation(int port, vtkInformation* info) override;
     int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -108,6 +109,7 @@ private:
     void operator=(const vtkFitFilter&) = delete;
 
     int RequestDataObject(vtkInformationVector**, vtkInformationVector*);
+    void KeepTime(vtkInformationVector**);
     bool GoesOn(double fraction, const std::string& stage);
     void Write(vtkPolyData* body, vtkDataObject* garments, vtkInformationVector* outputs, double time);
     int Refuse(vtkInformationVector* outputs, unsigned long code, const char* message);

@@ -26,11 +26,15 @@
 #include "vtkFieldData.h"
 #include "vtkFitSkeleton.h"
 #include "vtkFloatArray.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataAlgorithm.h"
 #include "vtkRecoverPose.h"
 #include "vtkRigBody.h"
 #include "vtkSmartPointer.h"
@@ -156,6 +160,30 @@ struct Chain {
         recover->SetRecoverySettlingSteps(2);
     }
 };
+
+/// A reader of a body that was kept with a time: another time is read anew.
+class TimedBody : public vtkPolyDataAlgorithm {
+public:
+    static TimedBody* New();
+    vtkTypeMacro(TimedBody, vtkPolyDataAlgorithm);
+
+protected:
+    TimedBody() { SetNumberOfInputPorts(0); }
+
+    int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+    {
+        double time = 0.3;
+        outputs->GetInformationObject(0)->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), &time, 1);
+        return 1;
+    }
+
+    int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+    {
+        vtkPolyData::GetData(outputs)->ShallowCopy(body());
+        return 1;
+    }
+};
+vtkStandardNewMacro(TimedBody);
 
 Scene dressed_by_the_filters()
 {
@@ -334,6 +362,21 @@ TEST(RecoverPose, OffersItsWayAsTimeSteps)
     EXPECT_TRUE(rigged.seen.empty());
 }
 
+TEST(DressBody, ScrubsWhereTheBodysFileHasATimeOfItsOwn)
+{
+    vtkNew<TimedBody> reader;
+    vtkNew<vtkDressBody> dress;
+    dress->SetInputConnection(0, reader->GetOutputPort());
+    dress->SetInputData(1, shorts());
+    hurry(*dress);
+    dress->SetFrames(2);
+    dress->UpdateTimeStep(1);
+    Stages stages(*dress);
+    dress->UpdateTimeStep(0);
+    EXPECT_TRUE(stages.seen.empty());
+    EXPECT_NE(points_of(polydata(*dress, 0)), body_mesh().positions);
+}
+
 TEST(Chain, DoesNotRigAgainWhenTheFitChanges)
 {
     Chain chain(body(), shorts());
@@ -497,6 +540,26 @@ TEST(DressBody, NamesAMissingInput)
     EXPECT_TRUE(errors.heard->GetError());
 }
 
+TEST(FitSkeleton, KeepsNoOlderOutputsWhenAnInputIsMissingOrOfAnotherKind)
+{
+    Chain chain(body(), shorts());
+    vtkNew<vtkImageData> image;
+    const std::pair<vtkDataObject*, const char*> bad[] = { { nullptr, "0 connections" }, { image, "vtkImageData" } };
+    for (const auto& [garments, part] : bad) {
+        chain.fit->SetInputDataObject(1, shorts());
+        chain.fit->Update();
+        EXPECT_EQ(chain.fit->GetErrorCode(), vtkErrorCode::NoError);
+        EXPECT_GT(polydata(*chain.fit, 0)->GetNumberOfPoints(), 0);
+        Errors errors(*chain.fit);
+        chain.fit->SetInputDataObject(1, garments);
+        chain.fit->Update();
+        EXPECT_NE(errors.heard->GetErrorMessage().find(part), std::string::npos) << errors.heard->GetErrorMessage();
+        EXPECT_EQ(chain.fit->GetErrorCode(), vtkFitFilter::InvalidInput);
+        for (int port : { 0, 2 })
+            EXPECT_EQ(polydata(*chain.fit, port)->GetNumberOfPoints(), 0);
+    }
+}
+
 TEST(DressBody, RefusesAnUnknownUnitAndWorksAfterwards)
 {
     vtkNew<vtkDressBody> dress;
@@ -540,6 +603,25 @@ TEST(DressBody, StopsWhenAbortedAndRunsWhenModified)
     EXPECT_EQ(stages.seen.count("rigging the body"), 0u);  // kept from before
 }
 
+TEST(Chain, IsSilentAndEmptyWhenItsFirstFilterIsAborted)
+{
+    Chain chain(body(), shorts());
+    Errors errors(*chain.fit), later_errors(*chain.drape);
+    vtkNew<vtkCallbackCommand> abort;
+    abort->SetCallback(
+        [](vtkObject* caller, unsigned long, void*, void*) { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+    const unsigned long tag = chain.rig->AddObserver(vtkCommand::ProgressEvent, abort);
+    chain.drape->Update();
+    EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
+    EXPECT_FALSE(later_errors.heard->GetError()) << later_errors.heard->GetErrorMessage();
+    EXPECT_EQ(polydata(*chain.drape, 1)->GetNumberOfPoints(), 0);
+    chain.rig->RemoveObserver(tag);
+    chain.rig->SetAbortExecute(0);
+    chain.rig->Modified();
+    chain.fit->Update();
+    EXPECT_GT(polydata(*chain.fit, 1)->GetNumberOfPoints(), 0);
+}
+
 TEST(DressBody, ClampsNumbersAndRefusesTextThatIsNoValue)
 {
     vtkNew<vtkDressBody> dress;
@@ -566,7 +648,7 @@ TEST(EveryFilter, PrintsAllItsParameters)
     dress->SetUp("+z");
     std::ostringstream text;
     dress->Print(text);
-    for (const char* part : { "Contact distance: 0.0025 m", "Garment type: auto", "Up: +z" })
+    for (const char* part : { "Contact distance: 0.0025 m", "Garment type: auto", "Up: +z", "GarmentUnit: auto" })
         EXPECT_NE(text.str().find(part), std::string::npos) << text.str();
 }
 
