@@ -202,6 +202,12 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
     return dressed
 
 
+def _scene_in(result: Any, maker: str) -> _core.Scene:
+    if not isinstance(result, _Result):
+        raise _core.InvalidInput(f"{type(result).__name__} is no result of a step; give what {maker} returned")
+    return result._scene
+
+
 def _is_pair(given: Sequence[Any]) -> bool:
     """Positions and triangles, not two garments."""
     return isinstance(given, tuple) and len(given) == 2 and all(isinstance(part, np.ndarray) for part in given)
@@ -226,19 +232,19 @@ def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_
 
     garments: one, or a list from the inside out; Garment(mesh, type) tells what each is.
     """
-    return Fit(_with_garments(rig._scene, garments, garment_unit, garment_up).run("fit", parameters, progress))
+    return Fit(_with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up).run("fit", parameters, progress))
 
 
 @takes_parameters_of("drape")
 def drape_garment(fit: Fit, *, progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
     """Puts the posed body into its garments without letting cloth and body cross."""
-    return Dressing(fit._scene.run("drape", parameters, progress))
+    return Dressing(_scene_in(fit, "fit_skeleton").run("drape", parameters, progress))
 
 
 @takes_parameters_of("recover")
 def recover_pose(draped: Dressing, *, progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
     """Brings a dressed body back to its own pose, the garments along."""
-    return Dressing(draped._scene.run("recover", parameters, progress))
+    return Dressing(_scene_in(draped, "drape_garment").run("recover", parameters, progress))
 
 
 @takes_parameters_of("dress")

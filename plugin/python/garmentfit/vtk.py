@@ -14,6 +14,8 @@ from __future__ import annotations
 
 import inspect
 import sys
+from numbers import Integral
+from types import MappingProxyType
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
@@ -154,10 +156,32 @@ def _move(data: vtkPolyData, kept: str, positions: np.ndarray) -> None:
 
 def _given_type(garment: vtkPolyData) -> str:
     array = garment.GetFieldData().GetAbstractArray("GarmentType")
-    return array.GetValue(0) if array is not None and array.GetNumberOfValues() else "auto"
+    return array.GetValue(0) if isinstance(array, vtkStringArray) and array.GetNumberOfValues() else "auto"
+
+
+def _what_is_wrong(port: int, data: Optional[vtkDataObject]) -> Optional[str]:
+    """With an input as such; the executive says so, too, and goes no further."""
+    named = ("the body", "the garments")[port]
+    if data is None:
+        return f"nothing is connected to input {port}, {named}"
+    if not isinstance(data, (vtkPolyData, vtkCompositeDataSet)):
+        return f"input {port}, {named}, is a {data.GetClassName()}; give vtkPolyData, vtkGeometryFilter makes it"
+    return None
+
+
+def _is_stopped_before(filter_: Any) -> bool:
+    """Whether a filter before this one was told to stop."""
+    for port in range(filter_.GetNumberOfInputPorts()):
+        before = filter_.GetInputAlgorithm(port, 0) if filter_.GetNumberOfInputConnections(port) else None
+        if before is not None and (before.GetAbortExecute() or _is_stopped_before(before)):
+            return True
+    return False
 
 
 # ---- the filter --------------------------------------------------------------------------------------------------
+
+_MOST_FRAMES = next(int(range_.split("..")[1]) for name, _, _, range_, _ in _core.parameters_of("recover") if name == "frames")
+
 
 class _FitFilter(VTKPythonAlgorithmBase):
     """What the five have in common; each names its row of the table, and what it is given and makes."""
@@ -182,7 +206,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         self.front: str = front
         self.garment_unit: str = garment_unit
         self.garment_up: str = garment_up
-        self.joints: Dict[str, Sequence[float]] = dict(joints or {})
+        self.joints: Mapping[str, Sequence[float]] = joints or {}  #: read only: a change has to be seen, give all anew
         self.error: Optional[str] = None  #: one line on what went wrong last time
         self._scenes: Dict[str, Any] = {}  # what each step has made, and from what
         for name, value in parameters.items():
@@ -205,7 +229,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 self.Modified()
         else:
             changed = name in ("unit", "up", "front", "garment_unit", "garment_up", "joints")
-            super().__setattr__(name, value)
+            super().__setattr__(name, MappingProxyType(dict(value)) if name == "joints" else value)
             if changed:
                 self.Modified()
 
@@ -241,22 +265,42 @@ class _FitFilter(VTKPythonAlgorithmBase):
     def ProcessRequest(self, request: Any, inputs: Any, outputs: Any) -> int:
         if request.Has(vtkDemandDrivenPipeline.REQUEST_DATA_OBJECT()):
             return self.RequestDataObject(request, inputs, outputs)
+        if request.Has(vtkStreamingDemandDrivenPipeline.REQUEST_UPDATE_TIME()) or request.Has(
+                vtkStreamingDemandDrivenPipeline.REQUEST_UPDATE_EXTENT()):
+            self._keep_time(inputs)
         return super().ProcessRequest(request, inputs, outputs)
 
+    def _frames(self) -> int:
+        """How many time steps there are; none where RequestData will say that `frames` is no number of them."""
+        frames = self._values["frames"] if "frames" in self.MAKES else 0
+        return int(frames) if isinstance(frames, Integral) and 0 < frames <= _MOST_FRAMES else 0
+
+    def _keep_time(self, inputs: Any) -> None:
+        """The times of the way back are this filter's own: a file with a time of its own would be read again, and all of
+        it be computed again, for each of them."""
+        for port in range(self.GetNumberOfInputPorts() if self._frames() else 0):
+            for i in range(inputs[port].GetNumberOfInformationObjects()):
+                inputs[port].GetInformationObject(i).Remove(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP())
+
     def RequestDataObject(self, request: Any, inputs: Any, outputs: Any) -> int:
-        self.error = None  # an input that the executive refuses never gets to RequestData
+        given = [inputs[port].GetInformationObject(0) for port in range(self.GetNumberOfInputPorts())]
+        data = [info and info.Get(vtkDataObject.DATA_OBJECT()) for info in given]
         for port in range(self.GetNumberOfOutputPorts()):
             info = outputs.GetInformationObject(port)
             garments = port == 1 and port != self.skeleton_port
-            like = inputs[1].GetInformationObject(0).Get(vtkDataObject.DATA_OBJECT()) if garments else None
+            like = data[1] if garments else None
             kind = like.GetClassName() if like is not None else "vtkPolyData"
             made = info.Get(vtkDataObject.DATA_OBJECT())
             if made is None or made.GetClassName() != kind:
                 info.Set(vtkDataObject.DATA_OBJECT(), like.NewInstance() if like is not None else vtkPolyData())
+        self.error = next((wrong for wrong in map(_what_is_wrong, range(len(data)), data) if wrong), None)
+        if self.error:
+            self._empty([outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
+                         for port in range(self.GetNumberOfOutputPorts())])
         return 1
 
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
-        frames = self._values["frames"] if "frames" in self.MAKES else 0
+        frames = self._frames()
         for port in range(self.GetNumberOfOutputPorts()):
             info = outputs.GetInformationObject(port)
             if frames:
@@ -273,6 +317,10 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 for port in range(self.GetNumberOfInputPorts())]
         made = [outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                 for port in range(self.GetNumberOfOutputPorts())]
+        self.error = None
+        if data[0].GetNumberOfPoints() == 0 and _is_stopped_before(self):
+            self._empty(made)
+            return 1
         try:
             scene = self._updated(data[0], data[1] if len(data) > 1 else None)
             self._write(scene, self._time(request, outputs), data, made)
@@ -286,7 +334,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
             self._empty(made)
             self._tell("ErrorEvent", self.error)
             return 0
-        except BaseException:  # VTK prints it: Ctrl-C, an observer's mistake
+        except BaseException as error:  # VTK prints it: Ctrl-C, a value of the wrong kind
+            self.error = f"{type(error).__name__}: {error}"
             self._empty(made)
             raise
 
@@ -379,7 +428,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         if len(inputs) > 1:
             self._write_garments(scene, now, _copy_leaves(inputs[1], outputs[1]))
         _draw_skeleton(outputs[self.skeleton_port], now.joints())
-        if "frames" in self.MAKES and self._values["frames"]:
+        if self._frames():
             for output in outputs:
                 output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
 

@@ -76,6 +76,8 @@ def test_numbers_that_are_right_already_are_not_copied(body):
     (lambda b, g: garmentfit.rig_body((b.positions, b.triangles - 1)), "vertices from -1"),
     (lambda b, g: garmentfit.rig_body((np.full((9, 3), np.nan), b.triangles[:1] * 0)), "finite"),
     (lambda b, g: garmentfit.rig_body(42), "int is no mesh"),
+    (lambda b, g: garmentfit.fit_skeleton(b, g), "give what rig_body returned"),
+    (lambda b, g: garmentfit.recover_pose(None), "give what drape_garment returned"),
     (lambda b, g: garmentfit.read_mesh("nobody.ply"), "nobody.ply"),
     (lambda b, g: garmentfit.dress(b, []), "garment"),
     (lambda b, g: garmentfit.dress(b, (np.zeros((0, 3)), np.zeros((0, 3), dtype=int))), "garment"),

@@ -9,6 +9,7 @@ from conftest import BODY, QUICK, SKIRT
 
 pytest.importorskip("vtkmodules")
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkCommonCore import vtkStringArray  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData  # noqa: E402
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as pipeline  # noqa: E402
 from vtkmodules.vtkIOPLY import vtkPLYReader  # noqa: E402
@@ -143,6 +144,13 @@ def strips(data):
     data.SetStrips(data.GetPolys())
 
 
+def of_a_type_unknown(data):
+    array = vtkStringArray()
+    array.SetName("GarmentType")
+    array.InsertNextValue("hat")
+    data.GetFieldData().AddArray(array)
+
+
 def blocks(block):
     composite = vtkMultiBlockDataSet()
     composite.SetBlock(0, block)
@@ -160,6 +168,7 @@ BAD_GARMENTS = {
     "0 polygons": lambda skirt: vtkPolyData(),
     "1 lines": lambda skirt: changed(skirt, only_lines),
     "finite": lambda skirt: changed(skirt, lambda data: data.GetPoints().SetPoint(7, np.inf, 0, 0)),
+    "hat": lambda skirt: changed(skirt, of_a_type_unknown),
     "vtkImageData": lambda skirt: blocks(vtkImageData()),
     "garment": lambda skirt: vtkMultiBlockDataSet(),
 }
@@ -235,24 +244,34 @@ def test_a_rig_of_another_body_is_refused(rig, sources):
         assert part in fit.error
 
 
-def test_what_the_executive_refuses_leaves_no_older_line(sources):
-    rig = RigBody()
-    heard = listening(rig)
-    rig.SetInputData(vtkPolyData())
-    rig.Update()
-    assert rig.error
-    heard.clear()
-    rig.SetInputData(vtkImageData())
-    rig.Update()
-    assert heard and rig.error is None
+def test_what_the_executive_refuses_has_its_own_line_and_leaves_no_older_outputs(rig, sources):
+    fit = FitSkeleton(type="skirt")
+    heard = listening(fit)
+    fit.SetInputConnection(0, rig.GetOutputPort())
+    for garments, part in ((None, "nothing is connected to input 1, the garments"), (vtkImageData(), "is a vtkImageData")):
+        fit.SetInputConnection(1, sources[1].GetOutputPort())
+        fit.Update()
+        assert fit.error is None and fit.GetOutput(0).GetNumberOfPoints() > 0 and not heard
+        fit.SetInputDataObject(1, garments)
+        fit.Update()
+        assert heard == ["ErrorEvent"] and part in fit.error
+        assert fit.GetOutput(0).GetNumberOfPoints() == fit.GetOutput(2).GetNumberOfPoints() == 0
+        heard.clear()
 
 
-def test_a_missing_input_is_an_error_event(sources):
-    dress = DressBody()
+@pytest.mark.parametrize("name, value, part", [
+    ("frames", "many", 'frames: "many"'), ("frames", 10**12, "frames"), ("frames", -1, "frames"), ("density", np.nan, "nan"),
+    ("unit", None, "TypeError"), ("joints", {"lknee": 5}, "TypeError"),
+])
+def test_an_attribute_of_the_wrong_kind_leaves_a_line(name, value, part, sources):
+    dress = DressBody(**{name: value})
     heard = listening(dress)
-    dress.SetInputConnection(0, sources[0].GetOutputPort())
+    for port, source in enumerate(sources):
+        dress.SetInputConnection(port, source.GetOutputPort())
     dress.Update()
-    assert heard
+    assert heard and part in dress.error
+    with pytest.raises(TypeError):
+        dress.joints["lelbow"] = (0, 0, 0)
 
 
 def test_abort_in_the_middle_leaves_outputs_empty_and_what_was_done_is_kept(sources):
@@ -269,6 +288,40 @@ def test_abort_in_the_middle_leaves_outputs_empty_and_what_was_done_is_kept(sour
     dress.Update()
     assert dress.GetOutput(0).GetFieldData().GetArray("Certified").GetValue(0) == 1
     assert "rigging the body" not in seen and "recovering the pose" in seen
+
+
+def test_a_chain_is_silent_and_empty_when_its_first_filter_is_aborted(sources):
+    rig, fit = RigBody(), FitSkeleton(type="skirt")
+    heard = listening(fit)
+    rig.SetInputConnection(sources[0].GetOutputPort())
+    fit.SetInputConnection(0, rig.GetOutputPort())
+    fit.SetInputConnection(1, sources[1].GetOutputPort())
+    tag = rig.AddObserver("ProgressEvent", lambda o, e: o.SetAbortExecute(1))
+    fit.Update()
+    assert not heard and fit.error is None and fit.GetOutput(1).GetNumberOfPoints() == 0
+    rig.RemoveObserver(tag)
+    rig.SetAbortExecute(0)
+    rig.Modified()
+    fit.Update()
+    assert fit.GetOutput(1).GetNumberOfPoints() == 3055
+
+
+def test_a_file_with_a_time_of_its_own_is_not_read_anew_for_each_frame(sources, tmp_path):
+    from vtkmodules.vtkCommonDataModel import vtkDataObject
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+    sources[0].Update()
+    timed = changed(sources[0].GetOutput(), lambda data: data.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), 0.3))
+    writer, back, dress = vtkXMLPolyDataWriter(), vtkXMLPolyDataReader(), DressBody(frames=2, **QUICK)
+    writer.SetInputData(timed)
+    for file in (writer, back):
+        file.SetFileName(str(tmp_path / "body.vtp"))
+    writer.Write()
+    dress.SetInputConnection(0, back.GetOutputPort())
+    dress.SetInputConnection(1, sources[1].GetOutputPort())
+    dress.UpdateTimeStep(1)
+    seen = stages_of(dress)
+    dress.UpdateTimeStep(0)
+    assert not seen and back.GetOutputInformation(0).Has(pipeline.TIME_STEPS())
 
 
 def test_a_garment_that_is_too_small_is_a_warning(sources):
