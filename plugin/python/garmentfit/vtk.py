@@ -288,7 +288,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         for port in range(self.GetNumberOfOutputPorts()):
             info = outputs.GetInformationObject(port)
             garments = port == 1 and port != self.skeleton_port
-            like = data[1] if garments else None
+            like = data[1] if garments and not _what_is_wrong(1, data[1]) else None
             kind = like.GetClassName() if like is not None else "vtkPolyData"
             made = info.Get(vtkDataObject.DATA_OBJECT())
             if made is None or made.GetClassName() != kind:

@@ -205,8 +205,9 @@ vtkTypeBool vtkFitFilter::ProcessRequest(vtkInformation* request, vtkInformation
 int vtkFitFilter::RequestDataObject(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port) {
-        vtkDataObject* like
-            = port == 1 && port != this->GetSkeletonPort() ? vtkDataObject::GetData(inputs[1]) : nullptr;
+        const bool garments = port == 1 && port != this->GetSkeletonPort();
+        vtkDataObject* given = garments ? vtkDataObject::GetData(inputs[1]) : nullptr;
+        vtkDataObject* like = is_surface_or_several(given) ? given : nullptr;
         vtkInformation* info = outputs->GetInformationObject(port);
         vtkDataObject* made = vtkDataObject::GetData(info);
         const char* type = like ? like->GetClassName() : "vtkPolyData";

@@ -555,7 +555,7 @@ TEST(FitSkeleton, KeepsNoOlderOutputsWhenAnInputIsMissingOrOfAnotherKind)
         chain.fit->Update();
         EXPECT_NE(errors.heard->GetErrorMessage().find(part), std::string::npos) << errors.heard->GetErrorMessage();
         EXPECT_EQ(chain.fit->GetErrorCode(), vtkFitFilter::InvalidInput);
-        for (int port : { 0, 2 })
+        for (int port : { 0, 1, 2 })
             EXPECT_EQ(polydata(*chain.fit, port)->GetNumberOfPoints(), 0);
     }
 }
