@@ -24,16 +24,16 @@ def dressed(dress, path):
 def draw(plotter, body, garment, note):
     plotter.add_mesh(body, color="#d9b38c", smooth_shading=True)
     plotter.add_mesh(garment, scalars="Ease", clim=(0, 0.05), cmap="turbo", smooth_shading=True, show_scalar_bar=False)
-    plotter.add_text("\n".join(textwrap.wrap(note, 40)), font_size=7, color="black")
+    plotter.add_text("\n".join(textwrap.wrap(note, 44)), position=(10, 470), font_size=7, color="black")
     plotter.view_xy()
     plotter.camera.azimuth = 20
-    plotter.camera.zoom(1.2)
+    plotter.camera.zoom(1.18)
 
 
 def main(picture, garment, type_, bodies):
     dress = DressBody(type=type_)
     dress.SetInputData(1, pv.read(garment))
-    plotter = pv.Plotter(shape=(1, len(bodies)), off_screen=True, window_size=(360 * len(bodies), 480), border=False)
+    plotter = pv.Plotter(shape=(1, len(bodies)), off_screen=True, window_size=(360 * len(bodies), 540), border=False)
     for column, path in enumerate(bodies):
         plotter.subplot(0, column)
         draw(plotter, *dressed(dress, path))
