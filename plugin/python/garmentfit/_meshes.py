@@ -13,7 +13,7 @@ from . import _core
 
 Positions = npt.NDArray[np.float64]
 Triangles = npt.NDArray[np.int32]
-MeshLike = Any  # Mesh, (positions, triangles), or an object with points and regular_faces as PyVista's
+MeshLike = Any  # Mesh, (positions, triangles), vtkPolyData, or an object with vertices and faces as trimesh's
 
 
 class Mesh:
@@ -54,13 +54,14 @@ def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False
 def as_mesh(given: MeshLike) -> Mesh:
     if isinstance(given, Mesh):
         return given
-    if hasattr(given, "points") and hasattr(given, "regular_faces"):  # PyVista
-        return Mesh(given.points, given.regular_faces)
+    if hasattr(given, "GetPolys"):  # vtkPolyData, PyVista's too
+        from .vtk import mesh_of
+        return Mesh(*mesh_of(given, "the mesh"))
     if hasattr(given, "vertices") and hasattr(given, "faces"):  # trimesh
         return Mesh(given.vertices, given.faces)
     try:
         positions, triangles = given
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, KeyError):
         raise _core.InvalidInput(f"{type(given).__name__} is no mesh; give a Mesh, or positions and triangles") from None
     return Mesh(positions, triangles)
 

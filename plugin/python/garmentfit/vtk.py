@@ -67,7 +67,7 @@ def _find_in(data: vtkPolyData) -> Callable[[str], Optional[np.ndarray]]:
     return find
 
 
-def _mesh(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
+def mesh_of(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
     """Points, or those kept under a name, and polygons as fans of triangles."""
     if data.GetNumberOfPolys() == 0 or data.GetNumberOfStrips() or data.GetNumberOfPoints() == 0:
         raise InvalidInput(f"{what} has {data.GetNumberOfPolys()} polygons, {data.GetNumberOfPoints()} points, "
@@ -402,10 +402,10 @@ class _FitFilter(VTKPythonAlgorithmBase):
 
     def _read_body(self, body: vtkPolyData) -> Any:
         if "rig" not in self.TAKES:
-            positions, triangles = _mesh(body, "the body")
+            positions, triangles = mesh_of(body, "the body")
             joints = {name: [float(x) for x in place] for name, place in self.joints.items()}
             return _core.Scene.of_body(positions, triangles, self.unit, self.up, self.front, joints)
-        positions, triangles = _mesh(body, "the body", "OwnPosition")
+        positions, triangles = mesh_of(body, "the body", "OwnPosition")
         return _core.Scene.of_rigged(positions, triangles, _find_in(body), "fits" in self.TAKES)
 
     def _read_garments(self, scene: Any, body: vtkPolyData, garments: vtkDataObject) -> Any:
@@ -413,12 +413,12 @@ class _FitFilter(VTKPythonAlgorithmBase):
         given = "fits" in self.TAKES or "worn" in self.TAKES
         layers = _leaves(garments)
         for name, garment in layers:
-            positions, triangles = _mesh(garment, name, "RestPosition" if given else "")
+            positions, triangles = mesh_of(garment, name, "RestPosition" if given else "")
             scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up, name,
                               _find_in(garment) if given else None)
         if "worn" in self.TAKES:
-            scene.set_worn(_find_in(body), _mesh(body, "the body")[0],
-                           [_mesh(garment, name)[0] for name, garment in layers])
+            scene.set_worn(_find_in(body), mesh_of(body, "the body")[0],
+                           [mesh_of(garment, name)[0] for name, garment in layers])
         return scene
 
     # writing

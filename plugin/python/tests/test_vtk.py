@@ -16,6 +16,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader  # noqa: E402
 
 import garmentfit  # noqa: E402
 from garmentfit import _core  # noqa: E402
+from garmentfit._meshes import as_mesh  # noqa: E402
 from garmentfit.vtk import DrapeGarment, DressBody, FitSkeleton, RecoverPose, RigBody  # noqa: E402
 
 
@@ -149,6 +150,17 @@ def of_a_type_unknown(data):
     array.SetName("GarmentType")
     array.InsertNextValue("hat")
     data.GetFieldData().AddArray(array)
+
+
+def with_a_quad(polygons):
+    """Instead of the first two; the others as they were."""
+    corners = vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)[2:].tolist()
+    cells = vtkCellArray()
+    for cell in ([0, 1, 2, 3], *corners):
+        cells.InsertNextCell(len(cell))
+        for corner in cell:
+            cells.InsertCellPoint(corner)
+    return cells
 
 
 def blocks(block):
@@ -361,3 +373,17 @@ def test_pyvista_meshes_are_meshes():
     pyvista = pytest.importorskip("pyvista")
     body = pyvista.read(BODY)
     assert len(garmentfit.rig_body(body).joints) == 23
+    for given, part in ((pyvista.Line(), "1 lines"), (pyvista.PolyData(), "0 points"), (body.strip(), "strips"),
+                        (body.cast_to_unstructured_grid(), "is no mesh")):
+        with pytest.raises(garmentfit.InvalidInput, match=part):
+            garmentfit.rig_body(given)
+
+
+def test_functions_take_polygons_as_the_filters_do(sources):
+    sources[0].Update()
+    with_quad = changed(sources[0].GetOutput(), lambda data: data.SetPolys(with_a_quad(data.GetPolys())))
+    whole = as_mesh(sources[0].GetOutput())
+    cut = as_mesh(with_quad)
+    assert with_quad.GetNumberOfPolys() == len(whole.triangles) - 1
+    assert np.array_equal(cut.positions, whole.positions) and np.array_equal(cut.triangles[2:], whole.triangles[2:])
+    assert cut.triangles[:2].tolist() == [[0, 1, 2], [0, 2, 3]]
