@@ -35,14 +35,23 @@ def write_series(filter_: Any, path: Union[str, "os.PathLike[str]"]) -> List[Pat
 
 def _times_of(filter_: Any) -> List[float]:
     filter_.UpdateInformation()
+    _require_success(filter_)
     information, key = filter_.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     if not information.Has(key):
         raise InvalidInput(f"{filter_.GetClassName()} has no time steps; set frames to how many it should have")
     return [information.Get(key, i) for i in range(information.Length(key))]
 
 
+def _require_success(filter_: Any) -> None:
+    if line := getattr(filter_, "error", None):  # of the filters of garmentfit.vtk
+        raise InvalidInput(line)
+
+
 def _write(filter_: Any, time: float, file: Path) -> Path:
-    filter_.UpdateTimeStep(time)
+    updated = filter_.UpdateTimeStep(time)
+    _require_success(filter_)
+    if not updated or filter_.GetAbortExecute():
+        raise InvalidInput(f"{filter_.GetClassName()} has nothing to show at time {time}; {file} is not written")
     outputs = vtkMultiBlockDataSet()
     ports = filter_.GetNumberOfOutputPorts()
     for port, name in enumerate(("body", "garments", "skeleton") if ports == 3 else map(str, range(ports))):

@@ -7,7 +7,7 @@ pyvista = pytest.importorskip("pyvista")
 
 from garmentfit import InvalidInput  # noqa: E402
 from garmentfit.series import write_series  # noqa: E402
-from garmentfit.vtk import DrapeGarment, FitSkeleton, RecoverPose, RigBody  # noqa: E402
+from garmentfit.vtk import DrapeGarment, DressBody, FitSkeleton, RecoverPose, RigBody  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -77,8 +77,23 @@ def test_a_series_comes_back_bit_for_bit(chain, tmp_path):
             assert written == {key: read[key] for key in written}  # readers add the time
 
 
-def test_what_has_no_time_steps_is_no_series(tmp_path):
+def test_what_has_no_time_steps_is_no_series(chain, tmp_path):
     with pytest.raises(InvalidInput, match="frames"):
-        write_series(RecoverPose(), tmp_path / "none.pvd")
+        write_series(chain[0], tmp_path / "none.pvd")
     with pytest.raises(InvalidInput, match="pvd"):
-        write_series(RecoverPose(frames=2), tmp_path / "none.vtk")
+        write_series(chain[-1], tmp_path / "none.vtk")
+
+
+def test_a_filter_that_fails_writes_nothing(tmp_path):
+    dress = DressBody(frames=2)
+    with pytest.raises(InvalidInput, match="nothing is connected to input 0"):
+        write_series(dress, tmp_path / "none.pvd")
+    dress.SetInputData(0, pyvista.Sphere())
+    dress.SetInputData(1, pyvista.read(SKIRT))
+    with pytest.raises(InvalidInput, match="give a human body"):
+        write_series(dress, tmp_path / "none.pvd")
+    dress.SetInputData(0, pyvista.read(BODY))
+    dress.AddObserver("ProgressEvent", lambda o, e: o.SetAbortExecute(1))
+    with pytest.raises(InvalidInput, match="nothing to show at time 0"):
+        write_series(dress, tmp_path / "none.pvd")
+    assert not list(tmp_path.iterdir())
