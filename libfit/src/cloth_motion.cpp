@@ -290,7 +290,7 @@ double arrive(ClothMotion& motion, const MotionStep& step)
     return lag;
 }
 
-Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)
+Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress)
 {
     constexpr int k_more_steps = 60;
     constexpr double k_swinging = 0.7;  // share of the steps; then it comes to rest
@@ -302,7 +302,8 @@ Settled settle(ClothMotion& motion, const Positions& target, int steps, const Pr
     const double pushing = step.contact_stiffness;
     Patience patience(k_more_steps);
     double lag = INFINITY;
-    for (int i = 0; i < steps || patience.goes_on(lag); ++i) {
+    const auto moves = [&](int i) { return i < steps + to_rest && motion.speed() >= k_at_rest; };
+    for (int i = 0; i < steps || patience.goes_on(lag) || moves(i); ++i) {
         progress.at(double(i) / (steps + k_more_steps));
         step.velocity_kept = i < k_swinging * steps ? 0.9 : 0.3;
         step.contact_stiffness = lag > 0 ? pushing : k_settling_contact_stiffness;

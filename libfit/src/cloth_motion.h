@@ -96,6 +96,7 @@ struct Settled {
 };
 
 /// Hangs the cloth on the obstacle under gravity, for so many time steps and some more where parts of it are still held back.
-Settled settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress);
+/// @param to_rest  time steps more, at most, until no vertex is faster than k_at_rest
+Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
 
 }  // namespace fit

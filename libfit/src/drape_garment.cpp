@@ -238,7 +238,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
         result.too_tight = grading.tightness().too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch,
                                                          result.size_reached);
     else
-        result.speed = settle(motion, inside.full.positions, options.settling_steps, progress.part(0.7, 1)).speed;
+        result.speed = settle(motion, inside.full.positions, options.settling_steps, 0, progress.part(0.7, 1)).speed;
 
     result.seconds = motion.seconds();
     const Positions reached = motion.obstacle();

@@ -21,6 +21,8 @@ namespace {
 constexpr int k_smoothing_passes = 30;
 // A body that moves works its clothes loose: this share of the friction is left.
 constexpr double k_moving_friction = 0.25;
+// What still creeps at the end gets so many time steps more to come to rest.
+constexpr int k_steps_to_rest = 30;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
 // Where cloth holds a part of the body back by this much (metres) more than at the start, there is no room for it further on: it would only
@@ -250,7 +252,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     }
     const double reached = stuck ? gone.in_place : 1;
     const Positions end = way.at(reached);
-    const auto [arrived, speed] = settle(motion, end, options.settling_steps, progress.part(0.8, 1));
+    const auto [arrived, speed] = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1));
 
     if (!stuck)
         recording.see(motion, 1);
