@@ -57,6 +57,33 @@ TEST(ClothEnergy, ForcesAreMinusItsGradient)
         }
 }
 
+TEST(ClothEnergy, StiffensWhereAnEdgeIsOverstretched)
+{
+    constexpr double k_edge = 0.02, k_time_step = 0.02;
+    const GarmentMesh rest { (Positions(3, 3) << 0, 0, 0, k_edge, 0, 0, k_edge / 2, 0, k_edge).finished(),
+                             (Triangles(1, 3) << 0, 1, 2).finished() };
+    ClothEnergy energy(rest, {}, {});
+    energy.set_time_step(k_time_step);
+    const auto stretch_when_drawn_by = [&](double force) {
+        Positions inertial = rest.positions;
+        for (int end : { 0, 1 })
+            inertial(end, 0) += (end == 0 ? -1 : 1) * force * k_time_step * k_time_step / energy.masses()[end];
+        Descent descent(energy, rest.positions, inertial);
+        for (int i = 0; i < 300; ++i) {
+            if (i % 3 == 0)
+                descent.press({});
+            descent.step();
+        }
+        return (descent.positions().row(1) - descent.positions().row(0)).norm() / k_edge - 1;
+    };
+    double force = 0.01;
+    while (stretch_when_drawn_by(force) < 0.3)
+        force *= 1.1;
+    const double four_times = stretch_when_drawn_by(4 * force);
+    EXPECT_GT(four_times, 0.4);
+    EXPECT_LT(four_times, 0.7) << "it would be 1.2 were it not to stiffen";
+}
+
 TEST(ClothEnergy, DoesNotChangeWhenTheClothIsMovedAsAWhole)
 {
     GarmentMesh rest = flat_sheet();

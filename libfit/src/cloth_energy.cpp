@@ -16,6 +16,10 @@ constexpr double k_largest_cotangent = 10;
 // Vertices without area get the mass of a square millimetre of cotton, so that the system stays definite.
 constexpr double k_least_mass = 2e-7;
 
+// Threads lock: what an edge is stretched by more than this share pulls so many times as hard. Ten times holds fast what lies in a
+// trouser leg or a cuff.
+constexpr double k_locked = 0.4, k_locked_stiffness = 5;
+
 // Vertices, springs or hinges that are worth handing to another thread.
 constexpr Eigen::Index k_grain = 512;
 
@@ -193,6 +197,24 @@ Positions ClothEnergy::hinge_pulls(const Positions& x) const
     return product(pulled_by_hinges_, pulls);
 }
 
+// What springs that are locked wish beside their rest.
+std::vector<Press> ClothEnergy::locks(const Positions& x) const
+{
+    std::vector<Press> result;
+    for (const Spring& s : springs_) {
+        const Vec3 edge = (x.row(s.i) - x.row(s.j)).transpose();
+        const double length = edge.norm(), longest = (1 + k_locked) * s.length;
+        if (length > longest)
+            result.push_back({ { s.i, s.j, -1, -1 },
+                               { 1, -1, 0, 0 },
+                               longest / length * edge,
+                               edge / length,
+                               k_locked_stiffness * s.stiffness,
+                               0 });
+    }
+    return result;
+}
+
 Positions ClothEnergy::elastic_forces(const Positions& x) const
 {
     return spring_pulls(x) + hinge_pulls(x) - product(elastic_, x);
@@ -228,6 +250,8 @@ Descent::Descent(const ClothEnergy& energy, const Positions& start, const Positi
 void Descent::press(const std::vector<Press>& presses)
 {
     presses_ = presses;
+    const std::vector<Press> locks = energy_.locks(x_);
+    presses_.insert(presses_.end(), locks.begin(), locks.end());
     constant_ = energy_.hinge_pulls(x_);
     for (Eigen::Index v = 0; v < x_.rows(); ++v)
         constant_.row(v) += energy_.masses_[v] * energy_.inertia_ * inertial_.row(v);

@@ -6,7 +6,7 @@
 // Method   the energies of projective dynamics [bouaziz_2014_projective_dynamics], minimised by nonlinear conjugate gradients
 //          (Polak and Ribiere) with the constant quadratic form of their global step as preconditioner; compare
 //          [liu_2017_quasi_newton].
-// Stretch  a spring along each edge that wants its rest length.
+// Stretch  a spring along each edge that wants its rest length; much overstretched ones are stiffer (Provot 1995 stops them at once).
 // Bend     quadratic hinges, Bergou et al. 2006, that want the mean curvature vector they have at rest, turned along with the
 //          hinge: the garment's own folds stay.
 // Units    metres, kilograms, seconds.
@@ -42,7 +42,7 @@ public:
     /// Seconds. One factorisation for each new one, of all but contact.
     void set_time_step(double time_step);
 
-    /// Of springs and hinges, J.
+    /// Of springs and hinges, J; without what locks.
     double elastic_energy(const Positions& x) const;
     /// What they pull the vertices with, N, n x 3: minus the gradient of that energy, the hinges' frames held.
     Positions elastic_forces(const Positions& x) const;
@@ -64,6 +64,7 @@ private:
     static Positions product(const SparseRows& matrix, const Positions& x);
     Positions spring_pulls(const Positions& x) const;
     Positions hinge_pulls(const Positions& x) const;
+    std::vector<Press> locks(const Positions& x) const;
     Positions applied(const Positions& x) const;
     void add_hinges(const GarmentMesh& rest, double bend_stiffness);
 
