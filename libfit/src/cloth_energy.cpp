@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "fit/error.h"
 #include "parallel.h"
@@ -200,19 +201,19 @@ Positions ClothEnergy::hinge_pulls(const Positions& x) const
 // What springs that are locked wish beside their rest.
 std::vector<Press> ClothEnergy::locks(const Positions& x) const
 {
-    std::vector<Press> result;
-    for (const Spring& s : springs_) {
+    return parallel_collect<Press>(springs_.size(), [&](std::size_t e) -> std::optional<Press> {
+        const Spring& s = springs_[e];
         const Vec3 edge = (x.row(s.i) - x.row(s.j)).transpose();
         const double length = edge.norm(), longest = (1 + k_locked) * s.length;
-        if (length > longest)
-            result.push_back({ { s.i, s.j, -1, -1 },
-                               { 1, -1, 0, 0 },
-                               longest / length * edge,
-                               edge / length,
-                               k_locked_stiffness * s.stiffness,
-                               0 });
-    }
-    return result;
+        if (!(length > longest))
+            return {};
+        return Press { { s.i, s.j, -1, -1 },
+                       { 1, -1, 0, 0 },
+                       longest / length * edge,
+                       edge / length,
+                       k_locked_stiffness * s.stiffness,
+                       0 };
+    });
 }
 
 Positions ClothEnergy::elastic_forces(const Positions& x) const

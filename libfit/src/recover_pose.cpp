@@ -52,6 +52,8 @@ public:
     BoneTransforms transforms(double t) const { return bone_transforms(rig_.skeleton, slerp(from_, to_, t)); }
     Positions at(double t) const { return skin(hands_.stretched(stretch(t)), rig_.weights, transforms(t)); }
 
+    const Positions& last() const { return last_; }  ///< at(1)
+
     /// With the creases of the last pose bridged, more and more up to half of the way. Bridges move as the skin below them does.
     Positions bridged(double t) const
     {
@@ -248,7 +250,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
         motion.put_back(gone.state);
     } else {
         motion.carry_obstacle(way.withdrawn());
-        motion.carry_obstacle(way.at(1));
+        motion.carry_obstacle(way.last());
     }
     const double reached = stuck ? gone.in_place : 1;
     const Positions end = way.at(reached);
@@ -273,8 +275,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     result.certified = clean && arrived && !stuck && result.too_tight.empty();
     if (!result.certified)
-        result.overlaps = overlaps({ way.at(1), body.surface.triangles }, rig.weights,
-                                   near_cloth(result.body, motion.cloth()));
+        result.overlaps
+            = overlaps({ way.last(), body.surface.triangles }, rig.weights, near_cloth(result.body, motion.cloth()));
     return result;
 }
 
