@@ -38,6 +38,16 @@ inline void expect_invalid(const std::function<void()>& run, const std::string& 
     EXPECT_NE(message.find(text), std::string::npos) << message;
 }
 
+/// Skin that follows one bone only.
+inline SkinWeights on_bone(Bone bone, Eigen::Index vertices)
+{
+    SkinWeights weights;
+    weights.bones.setConstant(vertices, 4, int(bone));
+    weights.weights.setZero(vertices, 4);
+    weights.weights.col(0).setOnes();
+    return weights;
+}
+
 /// The zero level of `distance` (negative inside) as a closed surface: marching tetrahedra on a grid of cubes, each cut
 /// into six tetrahedra round its diagonal, left and right of x = 0 like mirror images. Watertight and 2-manifold as long
 /// as the level keeps off the grid's border.

@@ -18,15 +18,6 @@ TriangleMesh ball(double x)
                                 centre + reach, k_spacing);
 }
 
-SkinWeights on_bone(Bone bone, Eigen::Index vertices)
-{
-    SkinWeights weights;
-    weights.bones.setConstant(vertices, 4, int(bone));
-    weights.weights.setZero(vertices, 4);
-    weights.weights.col(0).setOnes();
-    return weights;
-}
-
 /// A chest and an upper arm, balls with their middles so far apart; skins keep off each other beyond twice the radius.
 struct ChestAndArm {
     TriangleMesh body;
@@ -36,8 +27,8 @@ struct ChestAndArm {
     {
         const TriangleMesh chest = ball(0), arm = ball(apart);
         body = fixtures::joined(chest, arm);
-        weights = on_bone(thorax, chest.positions.rows());
-        append(weights, on_bone(lhumerus, arm.positions.rows()));
+        weights = fixtures::on_bone(thorax, chest.positions.rows());
+        append(weights, fixtures::on_bone(lhumerus, arm.positions.rows()));
     }
     std::vector<Overlap> overlaps(char near_cloth) const
     {
@@ -61,7 +52,7 @@ TEST(Overlaps, DoNotMatterFarFromCloth) { EXPECT_TRUE(ChestAndArm(0.18).overlaps
 TEST(Overlaps, OfAPartWithItselfAreItsOwnAffair)
 {
     ChestAndArm d(0.18);
-    d.weights = on_bone(thorax, d.body.positions.rows());
+    d.weights = fixtures::on_bone(thorax, d.body.positions.rows());
     EXPECT_TRUE(d.overlaps(1).empty());
 }
 

@@ -28,11 +28,7 @@ TEST(Slack, IsHowMuchWiderAGarmentIsThanWhatItGoesRound)
 {
     const Skeleton skeleton = fixtures::person_skeleton({});
     const Positions thigh = tube(skeleton, lfemur, 0.08);
-    SkinWeights weights;
-    weights.bones.setConstant(thigh.rows(), 4, int(lfemur));
-    weights.weights.setZero(thigh.rows(), 4);
-    weights.weights.col(0).setOnes();
-    const auto wider = slack(tube(skeleton, lfemur, 0.1), thigh, weights, skeleton);
+    const auto wider = slack(tube(skeleton, lfemur, 0.1), thigh, fixtures::on_bone(lfemur, thigh.rows()), skeleton);
     for (int p = 0; p < k_body_parts; ++p)
         EXPECT_NEAR(wider[p], p == part_of(lfemur) ? 0.25 : 0, 1e-9) << part_name(p);
 }
