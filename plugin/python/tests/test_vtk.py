@@ -271,6 +271,27 @@ def test_what_the_executive_refuses_has_its_own_line_and_leaves_no_older_outputs
         heard.clear()
 
 
+def test_a_missing_input_is_an_error_event(sources):
+    dress = DressBody()
+    heard = listening(dress)
+    dress.SetInputConnection(0, sources[0].GetOutputPort())
+    dress.Update()
+    assert heard
+
+
+def test_what_the_executive_refuses_leaves_no_older_line(sources):
+    rig = RigBody()
+    heard = listening(rig)
+    rig.SetInputData(vtkPolyData())
+    rig.Update()
+    older = rig.error
+    assert older
+    heard.clear()
+    rig.SetInputData(vtkImageData())
+    rig.Update()
+    assert heard and rig.error != older and "input 0, the body, is a vtkImageData" in rig.error
+
+
 @pytest.mark.parametrize("name, value, part", [
     ("frames", "many", 'frames: "many"'), ("frames", 10**12, "frames"), ("frames", -1, "frames"), ("density", np.nan, "nan"),
     ("unit", None, "TypeError"), ("joints", {"lknee": 5}, "TypeError"),
