@@ -25,6 +25,9 @@ void doubt_garment(std::vector<std::string>& doubts, const std::string& name, co
 {
     if (garment.size > 1)
         doubts.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
+    if (const std::size_t kept = garment.certificate.kept_self_crossings.size(); kept > 0)
+        doubts.push_back(name + " was given with crossings of itself that did not come apart: " + std::to_string(kept)
+                         + " of " + std::to_string(garment.certificate.input_self_crossings) + " are still there");
     if (garment.slipped > k_slipped)
         doubts.push_back(name + " slipped " + std::to_string(std::lround(100 * garment.slipped))
                          + " cm down: it is too wide for this body to stay where it is worn");

@@ -114,10 +114,15 @@ std::string explain(const Dressing& end, const std::vector<std::string>& names)
 std::string in_one_line(const std::string& name, GarmentType type, const WornGarment& garment)
 {
     const Certificate& c = garment.certificate;
+    const std::size_t kept = c.kept_self_crossings.size();
     std::ostringstream text;
     text << std::setprecision(3) << name << " (" << name_of(type)
-         << "): " << c.body_crossings + c.self_crossings + c.layer_crossings << " crossings, smallest gap "
-         << 1000 * c.smallest_gap << " mm, strain " << 100 * c.strain.p95 << "% at the 95th percentile";
+         << "): " << c.body_crossings + c.self_crossings + c.layer_crossings << (kept > 0 ? " new" : "")
+         << " crossings, ";
+    if (kept > 0)
+        text << kept << " with itself kept as given, ";
+    text << "smallest gap " << 1000 * c.smallest_gap << " mm, strain " << 100 * c.strain.p95
+         << "% at the 95th percentile";
     return text.str();
 }
 

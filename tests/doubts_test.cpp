@@ -57,5 +57,15 @@ TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
                        "coat was not put on, for what is under it was not certified" }));
 }
 
+TEST(Doubts, SayThatCrossingsAsGivenAreStillThere)
+{
+    Scene scene = worn_scene();
+    scene.draped->garments[1].certificate.input_self_crossings = 9;
+    EXPECT_EQ(doubts_about(scene), Lines()) << "all of them came apart";
+    scene.draped->garments[1].certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "coat was given with crossings of itself that did not come apart: 2 of 9 are still there" }));
+}
+
 }  // namespace
 }  // namespace fit

@@ -63,6 +63,18 @@ TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoRoom)
         "chest and right upper arm (26 mm deep)");
 }
 
+TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)
+{
+    WornGarment garment = clean_garment();
+    garment.certificate.smallest_gap = 1e-3;
+    EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
+              "coat (coat): 0 crossings, smallest gap 1 mm, strain 0% at the 95th percentile");
+    garment.certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
+    EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
+              "coat (coat): 0 new crossings, 2 with itself kept as given, smallest gap 1 mm, strain 0% at the 95th "
+              "percentile");
+}
+
 TEST(DressingOutcome, IsOfPositionsAsTheyAreKept)
 {
     Dressing dressing;

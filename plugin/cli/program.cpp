@@ -88,6 +88,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
 {
     const auto start = std::chrono::steady_clock::now();
     write_results(session, call.filter->name, folder.draft());
+    add_doubts(session);  // now that what was written is certified
     session.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::string report = report_json(call, session);
     std::ofstream file(folder.draft() / "report.json");
@@ -114,7 +115,6 @@ int run(int argc, char** argv)
     Session session = read(*call);
     stop_if_interrupted();
     compute(*call, session);
-    add_doubts(session);
     write(*call, session, folder);
     const Dressing* end = final_dressing(session.scene);
     if (!end || end->certified)
