@@ -2,6 +2,7 @@
 #include "filters/doubts.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "filters/outcome.h"
 
@@ -33,16 +34,13 @@ void doubt_garment(std::vector<std::string>& doubts, const std::string& name, co
                          + " cm down: it is too wide for this body to stay where it is worn");
 }
 
-void doubt_dressing(std::vector<std::string>& doubts, const Dressing& end, const std::vector<std::string>& names)
+std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
 {
-    if (end.speed >= k_at_rest)
-        doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * end.speed))
-                         + " mm/s); give more settling steps");
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (i >= end.garments.size())
-            doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
-        else
-            doubt_garment(doubts, names[i], end.garments[i]);
+    std::ostringstream text;
+    text << name << " is overstretched: " << stretch.edges << (stretch.edges == 1 ? " edge" : " edges")
+         << " by more than " << percent(k_overstretched) << "%, the most by " << std::lround(100 * stretch.largest)
+         << "%, at " << stretch.part;
+    return text.str();
 }
 
 }  // namespace
@@ -58,6 +56,23 @@ std::vector<std::string> doubts_about_frame(const std::string& mesh, const Frame
     return doubts;
 }
 
+std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::vector<std::string>& names)
+{
+    std::vector<std::string> doubts;
+    if (end.speed >= k_at_rest)
+        doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * end.speed))
+                         + " mm/s); give more settling steps");
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (i >= end.garments.size())
+            doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
+        else
+            doubt_garment(doubts, names[i], end.garments[i]);
+    for (std::size_t i = 0; i < end.overstretches.size(); ++i)
+        if (end.overstretches[i].edges > 0)
+            doubts.push_back(overstretched_edges(names[i], end.overstretches[i]));
+    return doubts;
+}
+
 std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vector<std::string>& names,
                                             const HowToSet& set)
 {
@@ -66,8 +81,10 @@ std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vecto
         doubts.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         doubt_type(doubts, names[i], scene.fits[i], set);
-    if (const Dressing* end = final_dressing(scene))
-        doubt_dressing(doubts, *end, names);
+    if (const Dressing* end = final_dressing(scene)) {
+        const std::vector<std::string> more = doubts_about_dressing(*end, names);
+        doubts.insert(doubts.end(), more.begin(), more.end());
+    }
     return doubts;
 }
 

@@ -21,6 +21,9 @@ using HowToSet = std::function<std::string(std::string_view parameter)>;
 std::vector<std::string> doubts_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
                                             const HowToSet& set);
 
+/// Of how the garments ended up: where cloth is overstretched, moves still, slipped, crosses itself as it was given.
+std::vector<std::string> doubts_about_dressing(const Dressing& dressing, const std::vector<std::string>& names);
+
 /// Of sides, garment types, poses and of how the garments ended up. Garments are called by their `names`.
 std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vector<std::string>& names,
                                             const HowToSet& set);

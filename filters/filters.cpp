@@ -95,9 +95,11 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     const Skeleton skeleton = posed(scene.rig->skeleton, dressing.pose);
     dressing.maps.clear();
     dressing.girths.clear();
+    dressing.overstretches.clear();
     for (const WornGarment& garment : dressing.garments) {
         dressing.maps.push_back(fit_map(body, garment, cloth));
         dressing.girths.push_back(girths(skeleton, scene.rig->weights, body, garment));
+        dressing.overstretches.push_back(overstretch(scene.rig->weights, dressing.body, garment));
     }
 }
 

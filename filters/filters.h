@@ -50,6 +50,7 @@ struct Dressing {
     std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
     std::vector<FitMap> maps;  ///< of each garment
     std::vector<std::vector<Girth>> girths;  ///< of each garment and the body under it
+    std::vector<Overstretch> overstretches;  ///< of each garment
 };
 
 struct Scene {

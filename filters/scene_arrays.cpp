@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "filters/doubts.h"
 #include "filters/joint_names.h"
 #include "filters/outcome.h"
 #include "filters/own_rig.h"
@@ -60,6 +61,7 @@ std::vector<NamedArray> certificate_arrays(const Certificate& c, double metres_p
     return { counts("BodyCrossings", { c.body_crossings }),
              counts("SelfCrossings", { c.self_crossings }),
              counts("InputSelfCrossings", { c.input_self_crossings }),
+             counts("KeptSelfCrossings", { int(c.kept_self_crossings.size()) }),
              counts("LayerCrossings", { c.layer_crossings }),
              counts("VerticesInside", { c.vertices_inside }),
              numbers("GarmentGap", { c.smallest_gap / metres_per_unit }),
@@ -144,6 +146,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
                numbers("PoseReached", { dressing.pose_reached }),
                numbers("Speed", { dressing.speed }),
                { "Note", Texts { note } },
+               { "Warnings", doubts_about_dressing(dressing, names) },
                { "HeldBackPart", each(held, [](const HeldBack& part) { return part.part; }) },
                numbers("HeldBackDistance",
                        each(held, [&](const HeldBack& part) { return part.distance / body.metres_per_unit; })),
@@ -173,12 +176,16 @@ MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const F
     const double unit = body.metres_per_unit;
     const std::vector<Girth>& girths = dressing.girths[garment];
     const std::vector<TooTight> tight = too_tight_at(dressing, garment);
+    const Overstretch& stretch = dressing.overstretches[garment];
     const auto add = [&made](const NamedArray& array) { made.field.push_back(array); };
     for (const NamedArray& array : certificate_arrays(dressing.garments[garment].certificate, unit))
         add(array);
     add({ "GirthPlace", each(girths, [](const Girth& girth) { return girth.place; }) });
     add(numbers("GirthBody", each(girths, [unit](const Girth& girth) { return girth.body / unit; })));
     add(numbers("GirthGarment", each(girths, [unit](const Girth& girth) { return girth.garment / unit; })));
+    add(counts("OverstretchedEdges", { stretch.edges }));
+    add(numbers("LargestStretch", { stretch.largest }));
+    add({ "OverstretchedPart", Texts { stretch.part } });
     add({ "TooTightPart", each(tight, [](const TooTight& part) { return part.part; }) });
     add(numbers("MissingGirth", each(tight, [unit](const TooTight& part) { return part.missing_girth / unit; })));
     return made;

@@ -57,6 +57,14 @@ TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
                        "coat was not put on, for what is under it was not certified" }));
 }
 
+TEST(Doubts, SayWhereClothIsOverstretched)
+{
+    Scene scene = worn_scene();
+    scene.draped->overstretches = { { 0, 0.49, "" }, { 3, 17.6, "left forearm" } };
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "coat is overstretched: 3 edges by more than 50%, the most by 1760%, at left forearm" }));
+}
+
 TEST(Doubts, SayThatCrossingsAsGivenAreStillThere)
 {
     Scene scene = worn_scene();

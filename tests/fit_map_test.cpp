@@ -75,6 +75,22 @@ TEST(FitMap, PressureGrowsWithTheStretch)
     EXPECT_GT(much, 3 * little);
 }
 
+TEST(FitMap, NamesThePartAtWhichEdgesAreOverstretched)
+{
+    const TriangleMesh body = tube(0.1);
+    WornGarment worn = stretched_tube(0.1, 0.11);
+    const SkinWeights weights = on_bone(lhumerus, body.positions.rows());
+    const Overstretch fine = overstretch(weights, body.positions, worn);
+    EXPECT_EQ(fine.edges, 0);
+    EXPECT_NEAR(fine.largest, 0.1, 1e-9);
+    EXPECT_EQ(fine.part, "");
+    worn.positions.row(100) += Eigen::RowVector3d(0, 0.05, 0);  // of an edge of 2 cm
+    const Overstretch caught = overstretch(weights, body.positions, worn);
+    EXPECT_GT(caught.edges, 1);
+    EXPECT_GT(caught.largest, 2);
+    EXPECT_EQ(caught.part, "left upper arm");
+}
+
 TEST(FitMap, SeamsOfUvChartsDoNotMatter)
 {
     WornGarment whole = stretched_tube(0.095, 0.102), cut = whole;

@@ -171,6 +171,31 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
     return { result.col(0), result.col(1), result.col(2) };
 }
 
+Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn)
+{
+    const auto edges = edges_of(worn.rest.triangles);
+    Overstretch result;
+    Vec3 place = Vec3::Zero();
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const int i = edges(e, 0), j = edges(e, 1);
+        const double before = (worn.rest.positions.row(i) - worn.rest.positions.row(j)).norm();
+        if (before == 0)
+            continue;
+        const double stretch = (worn.positions.row(i) - worn.positions.row(j)).norm() / before - 1;
+        result.edges += stretch > k_overstretched;
+        if (stretch > result.largest) {
+            result.largest = stretch;
+            place = 0.5 * (worn.positions.row(i) + worn.positions.row(j));
+        }
+    }
+    if (result.edges == 0)
+        return result;
+    const int bone = strongest_bones(weights_of_nearest(Positions(place.transpose()), body, weights))[0];
+    if (const int part = part_of(bone); part >= 0)
+        result.part = part_name(part);
+    return result;
+}
+
 std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, const TriangleMesh& body,
                           const WornGarment& worn)
 {

@@ -109,6 +109,11 @@ void put_ease(Json& json, const Dressing& end, std::size_t i, double metres_per_
                                    { "ease", girth.ease() / metres_per_unit } });
 }
 
+Json overstretched_of(const Overstretch& stretch)
+{
+    return { { "edges", stretch.edges }, { "largest", stretch.largest }, { "part", stretch.part } };
+}
+
 Json held_back_of(const Dressing& dressing, double metres_per_unit)
 {
     Json parts = Json::array();
@@ -174,6 +179,7 @@ Json garment_of(const Session& session, std::size_t i)
             put_certificate(json, end->garments[i], metres_per_unit);
             json["size"] = end->garments[i].size;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
+            json["overstretched"] = overstretched_of(end->overstretches[i]);
             put_ease(json, *end, i, metres_per_unit);
         }
     }

@@ -3,6 +3,7 @@
 
 #include <nanobind/stl/string.h>
 
+#include "filters/doubts.h"
 #include "filters/outcome.h"
 
 namespace fit::python {
@@ -19,6 +20,7 @@ nb::dict certificate_of(const Certificate& c, double metres_per_unit)
     made["body_crossings"] = c.body_crossings;
     made["self_crossings"] = c.self_crossings;
     made["input_self_crossings"] = c.input_self_crossings;
+    made["kept_self_crossings"] = c.kept_self_crossings.size();
     made["layer_crossings"] = c.layer_crossings;
     made["vertices_inside"] = c.vertices_inside;
     made["smallest_gap"] = c.smallest_gap / metres_per_unit;
@@ -58,6 +60,8 @@ nb::dict garment_of(const PythonScene& s, std::size_t i)
     garment["strain"] = array_of(end.maps[i].strain);
     garment["pressure"] = array_of(end.maps[i].pressure);
     garment["girths"] = girths_of(end.girths[i], unit);
+    const Overstretch& stretch = end.overstretches[i];
+    garment["overstretched"] = nb::make_tuple(stretch.edges, stretch.largest, stretch.part);
     garment["too_tight"] = too_tight_of(end, i, unit);
     return garment;
 }
@@ -140,6 +144,10 @@ nb::dict verdict_of(const PythonScene& s)
     made["pose_reached"] = end.pose_reached;
     made["speed"] = end.speed;
     made["note"] = end.certified ? std::string() : explain(end, s.names);
+    nb::list warnings;
+    for (const std::string& warning : doubts_about_dressing(end, s.names))
+        warnings.append(nb::str(warning.c_str()));
+    made["warnings"] = warnings;
     nb::list held;
     for (const HeldBack& part : end.held_back)
         held.append(nb::make_tuple(part.part, part.distance / s.body_frame.metres_per_unit));

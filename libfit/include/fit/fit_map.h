@@ -21,6 +21,20 @@ struct FitMap {
 /// springs, hinges and gravity leave to the skin, so it is as smooth as the cloth is at rest.
 FIT_API FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& cloth = {});
 
+/// An edge stretched by more than this share of its length is overstretched: threads lock before (docs/drape.md), so it is caught
+/// somewhere, or the garment has no room.
+constexpr double k_overstretched = 0.5;
+
+/// Where cloth is stretched most, and how much of it by more than it may be.
+struct Overstretch {
+    int edges = 0;  ///< those that are overstretched
+    double largest = 0;  ///< l / l0 - 1 of the edge that is stretched most
+    std::string part;  ///< of the body, next to that edge, as in TooTight; empty where nothing is overstretched
+};
+
+/// @param body  the vertices of the weights, in the pose in which the garment is worn. Cost O(n log n + m).
+FIT_API Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn);
+
 /// Girths in one place, by a tape drawn tight round what is cut by a plane across the bone.
 struct Girth {
     std::string place;  ///< "neck", "chest", "waist", "hips", "left thigh", "left upper arm", ...

@@ -37,6 +37,14 @@ class Girth(NamedTuple):
         return self.garment - self.body
 
 
+class Overstretch(NamedTuple):
+    """Where cloth is stretched most."""
+
+    edges: int  #: those that are stretched by more than half their length
+    largest: float  #: stretch of the edge that is stretched most, as a share of its length
+    part: str  #: of the body, next to it; empty where no edge is overstretched
+
+
 class FitOfGarment(NamedTuple):
     type: str
     type_margin: float  #: 0 (a toss-up) to 1 (sure, or given)
@@ -49,7 +57,8 @@ class Certificate:
 
     body_crossings: int
     self_crossings: int
-    input_self_crossings: int
+    input_self_crossings: int  #: that the garment was given with
+    kept_self_crossings: int  #: those of them that did not come apart
     layer_crossings: int
     vertices_inside: int
     smallest_gap: float
@@ -74,6 +83,7 @@ class DressedGarment:
     strain: npt.NDArray[np.float64]  #: mean stretch of the edges at each vertex
     pressure: npt.NDArray[np.float64]  #: Pa
     girths: List[Girth]
+    overstretched: Overstretch
     too_tight: List[Tuple[str, float]]  #: part of the body, missing girth
 
 
@@ -160,6 +170,7 @@ class Dressing(_Result):
         self.certified: bool = verdict["certified"]  #: on, at full size, in the pose asked for, nothing crosses
         self.too_small: bool = verdict["too_small"]  #: the garment, for this body or this pose
         self.note: str = verdict["note"]  #: one line on what went wrong where it is not certified
+        self.warnings: List[str] = verdict["warnings"]  #: what to know before believing the result, one line each
         self.size_reached: float = verdict["size_reached"]
         self.pose_reached: float = verdict["pose_reached"]
         self.speed: float = verdict["speed"]  #: m/s, of the cloth's fastest vertex at the end
@@ -180,6 +191,7 @@ class Dressing(_Result):
 def _dressed(garment: Mapping[str, Any]) -> DressedGarment:
     parts = dict(garment)
     parts["certificate"] = Certificate(**parts["certificate"])
+    parts["overstretched"] = Overstretch(*parts["overstretched"])
     parts["girths"] = [Girth(*girth) for girth in parts["girths"]]
     return DressedGarment(**parts)
 

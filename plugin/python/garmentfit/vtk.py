@@ -324,7 +324,10 @@ class _FitFilter(VTKPythonAlgorithmBase):
         try:
             scene = self._updated(data[0], data[1] if len(data) > 1 else None)
             self._write(scene, self._time(request, outputs), data, made)
-            self._tell("WarningEvent", scene.verdict()["note"] if "dressing" in self.MAKES else "")
+            if "dressing" in self.MAKES:
+                verdict = scene.verdict()
+                for warning in [verdict["note"], *verdict["warnings"]]:
+                    self._tell("WarningEvent", warning)
             return 1
         except Cancelled:
             self._empty(made)

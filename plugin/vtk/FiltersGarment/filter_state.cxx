@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_state.h"
 
+#include "filters/doubts.h"
 #include "filters/outcome.h"
 
 #include "vtkDataObject.h"
@@ -149,10 +150,15 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
 
 Moment FilterState::moment(double time) const { return moment_of(known_.scene, time, filter.cloth(parameters)); }
 
-std::string FilterState::note() const
+std::vector<std::string> FilterState::warnings() const
 {
     const Dressing* dressing = final_dressing(known_.scene);
-    return dressing && !dressing->certified ? explain(*dressing, known_.garment_names) : "";
+    if (!dressing)
+        return {};
+    std::vector<std::string> lines = doubts_about_dressing(*dressing, known_.garment_names);
+    if (!dressing->certified)
+        lines.insert(lines.begin(), explain(*dressing, known_.garment_names));
+    return lines;
 }
 
 }  // namespace fit

@@ -39,8 +39,8 @@ public:
     const KnownScene& known() const { return known_; }
     /// What the outputs show at a time.
     Moment moment(double time) const;
-    /// One line where garments could not be put on as they should; else empty.
-    std::string note() const;
+    /// What the user should know of how the garments ended up, one line each: first why they could not be put on as they should.
+    std::vector<std::string> warnings() const;
 
 private:
     /// What a part of the scene was made from.

@@ -302,8 +302,8 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
             return this->GoesOn(fraction, std::string(stage));
         }));
         this->Write(body, garments, outputs, time_asked(request, outputs));
-        if (const std::string note = this->State->note(); !note.empty())
-            vtkWarningMacro(<< note);
+        for (const std::string& warning : this->State->warnings())
+            vtkWarningMacro(<< warning);
         return 1;
     } catch (const fit::Cancelled&) {
         return this->Refuse(outputs, vtkErrorCode::NoError, "");

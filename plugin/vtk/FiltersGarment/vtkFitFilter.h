@@ -15,13 +15,13 @@
  * - field data where several garments were fitted: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle` (degrees)
  * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex),
  *   `HeldBackPart`, `HeldBackDistance`, `OverlapPart`, `OverlapOther`, `OverlapDepth`; `Note`: one line where it is not
- *   certified
+ *   certified; `Warnings`: what else to know before believing the result, one line each
  *
  * port 1, the garments, of the type of the input (not of vtkRigBody)
  * - point data `RestPosition`: as given; `Ease`: gap to the skin; `Strain`: mean stretch of the edges; `Pressure`: Pa
  * - field data `FoundType`, `FoundTypeMargin`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
- *   `LayerCrossings`, `VerticesInside`, `GarmentGap`, `StrainMedian`, `StrainP95`, `StrainMax`, `TooTightPart`,
- *   `MissingGirth`, `GirthPlace`, `GirthBody`, `GirthGarment`
+ *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentGap`, `StrainMedian`, `StrainP95`, `StrainMax`,
+ *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`, `GirthBody`, `GirthGarment`
  * - a field data string `GarmentType` of an input is taken as its type
  *
  * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell data).
@@ -31,7 +31,7 @@
  *
  * Bad input raises an ErrorEvent with one line, the error code, and leaves the outputs empty. After AbortExecute outputs are
  * empty too; call Modified() and Update() to run again. A garment that is too small is no error but a result: a warning is given, `Certified` is 0
- * and `Note` says why.
+ * and `Note` says why. What stands in `Warnings` is given as warnings, too.
  *
  * @sa vtkRigBody vtkFitSkeleton vtkDrapeGarment vtkRecoverPose vtkDressBody
  */
