@@ -59,8 +59,8 @@ std::vector<std::string> doubts_about_frame(const std::string& mesh, const Frame
 std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::vector<std::string>& names)
 {
     std::vector<std::string> doubts;
-    if (end.speed >= k_at_rest)
-        doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * end.speed))
+    if (end.speed && *end.speed >= k_at_rest)
+        doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
                          + " mm/s); give more settling steps");
     for (std::size_t i = 0; i < names.size(); ++i)
         if (i >= end.garments.size())

@@ -75,7 +75,6 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.pose_reached = result.pose_reached;
     next.held_back = result.held_back;
     next.overlaps = result.overlaps;
-    next.speed = result.speed;
     next.seconds += result.seconds;
     next.frames = result.frames;
     if (!all_clean(result.garments)) {
@@ -85,6 +84,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.too_tight = result.too_tight;
     next.garments = result.garments;
     next.body = result.body;
+    next.speed = result.speed;
     next.pose = slerp(from.pose, to, result.pose_reached);
     return next;
 }

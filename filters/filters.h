@@ -44,7 +44,8 @@ struct Dressing {
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
     std::vector<Overlap> overlaps;  ///< where the body leaves it none, in that pose
-    double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end
+    std::optional<double>
+        speed;  ///< m/s, of the fastest vertex of the cloth at the end; none where it was not let settle
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
     std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for

@@ -2,6 +2,7 @@
 #include "filters/scene_arrays.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "filters/doubts.h"
 #include "filters/joint_names.h"
@@ -144,7 +145,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
                counts("Certified", { dressing.certified ? 1 : 0 }),
                numbers("SizeReached", { dressing.size_reached }),
                numbers("PoseReached", { dressing.pose_reached }),
-               numbers("Speed", { dressing.speed }),
+               numbers("Speed", { dressing.speed.value_or(NAN) }),
                { "Note", Texts { note } },
                { "Warnings", doubts_about_dressing(dressing, names) },
                { "HeldBackPart", each(held, [](const HeldBack& part) { return part.part; }) },

@@ -417,6 +417,7 @@ TEST_F(Slow, SaysWhereAGarmentIsTooSmallAndMarksTheStateItLeaves)
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_FALSE(report.at("certified").get<bool>());
     EXPECT_LT(report.at("size_reached").get<double>(), 1);
+    EXPECT_TRUE(report.at("settled").is_null() && report.at("speed").is_null()) << "it never settled";
     const auto& tight = report.at("garments").at(0).at("too_tight");
     ASSERT_FALSE(tight.empty());
     EXPECT_GT(tight.at(0).at("missing_girth").get<double>(), 0);

@@ -194,8 +194,8 @@ Json json_of(const Call& call, const Session& session)
         json["certified"] = end->certified;
         json["size_reached"] = end->size_reached;
         json["pose_reached"] = end->pose_reached;
-        json["settled"] = end->speed < k_at_rest;
-        json["speed"] = end->speed;
+        json["settled"] = end->speed ? Json(*end->speed < k_at_rest) : Json();
+        json["speed"] = end->speed ? Json(*end->speed) : Json();
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         json["overlaps"] = overlaps_of(*end, session.body.frame.frame.metres_per_unit);

@@ -142,7 +142,7 @@ nb::dict verdict_of(const PythonScene& s)
     made["too_small"] = !end.certified && outcome_of(end) == Outcome::too_small;
     made["size_reached"] = end.size_reached;
     made["pose_reached"] = end.pose_reached;
-    made["speed"] = end.speed;
+    made["speed"] = end.speed ? nb::cast(*end.speed) : nb::none();
     made["note"] = end.certified ? std::string() : explain(end, s.names);
     nb::list warnings;
     for (const std::string& warning : doubts_about_dressing(end, s.names))

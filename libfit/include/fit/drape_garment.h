@@ -10,6 +10,7 @@
 // Cost     contact search dominates: O((n + c) log n) a step, n vertices, c close pairs; some 100 steps.
 // Promise  every state returned or shown is certified, or says in its certificate what is wrong with it.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,9 @@ struct DrapeResult {
     double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
-    double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
+    std::optional<double>
+        speed;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None where
+    ///< the garment is too small: it was not let settle
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
     ClothSeconds seconds;
 };

@@ -173,7 +173,8 @@ class Dressing(_Result):
         self.warnings: List[str] = verdict["warnings"]  #: what to know before believing the result, one line each
         self.size_reached: float = verdict["size_reached"]
         self.pose_reached: float = verdict["pose_reached"]
-        self.speed: float = verdict["speed"]  #: m/s, of the cloth's fastest vertex at the end
+        #: m/s, of the cloth's fastest vertex at the end; None where the garment is too small to be put on, and never settled
+        self.speed: Optional[float] = verdict["speed"]
         self.held_back: List[Tuple[str, float]] = verdict["held_back"]
         #: parts of the body that enter each other where cloth has no room, and how deep
         self.overlaps: List[Tuple[str, str, float]] = verdict["overlaps"]

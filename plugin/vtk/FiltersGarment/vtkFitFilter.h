@@ -13,7 +13,8 @@
  * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `DressedPose`: in metres with +y up;
  *   `BodyFrame`: metres per unit, and the up axis, of the body as given
  * - field data where several garments were fitted: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle` (degrees)
- * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex),
+ * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex; NaN
+ *   where the garment is too small to be put on, and never settled),
  *   `HeldBackPart`, `HeldBackDistance`, `OverlapPart`, `OverlapOther`, `OverlapDepth`; `Note`: one line where it is not
  *   certified; `Warnings`: what else to know before believing the result, one line each
  *
@@ -21,7 +22,8 @@
  * - point data `RestPosition`: as given; `Ease`: gap to the skin; `Strain`: mean stretch of the edges; `Pressure`: Pa
  * - field data `FoundType`, `FoundTypeMargin`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
  *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentGap`, `StrainMedian`, `StrainP95`, `StrainMax`,
- *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`, `GirthBody`, `GirthGarment`
+ *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`, `GirthBody`,
+ *   `GirthGarment`
  * - a field data string `GarmentType` of an input is taken as its type
  *
  * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell data).
