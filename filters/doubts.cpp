@@ -70,6 +70,9 @@ std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::v
     for (std::size_t i = 0; i < end.overstretches.size(); ++i)
         if (end.overstretches[i].edges > 0)
             doubts.push_back(overstretched_edges(names[i], end.overstretches[i]));
+    if (int(end.frames.size()) < end.frames_asked)
+        doubts.push_back("of " + std::to_string(end.frames_asked) + " frames there are "
+                         + std::to_string(end.frames.size()) + ": those that cannot be certified are left out");
     return doubts;
 }
 

@@ -77,6 +77,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
     next.overlaps = result.overlaps;
     next.seconds += result.seconds;
     next.frames = result.frames;
+    next.frames_asked = options.frames;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
         return next;

@@ -49,6 +49,7 @@ struct Dressing {
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
     std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
+    int frames_asked = 0;  ///< how many those would be if all were certified and the whole way was gone
     std::vector<FitMap> maps;  ///< of each garment
     std::vector<std::vector<Girth>> girths;  ///< of each garment and the body under it
     std::vector<Overstretch> overstretches;  ///< of each garment

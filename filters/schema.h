@@ -106,7 +106,8 @@ void describe_motion(Options& o, Visitor&& visit)
                   "Time steps under gravity once the pose is recovered" });
     visit(o.frames,
           About { "frames", "Frames", "", 0, 1000,
-                  "States on the way back to the body's own pose to hand out, evenly spread; 0 for none" });
+                  "States on the way back to the body's own pose to hand out, evenly spread; 1 for the end alone, 0 "
+                  "for none" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>

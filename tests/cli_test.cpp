@@ -376,6 +376,45 @@ TEST_F(CommandLine, FitsSkirtAndCoatInOnePose)
 
 class Slow : public CommandLine { };
 
+TEST_F(Slow, WritesAsManyFramesAsAskedForAndNoneStayFromAnEarlierRun)
+{
+    const fs::path result = folder / "result";
+    const auto dress = [&](const Arguments& more) {
+        Arguments arguments {
+            "dress", k_body,   k_skirt, "--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps",
+            "2",     "--json", "-o",    result
+        };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return nlohmann::json::parse(ended.out);
+    };
+    EXPECT_EQ(dress({ "--frames", "30" }).at("frames"), (nlohmann::json { { "asked", 30 }, { "written", 30 } }));
+    EXPECT_TRUE(fs::exists(result / "frames/skirt_029.ply"));
+    EXPECT_FALSE(fs::exists(result / "frames/skirt_030.ply"));
+    dress({ "--frames", "1" });
+    EXPECT_TRUE(fs::exists(result / "frames/skirt_000.ply"));
+    EXPECT_FALSE(fs::exists(result / "frames/skirt_001.ply"));
+    std::ofstream(result / "notes.txt") << "mine";
+    EXPECT_FALSE(dress({}).contains("frames"));
+    EXPECT_FALSE(fs::exists(result / "frames"));
+    EXPECT_TRUE(fs::exists(result / "fitted/skirt.ply"));
+    EXPECT_EQ(read_text(result / "notes.txt"), "mine");
+}
+
+TEST_F(Slow, RemovesNoFolderThatItDidNotWrite)
+{
+    const fs::path result = folder / "result";
+    fs::create_directories(result / "frames");
+    std::ofstream(result / "frames/holiday.txt") << "mine";
+    std::ofstream(result / "report.json") << "{}";
+    ASSERT_EQ(run({ "dress", k_body, k_skirt, "--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps",
+                    "2", "-o", result })
+                  .code,
+              0);
+    EXPECT_EQ(read_text(result / "frames/holiday.txt"), "mine");
+}
+
 TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
 {
     const fs::path dressed = folder / "dressed", fitted = folder / "fitted", draped = folder / "draped",

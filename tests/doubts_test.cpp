@@ -65,6 +65,16 @@ TEST(Doubts, SayWhereClothIsOverstretched)
               (Lines { "coat is overstretched: 3 edges by more than 50%, the most by 1760%, at left forearm" }));
 }
 
+TEST(Doubts, SayThatFramesAreMissing)
+{
+    Scene scene = worn_scene();
+    scene.draped->frames_asked = 3;
+    scene.draped->frames.resize(3);
+    EXPECT_EQ(doubts_about(scene), Lines());
+    scene.draped->frames.pop_back();
+    EXPECT_EQ(doubts_about(scene), (Lines { "of 3 frames there are 2: those that cannot be certified are left out" }));
+}
+
 TEST(Doubts, SayThatCrossingsAsGivenAreStillThere)
 {
     Scene scene = worn_scene();

@@ -197,6 +197,23 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
 }
 
+TEST(RecoverPose, HandsOutAsManyFramesAsAskedForAndOneIsTheEnd)
+{
+    const Dressing d = person();
+    const GarmentMesh rest = trousers(0.02);
+    RecoverOptions options;
+    options.settling_steps = 2;
+    for (const int frames : { 1, 12 }) {  // the body stands in the pose already: one step would do
+        options.frames = frames;
+        const RecoverResult result
+            = recover_pose(d.rig, d.body, Pose(), Pose(), { { rest, rest.positions, {} } }, options);
+        ASSERT_EQ(result.frames.size(), std::size_t(frames));
+        for (int i = 0; i < frames; ++i)
+            EXPECT_NEAR(result.frames[i].share, frames > 1 ? double(i) / (frames - 1) : 1, 1e-9);
+        EXPECT_EQ(result.frames.back().garments[0], result.garments[0].positions);
+    }
+}
+
 TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
 {
     const Dressing d = person();

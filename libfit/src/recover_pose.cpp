@@ -156,7 +156,8 @@ public:
     /// Keeps the state when its turn has come, and only if it is certified: a frame that is shown is a state handed out.
     void see(const ClothMotion& motion, double share)
     {
-        if (frames_ == 0 || share * std::max(1, frames_ - 1) < double(seen_) - 1e-9)
+        const double next = frames_ == 1 ? 1 : double(seen_) / (frames_ - 1);
+        if (frames_ == 0 || share < next - 1e-9)
             return;
         ++seen_;
         put_positions(worn_, motion.cloth());
@@ -187,7 +188,8 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
         const RecoverOptions& options, Recording& recording, const Progress& progress)
 {
     const double length = way.length(motion.cloth(), cloth_weights);
-    const int steps = std::clamp(int(std::ceil(length / options.step_length)), 1, options.largest_steps);
+    const int needed = std::clamp(int(std::ceil(length / options.step_length)), 1, options.largest_steps);
+    const int steps = std::max(needed, options.frames - 1);  // a frame is where a step ends
     MotionStep step;
     step.gravity = k_gravity;
     step.friction_share = k_moving_friction;

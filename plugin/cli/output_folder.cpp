@@ -81,12 +81,19 @@ const fs::path& OutputFolder::draft()
     return draft_;
 }
 
-void OutputFolder::publish()
+void OutputFolder::publish(const std::vector<std::string>& outdated)
 {
-    if (fs::exists(place_))
-        move_into(draft(), place_);
-    else
+    if (!fs::exists(place_)) {
         fs::rename(draft(), place_);
+        return;
+    }
+    std::vector<fs::path> leaving;
+    for (const std::string& name : outdated)
+        if (!fs::exists(draft() / name))
+            leaving.push_back(place_ / name);
+    move_into(draft(), place_);
+    for (const fs::path& path : leaving)
+        fs::remove_all(path);
 }
 
 }  // namespace fit::cli

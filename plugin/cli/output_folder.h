@@ -4,6 +4,7 @@
 // A result folder that appears whole or not at all.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace fit::cli {
@@ -19,8 +20,9 @@ public:
 
     /// Where to write: a folder beside the final place, on the same disk. Made at the first call.
     const std::filesystem::path& draft();
-    /// Moves what was written to the final place. Files that stand there already and were not written again stay.
-    void publish();
+    /// Moves what was written to the final place. What stands there already and was not written again stays, but for what is
+    /// `outdated`: files and folders by their names there.
+    void publish(const std::vector<std::string>& outdated);
 
     const std::filesystem::path& place() const { return place_; }
 

@@ -84,6 +84,15 @@ void compute(const Call& call, Session& session)
     }
 }
 
+/// A folder that is continued where it is keeps what it held.
+std::vector<std::string> outdated(const Call& call, const Session& session, const OutputFolder& folder)
+{
+    std::error_code none;
+    if (!call.from.empty() && std::filesystem::equivalent(call.from, folder.place(), none))
+        return {};
+    return outdated_results(session, call.filter->name, folder.place());
+}
+
 void write(const Call& call, Session& session, OutputFolder& folder)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -96,7 +105,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
         throw InvalidInput("cannot write report.json into " + folder.place().string() + "; is the disk full?");
     file.close();
     stop_if_interrupted();
-    folder.publish();
+    folder.publish(outdated(call, session, folder));
     if (call.json)
         std::cout << report;
     else if (!call.quiet)

@@ -2,8 +2,11 @@
 #include "results.h"
 
 #include <algorithm>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
 
 #include "filters/doubts.h"
 #include "filters/outcome.h"
@@ -174,6 +177,23 @@ void write_fitted_body(const Session& session, const fs::path& folder)
               { "garmentfit: the body in the pose fitted to " + session.garments.back().name() });
 }
 
+// ---- what earlier runs wrote ---------------------------------------------------------------------------------------
+
+bool is_result(const fs::path& folder)
+{
+    std::ifstream file(folder / "report.json");
+    const auto report = nlohmann::json::parse(file, nullptr, false);
+    return report.is_object() && report.contains("command") && report.contains("stages");
+}
+
+bool was_read(const Session& session, const fs::path& path)
+{
+    std::error_code none;
+    const auto is = [&](const fs::path& input) { return fs::equivalent(input, path, none); };
+    return is(session.body.path)
+        || std::any_of(session.garments.begin(), session.garments.end(), [&](const auto& g) { return is(g.path); });
+}
+
 // ---- doubts ----------------------------------------------------------------------------------------------------
 
 /// "give --swap-sides" for "swap_sides".
@@ -195,6 +215,23 @@ void add_doubts(Session& session)
     for (const GarmentFile& garment : session.garments)
         add(doubts_about_frame(garment.name(), garment.frame, "garment_", give_flag));
     add(doubts_about_scene(session.scene, session.garment_names(), give_flag));
+}
+
+std::vector<std::string> outdated_results(const Session& session, std::string_view command, const fs::path& folder)
+{
+    if (command == "rig" || command == "fit" || !is_result(folder))
+        return {};  // those two write all they can, or nothing
+    std::vector<std::string> names { "body.ply", "maps" };
+    if (command != "drape")
+        names.emplace_back("frames");
+    if (command == "dress")
+        names.emplace_back("fitted");
+    for (const GarmentFile& garment : session.garments)
+        names.push_back(garment.name());
+    names.erase(std::remove_if(names.begin(), names.end(),
+                               [&](const std::string& name) { return was_read(session, folder / name); }),
+                names.end());
+    return names;
 }
 
 void write_results(Session& session, std::string_view command, const fs::path& folder)

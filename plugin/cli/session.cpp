@@ -36,7 +36,8 @@ void make_scene_body(Session& session)
 /// A dressed garment, body.ply and the like stand in one folder.
 void require_own_name(const Session& session, const std::string& name)
 {
-    for (const char* taken : { "body.ply", "rigged.ply", "rig.json", "report.json", "fitted", "rest" })
+    for (const char* taken :
+         { "body.ply", "rigged.ply", "rigged.glb", "rig.json", "report.json", "fitted", "frames", "maps", "rest" })
         if (name == taken)
             throw InvalidInput("a garment may not be called " + name + ", as a result file is; rename it");
     for (const GarmentFile& garment : session.garments)

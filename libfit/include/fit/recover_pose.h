@@ -18,7 +18,9 @@ struct RecoverOptions {
     int largest_steps = 200;  ///< give up after this many
     double step_length = 0.015;  ///< m; nothing under cloth moves further in a step, as far as largest_steps permits
     int settling_steps = 60;  ///< time steps under gravity, at the end
-    int frames = 0;  ///< states on the way to hand out, evenly spread, both ends included; 0: none
+    int frames
+        = 0;  ///< states on the way to hand out, evenly spread, both ends included; 1: the end alone; 0: none. There are
+    ///< as many steps at least as ways between them
 };
 
 /// A state on the way, in which nothing crosses either.
@@ -42,7 +44,8 @@ struct RecoverResult {
     std::vector<HeldBack>
         held_back;  ///< where cloth had no room, in the pose `to` or where the body got stuck; worst first
     std::vector<Overlap> overlaps;  ///< why it had none, if it is the body; deepest first; looked for only if not certified
-    std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
+    std::vector<RecoverFrame>
+        frames;  ///< those that are certified, up to where the body got stuck; memory 24 bytes per vertex and frame
     double pose_reached
         = 0;  ///< 1 = the whole way was gone, though parts may be held back; where the body got stuck, with some
         ///< part more than 8 cm behind, the last share of the way at which all of it was in place:

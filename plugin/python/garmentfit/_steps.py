@@ -185,7 +185,7 @@ class Dressing(_Result):
 
     @property
     def frames(self) -> List[Frame]:
-        """States on the way to the body's own pose, as many as `frames` asked for."""
+        """States on the way to the body's own pose, as many as `frames` asked for but for those that cannot be certified."""
         return [Frame(*frame) for frame in self._scene.frames()]
 
 
