@@ -159,6 +159,11 @@ Json conflicts_of(const Session& session)
     return conflicts;
 }
 
+int frames_asked(const Call& call)
+{
+    return call.filter->makes(Data::recovered) ? call.parameters.recover.frames : 0;
+}
+
 std::size_t frames_written(const Dressing& dressing)
 {
     return all_clean(dressing.garments) ? dressing.frames.size() : 0;
@@ -204,8 +209,8 @@ Json json_of(const Call& call, const Session& session)
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         json["overlaps"] = overlaps_of(*end, session.body.frame.frame.metres_per_unit);
-        if (end->frames_asked > 0)
-            json["frames"] = { { "asked", end->frames_asked }, { "written", frames_written(*end) } };
+        if (const int asked = frames_asked(call); asked > 0)
+            json["frames"] = { { "asked", asked }, { "written", frames_written(*end) } };
         if (!end->certified)
             json["note"] = explain(*end, session.garment_names());
     }
@@ -244,8 +249,8 @@ std::string summary(const Call& call, const Session& session)
     else
         for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
             text << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type) << "): fitted\n";
-    if (const Dressing* end = final_dressing(session.scene); end && end->frames_asked > 0)
-        text << frames_written(*end) << " of " << end->frames_asked << " frames\n";
+    if (const Dressing* end = final_dressing(session.scene); end && frames_asked(call) > 0)
+        text << frames_written(*end) << " of " << frames_asked(call) << " frames\n";
     if (session.scene.one_pose.value_or(false))
         text << "one pose serves all " << session.garments.size() << " garments\n";
     for (const std::string& warning : session.warnings)
