@@ -18,6 +18,28 @@ void rig(Scene& scene, const Parameters& p, const Progress& progress)
     scene.rig = rig_body(*scene.body, p.rig, progress);
 }
 
+/// "coat.obj: ", or where it has no name, "garment 2: " if there are several.
+std::string called(const Scene& scene, std::size_t garment)
+{
+    const std::string& name = scene.garments[garment].name;
+    if (!name.empty())
+        return name + ": ";
+    return scene.garments.size() > 1 ? "garment " + std::to_string(garment + 1) + ": " : "";
+}
+
+/// What work(i) gives; what is wrong with a garment is told with its name.
+template <class Work>
+auto for_garment(const Scene& scene, std::size_t i, const Work& work)
+{
+    try {
+        return work(i);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(called(scene, i) + error.what());
+    } catch (const SolverFailure& error) {
+        throw SolverFailure(called(scene, i) + error.what());
+    }
+}
+
 /// One pose for all garments where there is one, else each keeps its own.
 void fit_together(Scene& scene, const Progress& progress)
 {
@@ -37,14 +59,15 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
     scene.conflicts.clear();
     const bool together = scene.garments.size() > 1 && p.fit.method == FitMethod::fast;
     const double n = double(scene.garments.size()) + (together ? 1 : 0);
-    for (const GarmentInput& garment : scene.garments) {
-        FitOptions options = p.fit;
-        if (garment.type != GarmentType::automatic)
-            options.type = garment.type;
-        const double i = double(scene.fits.size());
-        scene.fits.push_back(
-            fit_skeleton(*scene.rig, scene.body->surface, garment.mesh, options, progress.part(i / n, (i + 1) / n)));
-    }
+    for (std::size_t g = 0; g < scene.garments.size(); ++g)
+        scene.fits.push_back(for_garment(scene, g, [&](std::size_t i) {
+            const GarmentInput& garment = scene.garments[i];
+            FitOptions options = p.fit;
+            if (garment.type != GarmentType::automatic)
+                options.type = garment.type;
+            return fit_skeleton(*scene.rig, scene.body->surface, garment.mesh, options,
+                                progress.part(double(i) / n, double(i + 1) / n));
+        }));
     if (together)
         fit_together(scene, progress.part(1 - 1 / n, 1));
 }
@@ -112,6 +135,8 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     between_poses.frames = 0;
     between_poses.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // judged where it is to be worn
     const double n = double(scene.garments.size());
+    for (std::size_t g = 0; g < scene.garments.size(); ++g)
+        for_garment(scene, g, [&](std::size_t i) { require_wearable_size(*scene.rig, scene.garments[i].mesh); });
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {
         const Progress slice = progress.part(double(i) / n, double(i + 1) / n);
         const Pose& pose = scene.fits[i].pose;
@@ -119,8 +144,10 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
             dressing = moved(scene, dressing, pose, between_poses, slice.part(0, 0.3));
         if (i > 0 && !dressing.certified)
             break;
-        const DrapeResult result = drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
-                                                 slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments, dressing.body);
+        const DrapeResult result = for_garment(scene, i, [&](std::size_t) {
+            return drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
+                                 slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments, dressing.body);
+        });
         const ClothSeconds before = dressing.seconds;
         dressing = dressing_of(result, pose);
         dressing.seconds += before;

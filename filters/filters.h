@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Parameters {
 struct GarmentInput {
     GarmentMesh mesh;
     GarmentType type = GarmentType::automatic;
+    std::string name;  ///< to tell it from others in messages, or empty
 };
 
 /// Garments on the body, in one pose.

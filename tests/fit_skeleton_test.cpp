@@ -471,13 +471,28 @@ TEST(FitSkeleton, WhatNobodyFitsIntoIsRefused)
     EXPECT_THROW(fit_skeleton(rig, plate), InvalidInput);
 
     GarmentMesh tiny = shirt({ .arm_angle = 40 }, 0.6);
-    tiny.positions *= 0.01;
+    tiny.positions *= 0.05;
     try {
         fit_skeleton(rig, tiny, { .type = GarmentType::tshirt });
         FAIL();
     } catch (const InvalidInput& e) {
         EXPECT_NE(std::string(e.what()).find("cm"), std::string::npos) << e.what();
     }
+}
+
+TEST(FitSkeleton, WhatWasReadInAWrongUnitIsRefusedAtOnce)
+{
+    const Rig rig = rig_of({});
+    GarmentMesh garment = trousers();
+    for (const double unit : { 1000.0, 30.0, 0.01 }) {
+        GarmentMesh scaled = garment;
+        scaled.positions *= unit;
+        for (const FitMethod method : { FitMethod::fast, FitMethod::paper })
+            expect_invalid([&] { fit_skeleton(rig, scaled, { .method = method }); }, "garment_unit");
+    }
+    garment.positions.conservativeResize(garment.positions.rows() + 1, 3);
+    garment.positions.bottomRows(1) << 0, 1e6, 0;  // in no face
+    EXPECT_NO_THROW(require_wearable_size(rig, garment));
 }
 
 TEST(FitSkeleton, ScrapsAreRefusedInWords)

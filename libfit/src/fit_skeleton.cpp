@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/fit_skeleton.h"
 
+#include <algorithm>
+#include <iomanip>
 #include <memory>
 #include <numeric>
+#include <sstream>
 #include <string>
 
 #include "bone_metric.h"
@@ -18,6 +21,26 @@ namespace fit {
 namespace {
 
 constexpr Eigen::Index k_fewest_triangles = 24;  // two prisms of six sides, one above the other
+
+constexpr double k_longest = 10, k_shortest = 0.01;  // of a garment, in heights of the body
+
+/// Of a body that stands upright, whatever it does: from the ankles to the top of the head, and hips are aslant.
+double height_of(const Skeleton& s)
+{
+    const auto along = [&s](std::initializer_list<Bone> bones) {
+        return std::accumulate(bones.begin(), bones.end(), 0.0, [&s](double sum, Bone b) { return sum + s.length(b); });
+    };
+    return along({ lowerback, upperback, thorax, lowerneck, upperneck }) + (s.tips[head_top] - s.tail(upperneck)).norm()
+        + std::max(along({ lhipjoint, lfemur, ltibia }), along({ rhipjoint, rfemur, rtibia }));
+}
+
+double length_of(const GarmentMesh& garment)
+{
+    Eigen::AlignedBox3d box;  // of cloth: stray vertices may lie anywhere
+    for (const int v : garment.triangles.reshaped())
+        box.extend(Vec3(garment.positions.row(v)));
+    return box.sizes().maxCoeff();
+}
 
 std::array<double, bone_count> scores(const ErrorMetric& metric, const PlacedBones& bones,
                                       const std::vector<Bone>& covered)
@@ -89,6 +112,17 @@ std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, co
     return result;
 }
 
+void require_wearable_size(const Rig& rig, const GarmentMesh& garment)
+{
+    const double height = height_of(rig.skeleton), length = length_of(garment);
+    if (length <= k_longest * height && length >= k_shortest * height)
+        return;
+    std::ostringstream text;
+    text << std::setprecision(3) << "the garment would be " << length << " m long on a body of about " << height
+         << " m; check its unit (garment_unit)";
+    throw InvalidInput(text.str());
+}
+
 FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
                        const Progress& progress)
 {
@@ -99,6 +133,7 @@ FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMe
                            + " triangles, too few to go round a body; give a "
                              "garment of at least "
                            + std::to_string(k_fewest_triangles));
+    require_wearable_size(rig, garment);
     FitResult result = options.method == FitMethod::fast ? fast_fit(rig, garment, options.type, progress)
                                                          : relaxed_fit(rig, body, garment, options, progress);
     result.score_before = std::accumulate(result.scores_before.begin(), result.scores_before.end(), 0.0);

@@ -49,7 +49,7 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
 {
     require_own_name(session, garment.name());
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
-    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type });
+    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name() });
     if (!same(garment.frame.frame, session.body.frame.frame))
         session.warnings.push_back(garment.name()
                                    + " has other units or axes than the body; it is written in the body's ("

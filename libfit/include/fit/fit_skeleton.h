@@ -98,11 +98,15 @@ FIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garm
 FIT_API std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, const GarmentMesh& garment,
                                                     const std::vector<Bone>& covered);
 
+/// What nobody could wear is a file read in a wrong unit, and would take all memory there is.
+/// @throws InvalidInput when the garment is more than 10 times as long as the body is tall, or less than a hundredth of that. O(n).
+FIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& garment);
+
 /// @pre    By paper and tisserand: the garment hangs upright (+y up). By the fast method it may be turned in any way.
 /// @post   By the fast method: no bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
 ///         ankles and wrists do not bend, and a trouser leg longer than the leg has no room for a foot across it; there,
 ///         with_clear_tips says how far they reach.
-/// @throws InvalidInput when no body fits into the garment; SolverFailure when no such pose was found, naming bone and place;
+/// @throws InvalidInput when no body fits into the garment, or its size is absurd; SolverFailure when no such pose was found, naming bone and place;
 ///         Cancelled.
 FIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
                                const Progress& progress = {});
