@@ -40,6 +40,12 @@ auto for_garment(const Scene& scene, std::size_t i, const Work& work)
     }
 }
 
+void require_wearable_sizes(const Scene& scene)
+{
+    for (std::size_t g = 0; g < scene.garments.size(); ++g)
+        for_garment(scene, g, [&](std::size_t i) { require_wearable_size(*scene.rig, scene.garments[i].mesh); });
+}
+
 /// One pose for all garments where there is one, else each keeps its own.
 void fit_together(Scene& scene, const Progress& progress)
 {
@@ -57,6 +63,7 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
     scene.fits.clear();
     scene.one_pose.reset();
     scene.conflicts.clear();
+    require_wearable_sizes(scene);
     const bool together = scene.garments.size() > 1 && p.fit.method == FitMethod::fast;
     const double n = double(scene.garments.size()) + (together ? 1 : 0);
     for (std::size_t g = 0; g < scene.garments.size(); ++g)
@@ -135,8 +142,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     between_poses.frames = 0;
     between_poses.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // judged where it is to be worn
     const double n = double(scene.garments.size());
-    for (std::size_t g = 0; g < scene.garments.size(); ++g)
-        for_garment(scene, g, [&](std::size_t i) { require_wearable_size(*scene.rig, scene.garments[i].mesh); });
+    require_wearable_sizes(scene);
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {
         const Progress slice = progress.part(double(i) / n, double(i + 1) / n);
         const Pose& pose = scene.fits[i].pose;

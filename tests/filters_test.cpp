@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
+
 namespace {
 
 using namespace fit;
@@ -145,6 +147,24 @@ TEST(Filter, ChecksRangesBeforeItWorks)
     } catch (const InvalidInput& error) {
         EXPECT_NE(std::string(error.what()).find("proxy_vertices"), std::string::npos) << error.what();
     }
+}
+
+TEST(Filter, NamesTheGarmentThatIsOfAbsurdSizeBeforeItWorks)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    scene.rig = fixtures::simple_rig(person);
+    const TriangleMesh shirt
+        = fixtures::garment_round(person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 0.9 && p.y() < 1.4; });
+    scene.garments = { { make_garment(shirt.positions, shirt.triangles), GarmentType::vest, "vest.obj" },
+                       { make_garment(1000 * shirt.positions, shirt.triangles), GarmentType::vest, "huge.obj" } };
+    scene.fits.resize(2);
+    fixtures::expect_invalid([&] { filter_of("drape").run(scene, {}); }, "huge.obj: the garment would be");
+    EXPECT_FALSE(scene.draped);
+    scene.garments[1].name = "";
+    fixtures::expect_invalid([&] { filter_of("fit").run(scene, {}); }, "garment 2: the garment would be");
+    EXPECT_TRUE(scene.fits.empty());
 }
 
 // ---- the tables in the documentation --------------------------------------------------------------------------------
