@@ -107,7 +107,9 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
         describe(p.fit, visit);
     if (filter.has(Stage::drape)) {
         describe(p.drape, visit);
-        describe_motion(p.recover, visit);  // garments already worn move on to the pose of the next one
+        describe_way(p.recover, visit);  // garments already worn move on to the pose of the next one
+        if (filter.has(Stage::recover))
+            describe_frames(p.recover, visit);
     } else if (filter.has(Stage::recover)) {
         describe(p.recover, visit);
     }

@@ -51,8 +51,9 @@ void describe(Options& o, Visitor&& visit)
                   &nearest_search_names() });
 }
 
+/// What cloth is and how it behaves, whatever is done with it.
 template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>
-void describe(Options& o, Visitor&& visit)
+void describe_cloth(Options& o, Visitor&& visit)
 {
     visit(o.fabric,
           About { "fabric", "Fabric", "", 0, 0,
@@ -74,6 +75,12 @@ void describe(Options& o, Visitor&& visit)
     visit(o.largest_stretch,
           About { "largest_stretch", "Largest stretch", "", 0.01, 2,
                   "A garment is too small where the body would stretch it by more than this share" });
+}
+
+template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>
+void describe(Options& o, Visitor&& visit)
+{
+    describe_cloth(o, visit);
     visit(o.largest_enlargement,
           About { "enlarge", "Enlarge", "", 0, 1,
                   "A garment that is too small to be put on is made larger, all of it alike, by up to this share" });
@@ -91,9 +98,9 @@ void describe(Options& o, Visitor&& visit)
                   "Time steps under gravity once the body has its size" });
 }
 
-/// What recovering the pose adds to the cloth, which it shares with draping.
+/// How garments that are worn go from one pose to another.
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
-void describe_motion(Options& o, Visitor&& visit)
+void describe_way(Options& o, Visitor&& visit)
 {
     visit(o.largest_steps,
           About { "recovery_steps", "Recovery steps", "", 1, 100000,
@@ -104,6 +111,12 @@ void describe_motion(Options& o, Visitor&& visit)
     visit(o.settling_steps,
           About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
                   "Time steps under gravity once the pose is recovered" });
+}
+
+/// What recovering the body's own pose adds to cloth and way, which it shares with draping.
+template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
+void describe_frames(Options& o, Visitor&& visit)
+{
     visit(o.frames,
           About { "frames", "Frames", "", 0, 1000,
                   "States on the way back to the body's own pose to hand out, evenly spread; 1 for the end alone, 0 "
@@ -113,8 +126,9 @@ void describe_motion(Options& o, Visitor&& visit)
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
-    describe(o.cloth, visit);
-    describe_motion(o, visit);
+    describe_cloth(o.cloth, visit);  // a garment that is on is not made larger
+    describe_way(o, visit);
+    describe_frames(o, visit);
 }
 
 }  // namespace fit

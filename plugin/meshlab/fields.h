@@ -32,7 +32,7 @@ void describe_entry(const MenuEntry& entry, AnyParameters& parameters, const Vis
     if (entry.filter)
         describe(*entry.filter, parameters, visit);
     else if (entry.task == Task::measure)
-        describe(parameters.drape.cloth, visit);
+        describe_cloth(parameters.drape.cloth, visit);
 }
 
 }  // namespace fit::meshlab

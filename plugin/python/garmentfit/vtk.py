@@ -399,8 +399,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
         """The parameters of a step, and those of them that its result depends on."""
         values = {name: self._values[name] for name, *_ in _core.parameters_of(step)}
         unused = set()
-        if step == "drape":  # moves only garments that are worn already, and hands out no frames
-            unused = {name for name in values if name == "frames" or name.startswith("recovery_") and layers < 2}
+        if step == "drape":  # only garments that are worn already go another way
+            unused = {name for name in values if name.startswith("recovery_") and layers < 2}
         return values, {name: value for name, value in values.items() if name not in unused}
 
     def _read_body(self, body: vtkPolyData) -> Any:

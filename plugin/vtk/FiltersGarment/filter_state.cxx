@@ -76,15 +76,14 @@ void FilterState::forget_from(Stage stage)
 std::vector<double> FilterState::numbers_of(Stage stage) const
 {
     Numbers numbers;
-    Parameters p = parameters;
+    const Parameters& p = parameters;
     switch (stage) {
     case Stage::rig: describe(p.rig, numbers); break;
     case Stage::fit: describe(p.fit, numbers); break;
     case Stage::drape:
         describe(p.drape, numbers);
-        p.recover.frames = 0;
         if (known_.scene.garments.size() > 1)
-            describe_motion(p.recover, numbers);
+            describe_way(p.recover, numbers);
         break;
     case Stage::recover: describe(p.recover, numbers); break;
     }

@@ -38,6 +38,7 @@ public:
 
     /// Parameters of the way back.
     vtkFitRecoveryParametersMacro();
+    vtkFitFramesParameterMacro();
 
 protected:
     vtkDressBody();

@@ -44,19 +44,20 @@
     vtkFitNumberMacro(StretchStiffness, double, stretch_stiffness);                                                    \
     vtkFitNumberMacro(BendStiffness, double, bend_stiffness);                                                          \
     vtkFitNumberMacro(Friction, double, friction);                                                                     \
-    vtkFitNumberMacro(LargestStretch, double, largest_stretch);                                                        \
-    vtkFitNumberMacro(Enlarge, double, enlarge)
+    vtkFitNumberMacro(LargestStretch, double, largest_stretch)
 
 #define vtkFitDrapeParametersMacro()                                                                                   \
     vtkFitClothParametersMacro();                                                                                      \
+    vtkFitNumberMacro(Enlarge, double, enlarge);                                                                       \
     vtkFitNumberMacro(InflationSteps, int, inflation_steps);                                                           \
     vtkFitNumberMacro(SettlingSteps, int, settling_steps)
 
 #define vtkFitRecoveryParametersMacro()                                                                                \
     vtkFitNumberMacro(RecoverySteps, int, recovery_steps);                                                             \
     vtkFitNumberMacro(RecoveryStepLength, double, recovery_step_length);                                               \
-    vtkFitNumberMacro(RecoverySettlingSteps, int, recovery_settling_steps);                                            \
-    vtkFitNumberMacro(Frames, int, frames)
+    vtkFitNumberMacro(RecoverySettlingSteps, int, recovery_settling_steps)
+
+#define vtkFitFramesParameterMacro() vtkFitNumberMacro(Frames, int, frames)
 
 /// What a filter that reads bodies as they came wants to know of them: "auto", or "m", "dm", "cm", "mm", "in", "ft" for the
 /// unit, "+x" to "-z" for the axes up and (where the chest faces) front.

@@ -25,6 +25,7 @@ public:
 
     /// Parameters of the way back.
     vtkFitRecoveryParametersMacro();
+    vtkFitFramesParameterMacro();
 
 protected:
     vtkRecoverPose();
