@@ -106,6 +106,23 @@ TEST(FitMap, SeamsOfUvChartsDoNotMatter)
     EXPECT_LT((a.strain - b.strain.head(n)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(FitMap, AVertexOfNoFaceHasTheValuesOfItsNeighbour)
+{
+    const WornGarment whole = stretched_tube(0.095, 0.102);
+    WornGarment strewn = whole;
+    const Eigen::Index n = whole.positions.rows();
+    for (Positions* positions : { &strewn.positions, &strewn.rest.positions }) {
+        positions->conservativeResize(n + 2, 3);
+        positions->row(n) = 1.001 * positions->row(7);
+        positions->row(n + 1) << 0, 1000, 0;
+    }
+    const FitMap a = fit_map(tube(0.1), whole), b = fit_map(tube(0.1), strewn);
+    EXPECT_EQ(b.ease.head(n), a.ease);
+    EXPECT_EQ(b.pressure.head(n), a.pressure);
+    EXPECT_EQ(b.ease[n], a.ease[7]);
+    EXPECT_LT(b.ease[n + 1], 0.01);
+}
+
 TEST(Girths, AreTheBodysAndTheGarmentsWhereTheGarmentGoesRound)
 {
     const Person person = capsule_person({});

@@ -149,7 +149,7 @@ std::optional<Found> found_on(const Measured& body, const Place& place)
 
 FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& options)
 {
-    const Weld weld(worn.rest.positions);
+    const Weld weld(worn.rest);
     const GarmentMesh rest = weld.gathered(worn.rest);
     const Positions x = weld.gathered(worn.positions);
     const ClothOptions made = made_of_fabric(options);

@@ -1,26 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "weld.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+
+#include "vertex_tree.h"
 
 namespace fit {
 
-Weld::Weld(const Positions& rest) : cloth_vertex_(rest.rows())
+Weld::Weld(const Positions& rest) { number(rest, std::vector<char>(rest.rows(), 1)); }
+
+Weld::Weld(const GarmentMesh& rest)
 {
-    std::map<std::array<double, 3>, int> places;
-    for (Eigen::Index v = 0; v < rest.rows(); ++v)
-        cloth_vertex_[v] = places.try_emplace({ rest(v, 0), rest(v, 1), rest(v, 2) }, int(places.size())).first->second;
-    count_ = int(places.size());
+    std::vector<char> is_cloth(rest.positions.rows(), 0);
+    for (const int v : rest.triangles.reshaped())
+        is_cloth[v] = 1;
+    number(rest.positions, is_cloth);
 }
 
-Positions Weld::gathered(const Positions& garment) const
+void Weld::number(const Positions& rest, const std::vector<char>& is_cloth)
 {
-    Positions result(count_, 3);
+    cloth_vertex_.resize(rest.rows());
+    std::map<std::array<double, 3>, int> places;
+    for (int v = 0; v < given(); ++v) {
+        if (!is_cloth[v])
+            continue;
+        const auto [place, is_new] = places.try_emplace({ rest(v, 0), rest(v, 1), rest(v, 2) }, int(places.size()));
+        cloth_vertex_[v] = place->second;
+        if (is_new)
+            last_.push_back(v);
+        last_[place->second] = v;
+    }
+    if (last_.empty() || std::find(is_cloth.begin(), is_cloth.end(), 0) == is_cloth.end())
+        return;
+    const Positions cloth = rest(last_, Eigen::all);
+    const VertexTree tree(cloth);
     for (int v = 0; v < given(); ++v)
-        result.row(cloth_vertex_[v]) = garment.row(v);
-    return result;
+        if (!is_cloth[v]) {
+            cloth_vertex_[v] = tree.index(rest.row(v), INFINITY);
+            strays_.push_back({ v, rest.row(v) - cloth.row(cloth_vertex_[v]) });
+        }
 }
+
+Positions Weld::gathered(const Positions& garment) const { return garment(last_, Eigen::all); }
 
 GarmentMesh Weld::gathered(const GarmentMesh& garment) const
 {
@@ -36,5 +60,13 @@ GarmentMesh Weld::gathered(const GarmentMesh& garment) const
 }
 
 Positions Weld::spread(const Positions& cloth) const { return cloth(cloth_vertex_, Eigen::all); }
+
+Positions Weld::placed(const Positions& cloth) const
+{
+    Positions result = spread(cloth);
+    for (const Stray& stray : strays_)
+        result.row(stray.vertex) += stray.offset;
+    return result;
+}
 
 }  // namespace fit

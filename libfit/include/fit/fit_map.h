@@ -10,7 +10,7 @@
 
 namespace fit {
 
-/// One value for each vertex of the garment.
+/// One value for each vertex of the garment; one that is of no face has those of the nearest vertex at rest that is.
 struct FitMap {
     Eigen::VectorXd ease;  ///< m; gap to the skin
     Eigen::VectorXd strain;  ///< mean of l / l0 - 1 over the edges at the vertex; positive where stretched
