@@ -423,6 +423,7 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     ASSERT_EQ(whole.code, 0) << whole.err;
     const auto report = nlohmann::json::parse(whole.out);
     EXPECT_TRUE(report.at("certified").get<bool>());
+    EXPECT_EQ(report.at("cloth").at("fabric"), "cotton");
     const auto& crossings = report.at("garments").at(0).at("crossings");
     EXPECT_EQ(crossings.at("body"), 0);
     EXPECT_EQ(crossings.at("self"), 0);
@@ -436,6 +437,13 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
 
     ASSERT_EQ(run({ "fit", k_body, k_skirt, "--type", "skirt", "-o", fitted }).code, 0);
     ASSERT_EQ(run({ "drape", fitted, "-o", draped }).code, 0);
+    const Ended heavy = run({ "drape", fitted, "--fabric", "denim", "--density", "0.5", "--json", "--settling-steps",
+                              "2", "-o", folder / "denim" });
+    ASSERT_EQ(heavy.code, 0) << heavy.err;
+    const auto cloth = nlohmann::json::parse(heavy.out).at("cloth");
+    EXPECT_EQ(cloth.at("fabric"), "denim");
+    EXPECT_EQ(cloth.at("density"), 0.5);
+    EXPECT_EQ(cloth.at("stretch_stiffness"), 800);
     ASSERT_EQ(run({ "recover", draped, "-o", own }).code, 0);
     EXPECT_EQ(fit::MeshFile::read(own / "body.ply").positions(), body.positions());
     const fit::Positions stepwise = fit::MeshFile::read(own / "skirt.ply").positions();

@@ -114,6 +114,17 @@ Json overstretched_of(const Overstretch& stretch)
     return { { "edges", stretch.edges }, { "largest", stretch.largest }, { "part", stretch.part } };
 }
 
+/// What the garments were taken to be made of, SI units.
+Json cloth_of(const Call& call)
+{
+    const ClothOptions cloth = made_of_fabric(call.filter->cloth(call.parameters));
+    return { { "fabric", fabric_names()[static_cast<int>(cloth.fabric)] },
+             { "density", cloth.density },
+             { "stretch_stiffness", cloth.stretch_stiffness },
+             { "bend_stiffness", cloth.bend_stiffness },
+             { "friction", cloth.friction } };
+}
+
 Json held_back_of(const Dressing& dressing, double metres_per_unit)
 {
     Json parts = Json::array();
@@ -206,6 +217,7 @@ Json json_of(const Call& call, const Session& session)
         json["pose_reached"] = end->pose_reached;
         json["settled"] = end->speed ? Json(*end->speed < k_at_rest) : Json();
         json["speed"] = end->speed ? Json(*end->speed) : Json();
+        json["cloth"] = cloth_of(call);
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
         json["overlaps"] = overlaps_of(*end, session.body.frame.frame.metres_per_unit);
