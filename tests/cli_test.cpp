@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -413,6 +414,85 @@ TEST_F(Slow, RemovesNoFolderThatItDidNotWrite)
                   .code,
               0);
     EXPECT_EQ(read_text(result / "frames/holiday.txt"), "mine");
+}
+
+/// Every file under a folder, by its path there.
+std::map<std::string, std::string> contents_of(const fs::path& folder)
+{
+    std::map<std::string, std::string> contents;
+    if (fs::exists(folder))
+        for (const auto& entry : fs::recursive_directory_iterator(folder))
+            if (entry.is_regular_file())
+                contents[fs::relative(entry.path(), folder)] = read_text(entry.path());
+    return contents;
+}
+
+TEST_F(Slow, ChangesAllOrNothingWhereverItIsStopped)
+{
+    const fs::path result = folder / "result";
+    const auto arguments = [&](const char* density) {
+        return Arguments {
+            "dress", k_body,      k_skirt, "--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps",
+            "2",     "--density", density, "-o",     result
+        };
+    };
+    const fs::path earlier = folder / "earlier";
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(run(arguments("0.2")).code, 0);
+    const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+    fs::rename(result, earlier);
+    std::ofstream(earlier / "notes.txt") << "mine";
+    const auto before = contents_of(earlier);
+    constexpr int k_stops = 12;
+    std::mt19937 random(20);
+    int stopped = 0;
+    for (int i = 0; i < k_stops; ++i) {
+        const bool is_new = i % 2 == 0;
+        const int signal = i % 4 < 2 ? SIGINT : SIGTERM;
+        const double moment
+            = (i + random() / double(std::mt19937::max())) / k_stops;  // of the run: one in each part of it
+        fs::remove_all(result);
+        if (!is_new)
+            fs::copy(earlier, result, fs::copy_options::recursive);
+        const pid_t pid = start(arguments("0.3"));
+        wait_until_caught(pid, signal);
+        std::this_thread::sleep_for(moment * whole);
+        kill(pid, signal);
+        const Ended ended = wait_for(pid);
+        const auto after = contents_of(result);
+        if (ended.code == 130) {
+            ++stopped;
+            EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+            EXPECT_EQ(fs::exists(result), !is_new);
+            EXPECT_TRUE(is_new || after == before) << "stopped after " << moment << " of the run";
+        } else {  // it was about done
+            EXPECT_EQ(ended.code, 0) << ended.err;
+            EXPECT_EQ(after.size(), before.size() - (is_new ? 1 : 0));
+            EXPECT_TRUE(after != before);
+        }
+        for (const auto& entry : fs::directory_iterator(folder))
+            EXPECT_EQ(entry.path().filename().string().find("unfinished"), std::string::npos) << entry.path();
+    }
+    EXPECT_GT(stopped, 0);
+}
+
+TEST_F(Slow, DressesToTheSameBytesWithAnyNumberOfThreads)
+{
+    std::map<std::string, std::string> one;
+    for (const char* threads : { "1", "2", "8" }) {
+        const fs::path result = folder / threads;
+        ASSERT_EQ(
+            run({ "dress", k_body, k_skirt, "--type", "skirt", "--frames", "3", "--threads", threads, "-o", result })
+                .code,
+            0);
+        auto contents = contents_of(result);
+        contents.erase("report.json");  // seconds and memory
+        if (one.empty())
+            one = contents;
+        ASSERT_EQ(contents.size(), one.size());
+        for (const auto& [file, bytes] : contents)
+            EXPECT_TRUE(bytes == one[file]) << file << " differs with " << threads << " threads";
+    }
 }
 
 TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)

@@ -57,6 +57,70 @@ TEST(ClothEnergy, ForcesAreMinusItsGradient)
         }
 }
 
+/// How the energy grows along a way, J/m, by central differences.
+double slope(const ClothEnergy& energy, const Positions& x, const Positions& way)
+{
+    constexpr double h = 1e-7;
+    return (energy.elastic_energy(x + h * way) - energy.elastic_energy(x - h * way)) / (2 * h);
+}
+
+GarmentMesh crumpled_sheet()
+{
+    const TriangleMesh mesh
+        = sheet(6, 0.02, [](double x, double z) { return 0.02 * std::sin(60 * x) + 0.015 * std::cos(45 * z); });
+    return { mesh.positions, mesh.triangles };
+}
+
+// The forces leave out how the axes of a hinge turn, which change the energy by the work of what a hinge lacks to its fold, turned with it.
+// A fold that has its own shape, larger and turned, lacks something along the fold only; turning changes nothing there, so the forces are
+// the whole gradient.
+TEST(ClothEnergy, ForcesAreMinusItsGradientWhereFoldsHaveTheirShape)
+{
+    const GarmentMesh rest = crumpled_sheet();
+    ClothOptions cloth;
+    cloth.bend_stiffness = 1e-2;
+    const ClothEnergy energy(rest, {}, cloth);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Positions x = 1.15 * rest.positions * turn.transpose(), forces = energy.elastic_forces(x);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        for (int k = 0; k < 3; ++k) {
+            Positions way = Positions::Zero(x.rows(), 3);
+            way(v, k) = 1;
+            EXPECT_NEAR(forces(v, k), -slope(energy, x, way), 1e-5 * forces.cwiseAbs().maxCoeff()) << v << ' ' << k;
+        }
+}
+
+// Of a fold with another shape than its own they are the gradient along all ways on which its axes stay: of the corners in the planes of their
+// triangles, and of the edge along itself.
+TEST(ClothEnergy, ForcesOfAnOpenedFoldAreMinusItsGradientWhileItsAxesHold)
+{
+    GarmentMesh rest { Positions(4, 3), (Triangles(2, 3) << 0, 1, 2, 1, 0, 3).finished() };
+    rest.positions << 0, 0, 0, 0.02, 0, 0, 0.01, 0.008, 0.016, 0.008, 0.01, -0.015;
+    ClothOptions cloth;
+    cloth.bend_stiffness = 1e-2;
+    const ClothEnergy energy(rest, {}, cloth);
+    Positions x = rest.positions;
+    x.row(2) << 0.012, 0.002, 0.019;
+    x.row(3) << 0.009, 0.004, -0.017;
+    const Positions forces = energy.elastic_forces(x);
+    const auto beside = [&](int v, const Eigen::RowVector3d& direction) {
+        Positions way = Positions::Zero(4, 3);
+        way.row(v) = direction.normalized();
+        return forces.row(v).dot(way.row(v)) + slope(energy, x, way);
+    };
+    const double close = 1e-5 * forces.cwiseAbs().maxCoeff();
+    const Eigen::RowVector3d edge = x.row(1) - x.row(0);
+    for (const int corner : { 2, 3 }) {
+        const Eigen::RowVector3d up = x.row(corner) - x.row(0);
+        EXPECT_NEAR(beside(corner, edge), 0, close);
+        EXPECT_NEAR(beside(corner, up), 0, close);
+        EXPECT_GT(std::abs(beside(corner, edge.cross(up))), 100 * close)
+            << "the axes turn: not held, this shows nothing";
+    }
+    for (const int end : { 0, 1 })
+        EXPECT_NEAR(beside(end, edge), 0, close);
+}
+
 TEST(ClothEnergy, StiffensWhereAnEdgeIsOverstretched)
 {
     constexpr double k_edge = 0.02, k_time_step = 0.02;
