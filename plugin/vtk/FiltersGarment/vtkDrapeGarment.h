@@ -21,7 +21,7 @@ public:
     /// Parameters of the cloth and of draping.
     vtkFitDrapeParametersMacro();
 
-    /// How garments already worn move on to the pose of the next one.
+    /// How garments already worn move on to the pose of the next one; of that way no frames are handed out.
     vtkFitRecoveryParametersMacro();
 
 protected:
