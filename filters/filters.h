@@ -33,7 +33,7 @@ struct Parameters {
 struct GarmentInput {
     GarmentMesh mesh;
     GarmentType type = GarmentType::automatic;
-    std::string name;  ///< to tell it from others in messages, or empty
+    std::string name = {};  ///< to tell it from others in messages, or empty
 };
 
 /// Garments on the body, in one pose.
