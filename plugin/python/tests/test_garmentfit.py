@@ -24,6 +24,8 @@ def test_dressing_is_certified_and_leaves_the_body_where_it_was(dressed, body, s
     assert np.array_equal(garment.triangles, skirt.triangles)
     assert garment.positions.shape == skirt.positions.shape
     assert garment.certificate.clean and garment.certificate.smallest_gap > 0
+    assert garment.certificate.kept_self_crossings == 0 and garment.overstretched.edges == 0
+    assert dressed.speed >= 0 and not [warning for warning in dressed.warnings if "rest" not in warning]
     assert garment.ease.shape == garment.strain.shape == garment.pressure.shape == (len(skirt.positions),)
     assert all(girth.ease > 0 for girth in garment.girths)
     assert dressed.fits[0].type == "skirt"

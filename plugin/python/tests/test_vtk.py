@@ -367,7 +367,9 @@ def test_a_garment_that_is_too_small_is_a_warning(sources):
     dress.SetInputConnection(1, sources[1].GetOutputPort())
     dress.Update()
     assert warned and not heard and dress.error is None
-    assert "too small" in dress.GetOutput(0).GetFieldData().GetAbstractArray("Note").GetValue(0)
+    of_body = dress.GetOutput(0).GetFieldData()
+    assert "too small" in of_body.GetAbstractArray("Note").GetValue(0)
+    assert np.isnan(of_body.GetArray("Speed").GetValue(0)) and of_body.GetAbstractArray("Warnings")
 
 
 def test_a_filter_that_nobody_holds_is_freed(sources):

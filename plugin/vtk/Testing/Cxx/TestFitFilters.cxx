@@ -441,6 +441,7 @@ TEST(DressBody, SaysThatAGarmentIsTooSmallAndGoesOn)
     ASSERT_TRUE(errors.heard->GetWarning());
     EXPECT_NE(errors.heard->GetWarningMessage().find("too small"), std::string::npos);
     EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 0);
+    EXPECT_TRUE(std::isnan(number(polydata(*dress, 0), "Speed")));
     EXPECT_GT(number(polydata(*dress, 1), "MissingGirth"), 0);
 }
 
