@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "body_parts.h"
@@ -12,6 +13,7 @@
 #include "fit/error.h"
 #include "fit/fit_skeleton.h"
 #include "layers.h"
+#include "pushed_up.h"
 #include "straight_hands.h"
 #include "tightness.h"
 
@@ -31,12 +33,20 @@ struct Inflatable {
     Positions withdrawn;  // full, with what is in creases drawn back from them
     Positions core;
     Skeleton bones;  // that the core lies on
+    std::vector<double> grown;  // of each vertex, the least size that it ever has
 
-    Positions at(double size) const { return core + size * (bridged - core); }
+    Positions at(double size) const
+    {
+        Positions result = core;
+        for (Eigen::Index v = 0; v < core.rows(); ++v)
+            result.row(v) += std::max(size, grown[v]) * (bridged.row(v) - core.row(v));
+        return result;
+    }
 };
 
+/// @param pushed  hands and feet that it frees are of full size from the start; none: all of the body is thin
 Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
-                      const std::vector<WornGarment>& worn, const Positions& left)
+                      const std::vector<WornGarment>& worn, const Positions& left, const PushedUp* pushed)
 {
     Inflatable result;
     const Eigen::Index body_vertices = body.surface.positions.rows();
@@ -49,9 +59,12 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
         append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(body_vertices), rig.weights));
         append(result.full, { under.positions, under.rest.triangles });
     }
+    const Skeleton joints = posed(hands.skeleton(stretch), pose);
     // a hand or foot that would still poke through the cloth grows out of its wrist or ankle instead
-    result.bones = with_clear_tips(posed(hands.skeleton(stretch), pose), garment);
+    result.bones = with_clear_tips(joints, garment);
     result.core = collapse(result.full.positions, weights, result.bones);
+    result.grown = pushed ? pushed->freed(result.full.positions, weights, joints)
+                          : std::vector<double>(result.core.rows(), 0);
     const Positions skinned = result.full.positions.topRows(body_vertices);
     TriangleMesh cloth { garment.positions, garment.triangles };
     for (const WornGarment& under : worn)
@@ -123,22 +136,43 @@ void tuck_corners(Inflatable& inside, const TriangleMesh& cloth)
     }
 }
 
-/// The largest of the sizes to start with that is free of the garment.
-double first_size(Inflatable& inside, const GarmentMesh& garment, const SkinWeights& weights)
+/// The largest of the sizes to start with that is free of the garment, if any is.
+std::optional<double> first_size(Inflatable& inside, const GarmentMesh& garment)
 {
     const TriangleMesh cloth { garment.positions, garment.triangles };
-    const auto largest_free = [&] {
-        return std::find_if(k_first_sizes.begin(), k_first_sizes.end(),
-                            [&](double size) { return crossings_at(size, inside, cloth).none(); });
+    const auto largest_free = [&]() -> std::optional<double> {
+        for (const double size : k_first_sizes)
+            if (crossings_at(size, inside, cloth).none())
+                return size;
+        return {};
     };
-    auto size = largest_free();
-    if (size == k_first_sizes.end()) {
-        tuck_corners(inside, cloth);
-        size = largest_free();
+    if (const auto size = largest_free())
+        return size;
+    tuck_corners(inside, cloth);
+    return largest_free();
+}
+
+/// How draping begins.
+struct Start {
+    Positions cloth;
+    Inflatable inside;
+    double size;  ///< of what is inside
+};
+
+/// With sleeves and legs pushed up, where that leaves the body free of the cloth.
+Start start(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
+            const std::vector<WornGarment>& worn, const Positions& left)
+{
+    if (const PushedUp pushed(posed(rig.skeleton, pose), garment); pushed.any()) {
+        const GarmentMesh up { pushed.positions(), garment.triangles };
+        Inflatable inside = inflatable(rig, body, pose, up, worn, left, &pushed);
+        if (const auto size = first_size(inside, up))
+            return { up.positions, std::move(inside), *size };
     }
-    if (size == k_first_sizes.end())
-        refuse(crossings_at(k_first_sizes.back(), inside, cloth), inside, weights);
-    return *size;
+    Inflatable inside = inflatable(rig, body, pose, garment, worn, left, nullptr);
+    if (const auto size = first_size(inside, garment))
+        return { garment.positions, std::move(inside), *size };
+    refuse(crossings_at(k_first_sizes.back(), inside, { garment.positions, garment.triangles }), inside, rig.weights);
 }
 
 /// A garment that may be made larger while the body grows in it, all of it alike.
@@ -223,14 +257,13 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
                           const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn,
                           const Positions& left)
 {
-    Inflatable inside = inflatable(rig, body, pose, garment, worn, left);
-    const double first = first_size(inside, garment, rig.weights);
+    const auto [cloth, inside, first] = start(rig, body, pose, garment, worn, left);
 
     const Eigen::Index body_vertices = body.surface.positions.rows();
     const SkinWeights follows
         = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
     Grading grading(garment, follows, posed(rig.skeleton, pose), int(worn.size()), options.cloth);
-    ClothMotion motion(garment, garment.positions, { inside.at(first), inside.full.triangles }, options.cloth);
+    ClothMotion motion(garment, cloth, { inside.at(first), inside.full.triangles }, options.cloth);
 
     DrapeResult result;
     result.size_reached = inflate(motion, inside, first, grading, options, progress.part(0, 0.7));

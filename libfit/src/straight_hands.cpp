@@ -12,42 +12,21 @@ namespace {
 constexpr std::array<Extremity, 2> k_tips { lhand_tip, rhand_tip };
 // Half stretched, a hand may be clear of a crumpled cuff, but grows into its folds.
 constexpr std::array<double, 2> k_stretches { 0, 1 };
-// Of the forearm: shorter than that is a stump; and so far about the wrist skin takes part in its bend.
-constexpr double k_least_hand = 0.15, k_blend = 0.12;
-
-double weight_of(const SkinWeights& weights, Eigen::Index v, int bone)
-{
-    double sum = 0;
-    for (int k = 0; k < 4; ++k)
-        if (weights.bones(v, k) == bone)
-            sum += weights.weights(v, k);
-    return sum;
-}
-
-double smooth_step(double x)
-{
-    const double t = std::clamp(x, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 }  // namespace
 
-StraightHands::StraightHands(const Rig& rig, const Positions& own) : rig_(rig), own_(own)
+StraightHands::StraightHands(const Rig& rig, const Positions& own) :
+    rig_(rig), own_(own), hands_ { Hand { { rig.skeleton, lhand_tip } }, Hand { { rig.skeleton, rhand_tip } } }
 {
     for (int side = 0; side < 2; ++side) {
         const int bone = bone_before(k_tips[side]);
-        Hand& hand = hands_[side];
-        hand.wrist = rig.skeleton.tail(bone);
-        const Vec3 fingers = rig.skeleton.tips[k_tips[side]] - hand.wrist, forearm = rig.skeleton.direction(bone);
-        if (fingers.norm() < k_least_hand * rig.skeleton.length(bone))
+        const ExtremityBend& bend = hands_[side].bend;
+        if (bend.is_stump)
             continue;
-        hand.across = (fingers.normalized() + forearm).normalized();
-        hand.turn = Eigen::Quaterniond::FromTwoVectors(fingers, forearm);
-        hand.blend = k_blend * rig.skeleton.length(bone);
+        hands_[side].turn = Eigen::Quaterniond::FromTwoVectors(bend.tip - bend.joint, rig.skeleton.direction(bone));
         for (Eigen::Index v = 0; v < own.rows(); ++v)
-            if (const double weight = weight_of(rig.weights, v, bone);
-                weight > 0 && (own.row(v).transpose() - hand.wrist).dot(hand.across) > -hand.blend)
-                hand.skin.emplace_back(int(v), weight);
+            if (const double share = weight_of(rig.weights, v, bone) * bend.share(own.row(v)); share > 0)
+                hands_[side].skin.emplace_back(int(v), share);
     }
 }
 
@@ -79,7 +58,7 @@ StraightHands::Stretch StraightHands::of(const Positions& left, const Pose& pose
         const Positions here = posed({ stretch, stretch }, pose);
         for (int side = 0; side < 2; ++side) {
             double off = 0;
-            for (const auto& [v, weight] : hands_[side].skin)
+            for (const auto& [v, share] : hands_[side].skin)
                 off += (here.row(v) - left.row(v)).squaredNorm();
             if (off < least[side]) {
                 least[side] = off;
@@ -97,12 +76,10 @@ Positions StraightHands::stretched(const Stretch& stretch) const
         const Hand& hand = hands_[side];
         if (stretch[side] == 0)
             continue;
-        for (const auto& [v, weight] : hand.skin) {
-            const Vec3 from_wrist = own_.row(v).transpose() - hand.wrist;
-            const double beyond = smooth_step(0.5 + 0.5 * from_wrist.dot(hand.across) / hand.blend);
-            const Eigen::Quaterniond none = Eigen::Quaterniond::Identity();
-            result.row(v) = hand.wrist + none.slerp(stretch[side] * weight * beyond, hand.turn) * from_wrist;
-        }
+        for (const auto& [v, share] : hand.skin)
+            result.row(v) = hand.bend.joint
+                + Eigen::Quaterniond::Identity().slerp(stretch[side] * share, hand.turn)
+                    * (own_.row(v).transpose() - hand.bend.joint);
     }
     return result;
 }
@@ -114,7 +91,7 @@ Skeleton StraightHands::skeleton(const Stretch& stretch) const
         if (stretch[side] > 0 && !hands_[side].skin.empty()) {
             const Hand& hand = hands_[side];
             Vec3& tip = result.tips[k_tips[side]];
-            tip = hand.wrist + Eigen::Quaterniond::Identity().slerp(stretch[side], hand.turn) * (tip - hand.wrist);
+            tip = hand.bend.joint + Eigen::Quaterniond::Identity().slerp(stretch[side], hand.turn) * (tip - hand.bend.joint);
         }
     return result;
 }

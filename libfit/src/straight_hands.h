@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "extremity_skin.h"
 #include "fit/mesh.h"
 #include "fit/skeleton.h"
 
@@ -32,10 +33,9 @@ public:
 
 private:
     struct Hand {
-        Vec3 wrist, across;  // across: the normal of the plane that halves the bend
+        ExtremityBend bend;  // in the own pose
         Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // from bent to straight
-        double blend = 0;  // m; so far about the wrist the skin turns by less
-        std::vector<std::pair<int, double>> skin;  // vertices, and their weights on the forearm
+        std::vector<std::pair<int, double>> skin {};  // vertices, and how far they belong to the hand
     };
     Positions posed(const Stretch& stretch, const Pose& pose) const;
 
