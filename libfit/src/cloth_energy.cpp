@@ -8,6 +8,7 @@
 
 #include "fit/error.h"
 #include "parallel.h"
+#include "surface_measures.h"
 
 namespace fit {
 namespace {
@@ -16,6 +17,10 @@ namespace {
 constexpr double k_largest_cotangent = 10;
 // Vertices without area get the mass of a square millimetre of cotton, so that the system stays definite.
 constexpr double k_least_mass = 2e-7;
+
+// Hinges smaller than this share of the mean one bend as it does. Their stiffness goes with 1 / area: on details of a millimetre, they would hold
+// their vertices in whatever place they had turned to, against the springs.
+constexpr double k_least_hinge = 0.5;
 
 // Threads lock: what an edge is stretched by more than this share pulls so many times as hard. Ten times holds fast what lies in a
 // trouser leg or a cuff.
@@ -128,6 +133,7 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
             const int i = rest.triangles(f, k), j = rest.triangles(f, (k + 1) % 3);
             corners_at[std::minmax(i, j)].emplace_back(rest.triangles(f, (k + 2) % 3), i);
         }
+    const double mean_areas = 2 * area({ rest.positions, rest.triangles }) / double(std::max<Eigen::Index>(1, rest.triangles.rows()));  // of a hinge
     for (const auto& [edge, corners] : corners_at) {
         if (corners.size() != 2 || corners[0].first == corners[1].first)
             continue;
@@ -140,7 +146,7 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
         const double areas = 0.5 * ((x(1) - x(0)).cross(x(2) - x(0)).norm() + (x(1) - x(0)).cross(x(3) - x(0)).norm());
         if (!(areas > 0))
             continue;
-        h.stiffness = bend_stiffness * 3 / areas;
+        h.stiffness = bend_stiffness * 3 / std::max(areas, k_least_hinge * mean_areas);
         h.curvature = hinge_frame(rest.positions, h.v).transpose() * weighted_sum(rest.positions, h.v, h.coefficients);
         hinges_.push_back(h);
     }

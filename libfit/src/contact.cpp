@@ -74,8 +74,8 @@ void lower(std::atomic<double>& value, double to)
     while (to < now && !value.compare_exchange_weak(now, to, std::memory_order_relaxed)) { }
 }
 
-/// The mean of the values of each set, at all of its vertices.
-Positions means(JoinedVertices& sets, const Positions& values)
+/// The mean of the values of each set, at all of its vertices; 0 where one of them, from `standing` on, stands still.
+Positions means(JoinedVertices& sets, const Positions& values, int standing)
 {
     Positions sum = Positions::Zero(values.rows(), 3);
     std::vector<int> size(values.rows(), 0);
@@ -83,6 +83,8 @@ Positions means(JoinedVertices& sets, const Positions& values)
         sum.row(sets.root(v)) += values.row(v);
         ++size[sets.root(v)];
     }
+    for (int v = standing; v < int(values.rows()); ++v)
+        sum.row(sets.root(v)).setZero();
     Positions result(values.rows(), 3);
     for (int v = 0; v < int(values.rows()); ++v)
         result.row(v) = sum.row(sets.root(v)) / size[sets.root(v)];
@@ -262,6 +264,8 @@ Positions Contact::joined(const Positions& x, const Positions& displacements, do
 {
     constexpr double k_nearly_all = 0.9;
     JoinedVertices zones(int(x.rows()));
+    const int standing
+        = displacements.bottomRows(x.rows() - cloth_vertices_).isZero(0) ? int(cloth_vertices_) : int(x.rows());
     Positions common = displacements;
     std::vector<char> locked(pairs_.size());
     for (bool grown = true; grown;) {
@@ -275,7 +279,7 @@ Positions Contact::joined(const Positions& x, const Positions& displacements, do
             if (locked[p])
                 for (int k = 1; k < 4; ++k)
                     grown |= zones.join(pairs_[p].vertices[0], pairs_[p].vertices[k]);
-        common = means(zones, displacements);
+        common = means(zones, displacements, standing);
     }
     return common;
 }

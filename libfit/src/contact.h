@@ -52,7 +52,7 @@ public:
     std::vector<double> free_shares(const Positions& x, const Positions& displacements, double gap) const;
 
     /// Displacements in which vertices of pairs that cannot go their ways apart from each other go together, with their mean.
-    /// Same bits for any number of threads.
+    /// An obstacle of which no vertex is to move stays where it is, and what is locked to it stays, too. Same bits for any number of threads.
     Positions joined(const Positions& x, const Positions& displacements, double gap) const;
 
 private:
