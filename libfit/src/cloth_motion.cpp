@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fit/stopwatch.h"
+#include "loose_parts.h"
 #include "untangle.h"
 
 namespace fit {
@@ -107,6 +108,8 @@ ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const 
     const Untangled cloth = parted({ weld_.gathered(start), rest_.triangles }, obstacle);
     x_ << cloth.positions, obstacle.positions;
     ties_ = ties_across(cloth.left, rest_.triangles);
+    const auto parts = ties_of_loose_parts(rest_);
+    ties_.insert(ties_.end(), parts.begin(), parts.end());
     energy_.emplace(rest_, ties_, options_);
 }
 

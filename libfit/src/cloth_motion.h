@@ -80,7 +80,7 @@ private:
     double off_itself_;  // m; the contact distance of cloth and cloth
     Contact contact_;
     Positions x_;  // cloth, then obstacle
-    std::vector<std::pair<int, int>> ties_;  // across what crosses at the start
+    std::vector<std::pair<int, int>> ties_;  // across what crosses at the start, and of loose parts
     std::optional<ClothEnergy> energy_;  // made when the ties are known
     Positions velocity_;  // of the cloth, m/s
     ClothSeconds seconds_;

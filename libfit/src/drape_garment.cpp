@@ -267,11 +267,15 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
 
     DrapeResult result;
     result.size_reached = inflate(motion, inside, first, grading, options, progress.part(0, 0.7));
-    if (result.size_reached < 1)
-        result.too_tight = grading.tightness().too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch,
-                                                         result.size_reached);
-    else
+    if (result.size_reached < 1) {
+        const PerPart growth
+            = growth_left(motion.cloth(), motion.obstacle().topRows(body_vertices),
+                          inside.full.positions.topRows(body_vertices), rig.weights, posed(rig.skeleton, pose));
+        result.too_tight
+            = grading.tightness().too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch, growth);
+    } else {
         result.speed = settle(motion, inside.full.positions, options.settling_steps, 0, progress.part(0.7, 1)).speed;
+    }
 
     result.seconds = motion.seconds();
     const Positions reached = motion.obstacle();
@@ -285,6 +289,11 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     if (result.size_reached == 1)
         result.held_back = held_back(result.body, inside.full.positions.topRows(body_vertices), rig.weights);
     result.certified = clean && reached == inside.full.positions;
+    if (!clean && result.size_reached < 1 && !worn.empty()) {
+        // while all of it grows, body and inner garments need not keep clear of each other: they are handed out as they were
+        result.garments = worn;
+        result.body = left.rows() > 0 ? left : Positions(inside.full.positions.topRows(body_vertices));
+    }
     return result;
 }
 

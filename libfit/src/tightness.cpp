@@ -81,48 +81,66 @@ double Tightness::largest_stretch(const Positions& positions) const
     return largest;
 }
 
-TooTight Tightness::missing(const Round& round, double stretch, double size) const
+TooTight Tightness::missing(const Round& round, double stretch, double growth) const
 {
-    const double needed = round.girth / size, unstretched = round.girth / (1 + stretch);
+    const double needed = round.girth * (1 + growth), unstretched = round.girth / (1 + stretch);
     return { index_, part_name(round.part), needed - unstretched, needed / unstretched - 1 };
 }
 
-std::vector<TooTight> Tightness::too_tight(const Positions& positions, double allowed, double size) const
+std::vector<TooTight> Tightness::too_tight(const Positions& positions, double allowed, const PerPart& growth) const
 {
     std::vector<TooTight> result;
     for (const Round& round : rounds(positions))
         if (round.stretch > allowed)
-            result.push_back(missing(round, round.stretch, size));
+            result.push_back(missing(round, round.stretch, growth[round.part]));
     return worst_first(result);
 }
 
 std::vector<TooTight> Tightness::too_tight_at_rest(const Positions& positions, double allowed) const
 {
     if (quantile(stretches(garment_, positions), k_most) < allowed)
-        return too_tight(positions, allowed, 1);
+        return too_tight(positions, allowed, {});
     std::vector<TooTight> result;
     for (const Round& round : rounds(positions))
         if (round.tightest > allowed)
-            result.push_back(missing(round, round.tightest, 1));
+            result.push_back(missing(round, round.tightest, 0));
     return worst_first(result);
 }
 
-std::array<double, k_body_parts> slack(const Positions& cloth, const Positions& body, const SkinWeights& weights,
-                                       const Skeleton& skeleton)
+namespace {
+
+/// How much wider than the skin under each vertex of cloth something is, on the mean round each part.
+/// @param outer  (vertex of the cloth, of the skin under it) -> the place to compare
+template <class Outer>
+PerPart wider_than(const Positions& skin, const Positions& cloth, const SkinWeights& weights, const Skeleton& skeleton,
+                   const Outer& outer)
 {
     const std::vector<int> bones = strongest_bones(weights);
-    const NearestPoint skin(body);
-    std::array<double, k_body_parts> wide {}, needed {}, result {};
-    for (Eigen::Index v = 0; v < cloth.rows(); ++v) {
-        const int under = skin.index(cloth.row(v)), part = part_of(bones[under]), bone = bone_inside(bones[under]);
+    const NearestPoint nearest(skin);
+    PerPart wide {}, needed {}, result {};
+    for (int v = 0; v < int(cloth.rows()); ++v) {
+        const int under = nearest.index(cloth.row(v)), part = part_of(bones[under]), bone = bone_inside(bones[under]);
         if (part < 0)
             continue;
-        wide[part] += radius(cloth.row(v), skeleton, bone);
-        needed[part] += radius(body.row(under), skeleton, bone);
+        wide[part] += radius(outer(v, under), skeleton, bone);
+        needed[part] += radius(skin.row(under), skeleton, bone);
     }
     for (std::size_t p = 0; p < result.size(); ++p)
         result[p] = needed[p] > 0 ? wide[p] / needed[p] - 1 : 0;
     return result;
+}
+
+}  // namespace
+
+PerPart slack(const Positions& cloth, const Positions& body, const SkinWeights& weights, const Skeleton& skeleton)
+{
+    return wider_than(body, cloth, weights, skeleton, [&](int v, int) { return Vec3(cloth.row(v)); });
+}
+
+PerPart growth_left(const Positions& cloth, const Positions& body, const Positions& full, const SkinWeights& weights,
+                    const Skeleton& skeleton)
+{
+    return wider_than(body, cloth, weights, skeleton, [&](int, int under) { return Vec3(full.row(under)); });
 }
 
 }  // namespace fit
