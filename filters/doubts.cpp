@@ -62,11 +62,17 @@ std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::v
     if (end.speed && *end.speed >= k_at_rest)
         doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
                          + " mm/s); give more settling steps");
+    const auto is_too_small = [&](std::size_t i) {
+        return std::any_of(end.too_tight.begin(), end.too_tight.end(),
+                           [&](const TooTight& part) { return part.garment == int(i); });
+    };
     for (std::size_t i = 0; i < names.size(); ++i)
-        if (i >= end.garments.size())
-            doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
-        else
+        if (i < end.garments.size())
             doubt_garment(doubts, names[i], end.garments[i]);
+        else if (is_too_small(i))
+            doubts.push_back(names[i] + " is left out of the result: it does not go over what is under it");
+        else
+            doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
     for (std::size_t i = 0; i < end.overstretches.size(); ++i)
         if (end.overstretches[i].edges > 0)
             doubts.push_back(overstretched_edges(names[i], end.overstretches[i]));

@@ -178,6 +178,22 @@ TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
     EXPECT_EQ(contact.free_shares(x, together, 1e-4), std::vector<double>(9, 1.0));
 }
 
+TEST(Contact, WhatLocksToAnObstacleThatStandsStillStandsStill)
+{
+    Positions x(6, 3), push = Positions::Zero(6, 3);
+    x << 0, 1e-5, 0, 1, 1e-5, 0, 0, 1e-5, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+    push.topRows(3).col(1).setConstant(-0.02);
+    push.topRows(3).col(2).setConstant(0.1);
+    Triangles triangle(1, 3);
+    triangle << 0, 1, 2;
+    Contact contact(triangle, 3, triangle);
+    contact.detect(x, push, { 1e-4, 1e-4 });
+    EXPECT_TRUE(contact.joined(x, push, 1e-4).isZero(0));
+    push.row(5) << 0, 0, 0.01;  // an obstacle on its way is taken along
+    contact.detect(x, push, { 1e-4, 1e-4 });
+    EXPECT_FALSE(contact.joined(x, push, 1e-4).isZero(0));
+}
+
 TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
 {
     std::srand(5);

@@ -57,6 +57,14 @@ TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
                        "coat was not put on, for what is under it was not certified" }));
 }
 
+TEST(Doubts, SayThatAGarmentTooSmallIsLeftOut)
+{
+    Scene scene = worn_scene();
+    scene.draped->garments.pop_back();
+    scene.draped->too_tight = { { 1, "hips", 0.1, 0.2 } };
+    EXPECT_EQ(doubts_about(scene), (Lines { "coat is left out of the result: it does not go over what is under it" }));
+}
+
 TEST(Doubts, SayWhereClothIsOverstretched)
 {
     Scene scene = worn_scene();

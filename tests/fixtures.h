@@ -304,6 +304,26 @@ inline Rig simple_rig(const Person& person)
     return rig;
 }
 
+/// An open tube about a bone's line, between two distances (metres) from the bone's head.
+inline GarmentMesh sleeve_round(const Skeleton& skeleton, Bone bone, double radius, double from, double to)
+{
+    constexpr int around = 24, along = 12;
+    const Vec3 axis = skeleton.direction(bone), side = axis.unitOrthogonal(), other = axis.cross(side);
+    GarmentMesh result { Positions(around * along, 3), Triangles(2 * around * (along - 1), 3) };
+    for (int i = 0; i < along; ++i)
+        for (int k = 0; k < around; ++k) {
+            const double angle = 2 * M_PI * k / around, distance = from + (to - from) * i / (along - 1);
+            result.positions.row(i * around + k)
+                = skeleton.head(bone) + distance * axis + radius * (std::cos(angle) * side + std::sin(angle) * other);
+            if (i + 1 < along) {
+                const int next = i * around + (k + 1) % around, here = i * around + k;
+                result.triangles.row(2 * here) << here, next, here + around;
+                result.triangles.row(2 * here + 1) << next, next + around, here + around;
+            }
+        }
+    return result;
+}
+
 /// A garment round a skeleton's capsules, `ease` metres off the skin: the surface where `keep` says so, holes where not.
 inline TriangleMesh garment_round(const Skeleton& skeleton, double ease, const std::function<bool(const Vec3&)>& keep,
                                   double spacing = 0.03)

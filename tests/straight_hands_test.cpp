@@ -36,22 +36,7 @@ struct HangingHands : testing::Test {
     /// A sleeve round the left forearm, longer than the hand, in the turned pose.
     GarmentMesh sleeve(double radius) const
     {
-        constexpr int around = 24, along = 12;
-        const Skeleton posed = fit::posed(rig.skeleton, turned);
-        const Vec3 axis = posed.direction(lradius), side = axis.unitOrthogonal(), other = axis.cross(side);
-        GarmentMesh result { Positions(around * along, 3), Triangles(2 * around * (along - 1), 3) };
-        for (int i = 0; i < along; ++i)
-            for (int k = 0; k < around; ++k) {
-                const double angle = 2 * M_PI * k / around, distance = 0.05 + 0.45 * i / (along - 1);
-                result.positions.row(i * around + k) = posed.head(lradius) + distance * axis
-                    + radius * (std::cos(angle) * side + std::sin(angle) * other);
-                if (i + 1 < along) {
-                    const int next = i * around + (k + 1) % around, here = i * around + k;
-                    result.triangles.row(2 * here) << here, next, here + around;
-                    result.triangles.row(2 * here + 1) << next, next + around, here + around;
-                }
-            }
-        return result;
+        return sleeve_round(fit::posed(rig.skeleton, turned), lradius, radius, 0.05, 0.5);
     }
 
     Positions own;

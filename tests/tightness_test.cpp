@@ -33,5 +33,15 @@ TEST(Slack, IsHowMuchWiderAGarmentIsThanWhatItGoesRound)
         EXPECT_NEAR(wider[p], p == part_of(lfemur) ? 0.25 : 0, 1e-9) << part_name(p);
 }
 
+TEST(GrowthLeft, IsWhatTheSkinUnderAGarmentStillLacks)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const Positions thin = tube(skeleton, lfemur, 0.05), full = tube(skeleton, lfemur, 0.08);
+    const auto growth
+        = growth_left(tube(skeleton, lfemur, 0.055), thin, full, fixtures::on_bone(lfemur, thin.rows()), skeleton);
+    for (int p = 0; p < k_body_parts; ++p)
+        EXPECT_NEAR(growth[p], p == part_of(lfemur) ? 0.6 : 0, 1e-9) << part_name(p);
+}
+
 }  // namespace
 }  // namespace fit

@@ -26,8 +26,7 @@ struct ExtremityBend {
     bool is_stump;  ///< too short for a hand or foot
     double blend;  ///< m; so far about the joint, skin belongs partly to it
 
-    ExtremityBend(const Skeleton& joints, Extremity end) :
-        joint(joints.tail(bone_before(end))), tip(joints.tips[end])
+    ExtremityBend(const Skeleton& joints, Extremity end) : joint(joints.tail(bone_before(end))), tip(joints.tips[end])
     {
         constexpr double k_least = 0.15, k_blend = 0.12;  // of the bone before
         const double length = joints.length(bone_before(end));

@@ -34,7 +34,8 @@ int limb_of(const Vec3& p, const Skeleton& joints)
         }
     };
     for (int bone = 0; bone < bone_count; ++bone) {
-        const auto end = std::find_if(k_ends.begin(), k_ends.end(), [&](Extremity e) { return bone_before(e) == bone; });
+        const auto end
+            = std::find_if(k_ends.begin(), k_ends.end(), [&](Extremity e) { return bone_before(e) == bone; });
         const Vec3& joint = joints.tail(bone);
         if (end == k_ends.end())
             look(-1, joints.head(bone), joint);
