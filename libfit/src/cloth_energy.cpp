@@ -133,7 +133,8 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
             const int i = rest.triangles(f, k), j = rest.triangles(f, (k + 1) % 3);
             corners_at[std::minmax(i, j)].emplace_back(rest.triangles(f, (k + 2) % 3), i);
         }
-    const double mean_areas = 2 * area({ rest.positions, rest.triangles }) / double(std::max<Eigen::Index>(1, rest.triangles.rows()));  // of a hinge
+    const double mean_areas = 2 * area({ rest.positions, rest.triangles })
+        / double(std::max<Eigen::Index>(1, rest.triangles.rows()));  // of a hinge
     for (const auto& [edge, corners] : corners_at) {
         if (corners.size() != 2 || corners[0].first == corners[1].first)
             continue;

@@ -63,8 +63,8 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
     // a hand or foot that would still poke through the cloth grows out of its wrist or ankle instead
     result.bones = with_clear_tips(joints, garment);
     result.core = collapse(result.full.positions, weights, result.bones);
-    result.grown = pushed ? pushed->freed(result.full.positions, weights, joints)
-                          : std::vector<double>(result.core.rows(), 0);
+    result.grown
+        = pushed ? pushed->freed(result.full.positions, weights, joints) : std::vector<double>(result.core.rows(), 0);
     const Positions skinned = result.full.positions.topRows(body_vertices);
     TriangleMesh cloth { garment.positions, garment.triangles };
     for (const WornGarment& under : worn)

@@ -91,7 +91,8 @@ Skeleton StraightHands::skeleton(const Stretch& stretch) const
         if (stretch[side] > 0 && !hands_[side].skin.empty()) {
             const Hand& hand = hands_[side];
             Vec3& tip = result.tips[k_tips[side]];
-            tip = hand.bend.joint + Eigen::Quaterniond::Identity().slerp(stretch[side], hand.turn) * (tip - hand.bend.joint);
+            tip = hand.bend.joint
+                + Eigen::Quaterniond::Identity().slerp(stretch[side], hand.turn) * (tip - hand.bend.joint);
         }
     return result;
 }

@@ -60,8 +60,9 @@ struct WornGarment {
 FIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
 
 struct DrapeResult {
-    std::vector<WornGarment> garments;  ///< from the inside out; the last one is new, and left out where it is too small to
-                                        ///< be put on over the others
+    std::vector<WornGarment>
+        garments;  ///< from the inside out; the last one is new, and left out where it is too small to
+        ///< be put on over the others
     Positions
         body;  ///< the user's vertices in the fitted pose, at the size reached; hands that would stand across a sleeve are
     ///< stretched out
