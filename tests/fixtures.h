@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "fit/error.h"
+#include "fit/mesh.h"
 #include "fit/skeleton.h"
 #include "fit/types.h"
 

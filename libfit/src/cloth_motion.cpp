@@ -99,7 +99,7 @@ struct ClothMotion::Touch {
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options) :
     options_(made_of_fabric(options)),
-    weld_(rest.positions), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
+    weld_(rest), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
     off_itself_(std::min(options_.contact_distance, k_off_itself * mean_edge(rest_))),
     contact_(rest_.triangles, cloth_vertices_, obstacle.triangles,
              { k_spare * touching().cloth, k_spare * touching().obstacle }),
@@ -132,7 +132,7 @@ void ClothMotion::put_back(const Positions& state)
     velocity_.setZero();
 }
 
-Positions ClothMotion::cloth() const { return weld_.spread(x_.topRows(cloth_vertices_)); }
+Positions ClothMotion::cloth() const { return weld_.placed(x_.topRows(cloth_vertices_)); }
 
 double ClothMotion::speed() const { return velocity_.rowwise().norm().maxCoeff(); }
 

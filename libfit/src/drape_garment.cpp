@@ -257,6 +257,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
                           const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn,
                           const Positions& left)
 {
+    require_wearable_size(rig, garment);
     const auto [cloth, inside, first] = start(rig, body, pose, garment, worn, left);
 
     const Eigen::Index body_vertices = body.surface.positions.rows();

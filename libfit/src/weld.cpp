@@ -10,19 +10,12 @@
 
 namespace fit {
 
-Weld::Weld(const Positions& rest) { number(rest, std::vector<char>(rest.rows(), 1)); }
-
-Weld::Weld(const GarmentMesh& rest)
+Weld::Weld(const GarmentMesh& garment) : cloth_vertex_(garment.positions.rows())
 {
-    std::vector<char> is_cloth(rest.positions.rows(), 0);
-    for (const int v : rest.triangles.reshaped())
+    const Positions& rest = garment.positions;
+    std::vector<char> is_cloth(rest.rows(), 0);
+    for (const int v : garment.triangles.reshaped())
         is_cloth[v] = 1;
-    number(rest.positions, is_cloth);
-}
-
-void Weld::number(const Positions& rest, const std::vector<char>& is_cloth)
-{
-    cloth_vertex_.resize(rest.rows());
     std::map<std::array<double, 3>, int> places;
     for (int v = 0; v < given(); ++v) {
         if (!is_cloth[v])

@@ -11,8 +11,7 @@ namespace fit {
 /// no cloth; they go with the nearest vertex that is.
 class Weld {
 public:
-    explicit Weld(const Positions& rest);  ///< as if all were of some face; O(n log n)
-    explicit Weld(const GarmentMesh& rest);  ///< O(n log n)
+    explicit Weld(const GarmentMesh& garment);  ///< O(n log n)
 
     Positions gathered(const Positions& garment) const;  ///< of the cloth, from those of the garment
     GarmentMesh gathered(const GarmentMesh& garment) const;  ///< without faces that the weld leaves no area
@@ -25,8 +24,6 @@ private:
         int vertex;
         Eigen::RowVector3d offset;  // from its nearest vertex of the cloth
     };
-
-    void number(const Positions& rest, const std::vector<char>& is_cloth);
 
     std::vector<int> cloth_vertex_;  // of each vertex of the garment
     std::vector<int> last_;  // of the vertices of the garment that are a vertex of the cloth

@@ -79,7 +79,7 @@ struct DrapeResult {
 /// @param pose    takes the body from its own pose into the garment (from fit_skeleton)
 /// @param worn    garments that the body wears already, in that pose, from the inside out; they move with the body
 /// @param left    the body's vertices as it wears those garments: what draping them gave
-/// @throws InvalidInput when bones and garment cross, naming bone and place. Cancelled.
+/// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does. Cancelled.
 FIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                                   const DrapeOptions& options = {}, const Progress& progress = {},
                                   const std::vector<WornGarment>& worn = {}, const Positions& left = Positions(0, 3));
