@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../libfit/src/nearest.h"
 #include "fixtures.h"
 
 namespace fit {
@@ -56,6 +57,19 @@ TEST_F(Sleeve, ThatReachesBeyondTheWristIsPushedUpBehindIt)
         EXPECT_LT(moved.cross(joints.direction(lradius)).norm(), 1e-12) << "it goes along the bone";
         EXPECT_GT(along(pushed.positions(), v), 0) << "it does not pass the elbow";
     }
+}
+
+TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
+{
+    GarmentMesh given = sleeve(wrist + 0.15);
+    const Vec3 side = joints.direction(lradius).unitOrthogonal();
+    for (Eigen::Index v = 0; v < given.positions.rows(); ++v)
+        if (const double beyond = along(given.positions, v) - wrist; beyond > 0)
+            given.positions.row(v) += beyond * side;
+    const PushedUp pushed(joints, given);
+    ASSERT_TRUE(pushed.any());
+    const TriangleTree cloth({ pushed.positions(), given.triangles });
+    EXPECT_FALSE(cloth.is_met(joints.head(lradius), joints.tail(lradius)));
 }
 
 TEST_F(Sleeve, ThatEndsBeforeTheWristStays)

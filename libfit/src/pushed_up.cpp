@@ -17,6 +17,8 @@ namespace {
 constexpr std::array<Extremity, 4> k_ends { lhand_tip, rhand_tip, lfoot_tip, rfoot_tip };
 // How far along the bone sleeves are pushed up: clear of the skin that grows with a hand.
 constexpr double k_pushed_to = 0.76;
+// What hangs together with other cloth further along than this is no sleeve of this limb.
+constexpr double k_latest_begin = 0.5;
 // Cloth that goes round a limb leaves no wider angle about it open.
 constexpr double k_widest_gap = std::numbers::pi / 2;
 // Buttons and the like lie no further from the cloth that they belong to, m.
@@ -67,8 +69,19 @@ public:
 
     double length() const { return length_; }
     double at(const Vec3& p) const { return (p - head_).dot(along_); }
-    /// The point with this share of its way along the bone.
-    Vec3 shortened(const Vec3& p, double share) const { return p - std::max(0.0, at(p)) * (1 - share) * along_; }
+    /// The mean of the points about the bone's line straight on, beyond a place on it; across the line.
+    Vec3 middle_beyond(double place, const Positions& points, const std::vector<int>& which) const
+    {
+        Vec3 sum = Vec3::Zero();
+        int count = 0;
+        for (const int v : which)
+            if (const Vec3 p = points.row(v).transpose(); at(p) > place) {
+                sum += p - head_ - at(p) * along_;
+                ++count;
+            }
+        return sum / std::max(1, count);
+    }
+    const Vec3& along() const { return along_; }
 
     /// Whether these points go all round the bone's outer half.
     bool is_enclosed(const Positions& points, const std::vector<int>& which) const
@@ -107,9 +120,13 @@ PushedUp::PushedUp(const Skeleton& joints, const GarmentMesh& garment) : positio
     std::vector<int> limbs(garment.positions.rows());
     for (std::size_t v = 0; v < limbs.size(); ++v)
         limbs[v] = limb_of(garment.positions.row(Eigen::Index(v)), joints);
+    std::vector<char> goes_over(limbs.size(), 0);  // to a vertex of another limb
+    for (const auto& corners : garment.triangles.rowwise())
+        for (int k = 0; k < 3; ++k)
+            if (limbs[corners[k]] != limbs[corners[(k + 1) % 3]])
+                goes_over[corners[k]] = goes_over[corners[(k + 1) % 3]] = 1;
     for (const Extremity end : k_ends) {
-        const int bone = bone_before(end);
-        const Limb limb(joints, bone);
+        const Limb limb(joints, bone_before(end));
         if (ExtremityBend(joints, end).is_stump)
             continue;
         std::vector<int> tube;
@@ -119,19 +136,28 @@ PushedUp::PushedUp(const Skeleton& joints, const GarmentMesh& garment) : positio
                 tube.insert(tube.end(), piece.begin(), piece.end());
             else
                 others.push_back(piece);
-        double reach = 0;
-        for (const int v : tube)
-            reach = std::max(reach, limb.at(garment.positions.row(v)));
-        pushed_[end] = reach > limb.length();
+        double begin = 0, reach = 0;  // no vertex jumps where the tube goes over into other cloth
+        for (const int v : tube) {
+            const double at = limb.at(garment.positions.row(v));
+            reach = std::max(reach, at);
+            if (goes_over[v])
+                begin = std::max(begin, at);
+        }
+        pushed_[end] = reach > limb.length() && begin < k_latest_begin * limb.length();
         if (!pushed_[end])
             continue;
+        const double share = (k_pushed_to * limb.length() - begin) / (reach - begin), beyond = reach - limb.length();
+        // a sleeve may lead off the bone's line where the hand is bent: its end comes back to it
+        const Vec3 off = limb.middle_beyond(reach - 0.3 * beyond, garment.positions, tube);
         const NearestPoint sleeve(garment.positions(tube, Eigen::all));
         for (const auto& piece : others)
             if (std::all_of(piece.begin(), piece.end(),
                             [&](int v) { return sleeve.distance(garment.positions.row(v)) < k_attached; }))
                 tube.insert(tube.end(), piece.begin(), piece.end());
         for (const int v : tube)
-            positions_.row(v) = limb.shortened(garment.positions.row(v), k_pushed_to * limb.length() / reach);
+            if (const double at = limb.at(garment.positions.row(v)); at > begin)
+                positions_.row(v)
+                    -= (1 - share) * (at - begin) * limb.along() + std::max(0.0, (at - limb.length()) / beyond) * off;
     }
 }
 
