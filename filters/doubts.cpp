@@ -34,6 +34,25 @@ void doubt_garment(std::vector<std::string>& doubts, const std::string& name, co
                          + " cm down: it is too wide for this body to stay where it is worn");
 }
 
+/// Where types and widths of garments say another order than they are worn in.
+void doubt_layers(std::vector<std::string>& doubts, const Scene& scene, const std::vector<std::string>& names,
+                  const HowToSet& set)
+{
+    std::vector<std::string> in_order(scene.layers_found.size());
+    bool same = true;
+    for (std::size_t i = 0; i < in_order.size(); ++i) {
+        in_order[scene.layers_found[i]] = names[i];
+        same &= scene.layers_found[i] == scene.fits[i].layer;
+    }
+    if (same)
+        return;
+    std::string order;
+    for (const std::string& name : in_order)
+        order += (order.empty() ? "" : ", ") + name;
+    doubts.push_back("the garments' types and widths say another order from the inside out: " + order
+                     + "; give them in that, or " + set("layer_order") + " found");
+}
+
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
 {
     std::ostringstream text;
@@ -67,7 +86,7 @@ std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::v
                            [&](const TooTight& part) { return part.garment == int(i); });
     };
     for (std::size_t i = 0; i < names.size(); ++i)
-        if (i < end.garments.size())
+        if (end.is_worn(i))
             doubt_garment(doubts, names[i], end.garments[i]);
         else if (is_too_small(i))
             doubts.push_back(names[i] + " is left out of the result: it does not go over what is under it");
@@ -90,6 +109,7 @@ std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vecto
         doubts.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         doubt_type(doubts, names[i], scene.fits[i], set);
+    doubt_layers(doubts, scene, names, set);
     if (const Dressing* end = final_dressing(scene)) {
         const std::vector<std::string> more = doubts_about_dressing(*end, names);
         doubts.insert(doubts.end(), more.begin(), more.end());

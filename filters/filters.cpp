@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "filters/outcome.h"
@@ -46,16 +47,30 @@ void require_wearable_sizes(const Scene& scene)
         for_garment(scene, g, [&](std::size_t i) { require_wearable_size(*scene.rig, scene.garments[i].mesh); });
 }
 
+std::vector<GarmentMesh> meshes_of(const std::vector<GarmentInput>& garments)
+{
+    std::vector<GarmentMesh> meshes;
+    for (const GarmentInput& garment : garments)
+        meshes.push_back(garment.mesh);
+    return meshes;
+}
+
 /// One pose for all garments where there is one, else each keeps its own.
 void fit_together(Scene& scene, const Progress& progress)
 {
-    std::vector<GarmentMesh> garments;
-    for (const GarmentInput& garment : scene.garments)
-        garments.push_back(garment.mesh);
-    const CommonFit common = common_fit(*scene.rig, garments, scene.fits, progress);
+    const CommonFit common = common_fit(*scene.rig, meshes_of(scene.garments), scene.fits, progress);
     scene.fits = common.fits;
     scene.one_pose = common.one_pose;
     scene.conflicts = common.conflicts;
+}
+
+void put_in_layers(Scene& scene, LayerOrder order)
+{
+    if (scene.garments.size() < 2)
+        return;
+    scene.layers_found = found_layers(*scene.rig, scene.body->surface.positions, meshes_of(scene.garments), scene.fits);
+    for (std::size_t i = 0; i < scene.fits.size(); ++i)
+        scene.fits[i].layer = order == LayerOrder::found ? scene.layers_found[i] : int(i);
 }
 
 void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
@@ -63,6 +78,7 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
     scene.fits.clear();
     scene.one_pose.reset();
     scene.conflicts.clear();
+    scene.layers_found.clear();
     require_wearable_sizes(scene);
     const bool together = scene.garments.size() > 1 && p.fit.method == FitMethod::fast;
     const double n = double(scene.garments.size()) + (together ? 1 : 0);
@@ -77,6 +93,45 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
         }));
     if (together)
         fit_together(scene, progress.part(1 - 1 / n, 1));
+    put_in_layers(scene, p.layer_order);
+}
+
+/// Of some of the scene's garments, one after another, as libfit has them.
+Dressing only(const Dressing& all, const std::vector<std::size_t>& which)
+{
+    Dressing some = all;
+    some.garments.clear();
+    for (const std::size_t i : which)
+        some.garments.push_back(all.garments[i]);
+    return some;
+}
+
+template <class OfOne>
+void put_at(std::vector<OfOne>& some, const std::vector<std::size_t>& which, std::size_t count)
+{
+    std::vector<OfOne> all(count);
+    for (std::size_t k = 0; k < some.size(); ++k)
+        all[which[k]] = std::move(some[k]);
+    some = std::move(all);
+}
+
+/// Of all of them again.
+Dressing among_all(Dressing some, const std::vector<std::size_t>& which, std::size_t count)
+{
+    put_at(some.garments, which, count);
+    put_at(some.maps, which, count);
+    put_at(some.girths, which, count);
+    put_at(some.overstretches, which, count);
+    for (RecoverFrame& frame : some.frames)
+        put_at(frame.garments, which, count);
+    return some;
+}
+
+std::vector<TooTight> among_all(std::vector<TooTight> parts, const std::vector<std::size_t>& which)
+{
+    for (TooTight& part : parts)
+        part.garment = int(which[part.garment]);
+    return parts;
 }
 
 Dressing dressing_of(const DrapeResult& result, const Pose& pose)
@@ -86,7 +141,6 @@ Dressing dressing_of(const DrapeResult& result, const Pose& pose)
     dressing.body = result.body;
     dressing.pose = pose;
     dressing.size_reached = result.size_reached;
-    dressing.too_tight = result.too_tight;
     dressing.held_back = result.held_back;
     dressing.speed = result.speed;
     dressing.seconds = result.seconds;
@@ -95,8 +149,9 @@ Dressing dressing_of(const DrapeResult& result, const Pose& pose)
 }
 
 /// Moves a dressed body to another pose. Where that ends in a state that is not clean, the start is the answer.
-Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const RecoverOptions& options,
-               const Progress& progress)
+/// @param worn  which of the scene's garments the dressing has
+Dressing moved(const Scene& scene, const Dressing& from, const std::vector<std::size_t>& worn, const Pose& to,
+               const RecoverOptions& options, const Progress& progress)
 {
     const RecoverResult result
         = recover_pose(*scene.rig, scene.body.value(), from.pose, to, from.garments, options, progress, from.body);
@@ -112,7 +167,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const Pose& to, const R
         next.pose_reached = 0;
         return next;
     }
-    next.too_tight = result.too_tight;
+    next.too_tight = among_all(result.too_tight, worn);
     next.garments = result.garments;
     next.body = result.body;
     next.speed = result.speed;
@@ -134,6 +189,15 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     }
 }
 
+std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
+{
+    std::vector<std::size_t> order(fits.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return fits[a].layer < fits[b].layer; });
+    return order;
+}
+
 /// From the inside out. The garments already worn go along to the pose of the next one; ends where one cannot be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
@@ -143,31 +207,36 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     between_poses.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // judged where it is to be worn
     const double n = double(scene.garments.size());
     require_wearable_sizes(scene);
-    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
-        const Progress slice = progress.part(double(i) / n, double(i + 1) / n);
-        const Pose& pose = scene.fits[i].pose;
-        if (i > 0 && !is_same(dressing.pose, pose))
-            dressing = moved(scene, dressing, pose, between_poses, slice.part(0, 0.3));
-        if (i > 0 && !dressing.certified)
+    const std::vector<std::size_t> order = from_inside_out(scene.fits);
+    for (std::size_t layer = 0; layer < order.size(); ++layer) {
+        const Progress slice = progress.part(double(layer) / n, double(layer + 1) / n);
+        const Pose& pose = scene.fits[order[layer]].pose;
+        if (layer > 0 && !is_same(dressing.pose, pose))
+            dressing = moved(scene, dressing, order, pose, between_poses, slice.part(0, 0.3));
+        if (layer > 0 && !dressing.certified)
             break;
-        const DrapeResult result = for_garment(scene, i, [&](std::size_t) {
+        const DrapeResult result = for_garment(scene, order[layer], [&](std::size_t i) {
             return drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
-                                 slice.part(i > 0 ? 0.3 : 0, 1), dressing.garments, dressing.body);
+                                 slice.part(layer > 0 ? 0.3 : 0, 1), dressing.garments, dressing.body);
         });
         const ClothSeconds before = dressing.seconds;
         dressing = dressing_of(result, pose);
+        dressing.too_tight = among_all(result.too_tight, order);
+        dressing.outermost = order[layer];
         dressing.seconds += before;
         if (!dressing.certified)
             break;
     }
     measure(scene, dressing, p.drape.cloth);
-    scene.draped = dressing;
+    scene.draped = among_all(dressing, order, order.size());
 }
 
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    scene.recovered = moved(scene, *scene.draped, Pose(), p.recover, progress);
-    measure(scene, *scene.recovered, p.recover.cloth);
+    const std::vector<std::size_t> worn = scene.draped->worn();
+    Dressing recovered = moved(scene, only(*scene.draped, worn), worn, Pose(), p.recover, progress);
+    measure(scene, recovered, p.recover.cloth);
+    scene.recovered = among_all(recovered, worn, scene.garments.size());
 }
 
 // ---- the tables ------------------------------------------------------------------------------------------------
@@ -216,6 +285,22 @@ bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape &
 }  // namespace
 
 std::string_view name_of(Stage stage) { return row(stage).name; }
+
+std::vector<std::size_t> Dressing::worn() const
+{
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < garments.size(); ++i)
+        if (is_worn(i))
+            result.push_back(i);
+    return result;
+}
+
+std::size_t outermost(const std::vector<FitResult>& fits)
+{
+    return std::max_element(fits.begin(), fits.end(),
+                            [](const FitResult& a, const FitResult& b) { return a.layer < b.layer; })
+        - fits.begin();
+}
 
 const std::vector<Filter>& filters()
 {

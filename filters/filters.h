@@ -26,6 +26,7 @@ std::string_view name_of(Stage stage);
 struct Parameters {
     RigOptions rig;
     FitOptions fit;  ///< its type holds for garments that bring none
+    LayerOrder layer_order = LayerOrder::given;
     DrapeOptions drape;
     RecoverOptions recover;  ///< its cloth counts only where draping is not part of the filter
 };
@@ -38,10 +39,11 @@ struct GarmentInput {
 
 /// Garments on the body, in one pose.
 struct Dressing {
-    std::vector<WornGarment> garments;  ///< the first of the scene's garments, from the inside out
+    std::vector<WornGarment> garments;  ///< one for each of the scene's; without positions where it is not worn
     Positions body;  ///< of the user's vertices
     Pose pose;
-    double size_reached = 1;  ///< of the body; less than 1 where the last garment is too small
+    std::size_t outermost = 0;  ///< which garment was put on last, or was to be
+    double size_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
     double pose_reached = 1;  ///< of the last way between two poses
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
@@ -52,22 +54,33 @@ struct Dressing {
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
     std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
     int frames_asked = 0;  ///< how many those would be if all were certified and the whole way was gone
-    std::vector<FitMap> maps;  ///< of each garment
-    std::vector<std::vector<Girth>> girths;  ///< of each garment and the body under it
-    std::vector<Overstretch> overstretches;  ///< of each garment
+    std::vector<FitMap> maps;  ///< of each garment that is worn, as the next two
+    std::vector<std::vector<Girth>> girths;  ///< of garment and body under it
+    std::vector<Overstretch> overstretches;
+
+    bool is_worn(std::size_t garment) const
+    {
+        return garment < garments.size() && garments[garment].positions.rows() > 0;
+    }
+    /// Which garments are.
+    std::vector<std::size_t> worn() const;
 };
 
 struct Scene {
     std::optional<BodyMesh> body;
-    std::vector<GarmentInput> garments;  ///< from the inside out
+    std::vector<GarmentInput> garments;
     std::optional<Rig> rig;
     std::vector<FitResult> fits;  ///< one for each garment
+    std::vector<int> layers_found;  ///< of several garments: the layer of each by type and width
     std::optional<bool> one_pose;  ///< of several garments: whether all fits turn the bones alike; by the fast method
     std::vector<FitConflict> conflicts;  ///< why they do not
-    std::optional<Dressing> draped;  ///< in the pose of the last garment's fit
+    std::optional<Dressing> draped;  ///< in the pose of the outermost garment's fit
     std::optional<Dressing> recovered;  ///< in the body's own pose
     std::array<double, k_stage_count> seconds {};  ///< wall clock spent in each stage
 };
+
+/// Which garment goes over all others.
+std::size_t outermost(const std::vector<FitResult>& fits);
 
 /// What a filter reads and makes; a host's ports.
 enum class Data { body, garments, rig, fits, draped, recovered };
@@ -103,8 +116,10 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
 {
     if (filter.has(Stage::rig))
         describe(p.rig, visit);
-    if (filter.has(Stage::fit))
+    if (filter.has(Stage::fit)) {
         describe(p.fit, visit);
+        describe_layers(p.layer_order, visit);
+    }
     if (filter.has(Stage::drape)) {
         describe(p.drape, visit);
         describe_way(p.recover, visit);  // garments already worn move on to the pose of the next one

@@ -21,7 +21,7 @@ Moment moment_before_dressing(const Scene& scene)
 {
     if (scene.fits.empty())
         return { {}, scene.body->surface.positions, {}, {} };
-    const Pose& pose = scene.fits.back().pose;
+    const Pose& pose = scene.fits[outermost(scene.fits)].pose;
     return { pose, skinned(scene, pose), {}, {} };
 }
 
@@ -42,12 +42,13 @@ const RecoverFrame& nearest_frame(const std::vector<RecoverFrame>& frames, doubl
 
 Moment moment_of(const Scene& scene, const Dressing& dressing, const RecoverFrame& frame, const ClothOptions& cloth)
 {
-    Moment moment { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments, {} };
+    Moment moment { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments,
+                    std::vector<FitMap>(frame.garments.size()) };
     const TriangleMesh body { frame.body, scene.body->surface.triangles };
-    for (std::size_t i = 0; i < frame.garments.size(); ++i) {
+    for (const std::size_t i : dressing.worn()) {
         WornGarment worn = dressing.garments[i];
         worn.positions = frame.garments[i];
-        moment.maps.push_back(fit_map(body, worn, cloth));
+        moment.maps[i] = fit_map(body, worn, cloth);
     }
     return moment;
 }

@@ -13,8 +13,8 @@ namespace fit {
 struct Moment {
     Pose pose;
     Positions body;  ///< of the user's vertices; equal to the surface's, bit for bit, in the body's own pose
-    std::vector<Positions> garments;  ///< those that are worn, from the inside out
-    std::vector<FitMap> maps;  ///< how they sit
+    std::vector<Positions> garments;  ///< of each of the scene's; empty where it is not worn
+    std::vector<FitMap> maps;  ///< how those sit
 };
 
 /// @param share  of the way back to the body's own pose: the nearest of the dressing's frames is taken. 1, or no frames: the end

@@ -24,6 +24,14 @@ std::string tight_parts(const Dressing& dressing)
     return text.str();
 }
 
+double largest_enlargement(const Dressing& dressing)
+{
+    double largest = 0;
+    for (const TooTight& tight : dressing.too_tight)
+        largest = std::max(largest, tight.enlargement);
+    return largest;
+}
+
 std::string held_parts(const Dressing& dressing)
 {
     std::ostringstream text;
@@ -44,28 +52,30 @@ std::string entered_parts(const Dressing& dressing)
     return text.str();
 }
 
-std::string why_too_small(const Dressing& end, const std::string& last, const std::vector<std::string>& names)
+std::string why_too_small(const Dressing& end, const std::vector<std::string>& names)
 {
     const std::string parts = tight_parts(end);
     std::ostringstream text;
-    text << (parts.empty() ? last : names[end.too_tight.front().garment]) << " is too small"
+    text << names[parts.empty() ? end.outermost : end.too_tight.front().garment] << " is too small"
          << (parts.empty() ? "" : " at " + parts);
     if (end.size_reached < 1)
         text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
     else
         text << " for the body's own pose";
     if (!parts.empty())
-        text << "; a garment " << std::ceil(100 * end.too_tight.front().enlargement)
-             << "% larger would lie there unstretched";
+        text << "; a garment " << std::ceil(100 * largest_enlargement(end)) << "% larger would lie there unstretched";
     return text.str();
 }
 
-std::string why_not_certified(const Dressing& end, const std::string& last)
+std::string why_not_certified(const Dressing& end, const std::vector<std::string>& names)
 {
+    const auto crossing = std::find_if_not(end.garments.begin(), end.garments.end(),
+                                           [](const WornGarment& g) { return g.certificate.clean(); });
+    const bool clean = crossing == end.garments.end();
     std::ostringstream text;
-    text << last << " could not be certified: ";
-    if (!all_clean(end.garments)) {
-        const Certificate& c = end.garments.back().certificate;
+    text << names[clean ? end.outermost : crossing - end.garments.begin()] << " could not be certified: ";
+    if (!clean) {
+        const Certificate& c = crossing->certificate;
         text << c.body_crossings << " crossings with the body, " << c.self_crossings << " with itself, "
              << c.layer_crossings << " with layers, " << c.vertices_inside << " vertices inside";
         return text.str();
@@ -93,7 +103,7 @@ bool all_clean(const std::vector<WornGarment>& garments)
 bool all_put_on(const Scene& scene)
 {
     const auto& draped = scene.draped;
-    return draped && draped->garments.size() == scene.garments.size() && draped->size_reached == 1
+    return draped && draped->worn().size() == scene.garments.size() && draped->size_reached == 1
         && draped->pose_reached == 1 && all_clean(draped->garments);
 }
 
@@ -107,8 +117,7 @@ Outcome outcome_of(const Dressing& end)
 
 std::string explain(const Dressing& end, const std::vector<std::string>& names)
 {
-    const std::string& last = end.garments.empty() ? names.front() : names[end.garments.size() - 1];
-    return outcome_of(end) == Outcome::too_small ? why_too_small(end, last, names) : why_not_certified(end, last);
+    return outcome_of(end) == Outcome::too_small ? why_too_small(end, names) : why_not_certified(end, names);
 }
 
 std::string in_one_line(const std::string& name, GarmentType type, const WornGarment& garment)
@@ -128,9 +137,15 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
 
 void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vector<Positions>& kept)
 {
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
-        dressing.garments[i].positions = kept[i];
-    dressing.certified = certify_all(dressing.garments, { dressing.body, body }) && dressing.certified;
+    const std::vector<std::size_t> which = dressing.worn();
+    std::vector<WornGarment> worn;
+    for (const std::size_t i : which) {
+        worn.push_back(dressing.garments[i]);
+        worn.back().positions = kept[i];
+    }
+    dressing.certified = certify_all(worn, { dressing.body, body }) && dressing.certified;
+    for (std::size_t k = 0; k < which.size(); ++k)
+        dressing.garments[which[k]] = worn[k];
 }
 
 std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, const std::vector<std::string>& names)

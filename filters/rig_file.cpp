@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filters/rig_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -148,7 +149,8 @@ Json garment_of(const Frame& body_frame, const Skeleton& own, const FittedGarmen
 {
     Json json { { "file", garment.file },
                 { "type", name_of(garment.fit.type) },
-                { "type_margin", garment.fit.type_margin } };
+                { "type_margin", garment.fit.type_margin },
+                { "layer", garment.fit.layer } };
     put_frame(json, garment.frame);
     json["covered"] = Json::array();
     for (const Bone bone : garment.fit.covered)
@@ -159,11 +161,13 @@ Json garment_of(const Frame& body_frame, const Skeleton& own, const FittedGarmen
     return json;
 }
 
-FittedGarment garment_of(const Frame& body_frame, const Json& json)
+/// @param place  among the garments; older files have no layers, but name them from the inside out
+FittedGarment garment_of(const Frame& body_frame, const Json& json, int place)
 {
     FittedGarment garment { json.at("file").get<std::string>(), frame_of(json), {} };
     garment.fit.type = garment_type_of(json.at("type").get<std::string>());
     garment.fit.type_margin = json.at("type_margin").get<double>();
+    garment.fit.layer = json.value("layer", place);
     garment.fit.pose = pose_of(body_frame, json.at("pose"));
     for (const Json& name : json.at("covered"))
         if (const int bone = bone_of(name.get<std::string>()); bone >= 0)
@@ -237,8 +241,14 @@ RigFile rig_file_of(const Json& json)
     if (json.contains("weights"))
         contents.rig.weights = weights_of(json.at("weights"));
     for (const Json& garment : json.value("garments", Json::array()))
-        contents.garments.push_back(garment_of(contents.frame, garment));
+        contents.garments.push_back(garment_of(contents.frame, garment, int(contents.garments.size())));
     return contents;
+}
+
+const FittedGarment& outermost(const std::vector<FittedGarment>& garments)
+{
+    return *std::max_element(garments.begin(), garments.end(),
+                             [](const FittedGarment& a, const FittedGarment& b) { return a.fit.layer < b.fit.layer; });
 }
 
 GivenJoints all_joints(const Skeleton& skeleton)
@@ -319,7 +329,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
     json["bones"] = bones_of(contents.frame, contents.rig);
     json["tips"] = tips_of(contents.frame, skeleton);
     if (!contents.garments.empty())
-        json["fitted"] = fitted_joints(contents.frame, posed(skeleton, contents.garments.back().fit.pose));
+        json["fitted"] = fitted_joints(contents.frame, posed(skeleton, outermost(contents.garments).fit.pose));
     for (const FittedGarment& garment : contents.garments)
         json["garments"].push_back(garment_of(contents.frame, skeleton, garment));
     if (contents.has_weights())

@@ -121,7 +121,9 @@ MeshArrays arrays_of_fits(const Scene& scene)
     Rows poses(scene.fits.size(), k_pose_columns);
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         poses.row(Eigen::Index(i)) = row_of(scene.fits[i].pose);
-    MeshArrays made { {}, {}, { { "FitPoses", poses } } };
+    MeshArrays made { {}, {}, { { "FitPoses", poses }, counts("FitLayers", each(scene.fits, [](const FitResult& fit) {
+                                                                  return fit.layer;
+                                                              })) } };
     if (!scene.one_pose)
         return made;
     const auto& conflicts = scene.conflicts;
@@ -170,7 +172,7 @@ MeshArrays arrays_of(const FitResult& fit)
 
 MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const Frame& body)
 {
-    const bool worn = garment < dressing.garments.size();
+    const bool worn = dressing.is_worn(garment);
     MeshArrays made { {}, {}, { counts("Worn", { worn ? 1 : 0 }) } };
     if (!worn)
         return made;
@@ -256,10 +258,14 @@ Frame body_frame_from(const FindArray& find)
 
 std::vector<FitResult> fits_from(const FindArray& find)
 {
-    const Rows poses = required(find, "FitPoses", -1, k_pose_columns, "connect the body that Fit Skeleton made");
+    constexpr const char* k_fit_first = "connect the body that Fit Skeleton made";
+    const Rows poses = required(find, "FitPoses", -1, k_pose_columns, k_fit_first);
+    const Rows layers = required(find, "FitLayers", poses.rows(), 1, k_fit_first);
     std::vector<FitResult> fits(poses.rows());
-    for (std::size_t i = 0; i < fits.size(); ++i)
+    for (std::size_t i = 0; i < fits.size(); ++i) {
         fits[i].pose = pose_of(poses.row(Eigen::Index(i)));
+        fits[i].layer = int(layers(Eigen::Index(i), 0));
+    }
     return fits;
 }
 

@@ -38,7 +38,7 @@ struct MeshArrays {
 
 /// Of the body: JointIndices, JointWeights; RigJoints, RigAxes, RigRadii, RigSideMargin, BodyFrame.
 MeshArrays arrays_of(const Rig& rig, const Frame& body);
-/// Of the body: FitPoses, and where several garments were asked for one pose: OnePose, ConflictBone, ConflictGarments,
+/// Of the body: FitPoses, FitLayers, and where several garments were asked for one pose: OnePose, ConflictBone, ConflictGarments,
 /// ConflictAngle (degrees).
 MeshArrays arrays_of_fits(const Scene& scene);
 /// Of the body: DressedPose, Certified, SizeReached, PoseReached, Speed, Note, HeldBackPart, HeldBackDistance.

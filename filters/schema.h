@@ -51,6 +51,17 @@ void describe(Options& o, Visitor&& visit)
                   &nearest_search_names() });
 }
 
+/// How several garments are worn together.
+template <class Order, class Visitor>
+void describe_layers(Order& layer_order, Visitor&& visit)
+{
+    visit(layer_order,
+          About { "layer_order", "Layer order", "", 0, 0,
+                  "Which of several garments goes over which: given, from the inside out, or found by type and width: "
+                  "coats over jackets, the wider of two shirts over the narrower",
+                  &layer_order_names() });
+}
+
 /// What cloth is and how it behaves, whatever is done with it.
 template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>
 void describe_cloth(Options& o, Visitor&& visit)

@@ -19,6 +19,8 @@ Scene worn_scene()
     for (FitResult& fit : scene.fits)
         fit.type_margin = 1;
     scene.draped.emplace().garments.resize(2);
+    for (WornGarment& garment : scene.draped->garments)
+        garment.positions.setZero(3, 3);
     return scene;
 }
 

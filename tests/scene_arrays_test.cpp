@@ -78,7 +78,7 @@ TEST_F(SceneArrays, SayWhyNoOnePoseServesTheGarments)
 {
     Scene scene;
     scene.fits.resize(2);
-    EXPECT_EQ(arrays_of_fits(scene).field.size(), 1u);
+    EXPECT_EQ(arrays_of_fits(scene).field.size(), 2u);
     scene.one_pose = false;
     scene.conflicts.push_back({ lhumerus, { 1, 0 }, 0.5 });
     std::map<std::string, NamedArray> field;

@@ -86,7 +86,7 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
     command.add_option("--joints", call.joints, "Joints given or corrected, all or some: JSON, see docs/rig.md");
     if (!filter.has(Stage::fit))
         return;
-    command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out")->required();
+    command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out (see --layer-order)")->required();
     command
         .add_option("--type", call.types,
                     "Type of a garment, once for each: "

@@ -189,14 +189,15 @@ Json garment_of(const Session& session, std::size_t i)
         const FitResult& fit = scene.fits[i];
         json["type"] = name_of(fit.type);
         json["type_margin"] = fit.type_margin;
+        json["layer"] = fit.layer;
         json["covered"] = Json::array();
         for (const Bone bone : fit.covered)
             json["covered"].push_back(bone_name(bone));
         put_fit(json, fit, metres_per_unit, session.body.frame.frame.rotation().transpose());
     }
     if (const Dressing* end = final_dressing(scene)) {
-        json["worn"] = i < end->garments.size();
-        if (i < end->garments.size()) {
+        json["worn"] = end->is_worn(i);
+        if (end->is_worn(i)) {
             put_certificate(json, end->garments[i], metres_per_unit);
             json["size"] = end->garments[i].size;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
@@ -256,7 +257,7 @@ std::string summary(const Call& call, const Session& session)
     const BodyFile& body = session.body;
     text << body.path.filename().string() << ": " << body.frame.why << '\n';
     if (const Dressing* end = final_dressing(session.scene))
-        for (std::size_t i = 0; i < end->garments.size(); ++i)
+        for (const std::size_t i : end->worn())
             text << in_one_line(session.garments[i].name(), session.scene.fits[i].type, end->garments[i]) << '\n';
     else
         for (std::size_t i = 0; i < session.scene.fits.size(); ++i)

@@ -70,7 +70,7 @@ Positions body_in_file(const Session& session, const Positions& in_metres)
 void write_garments(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
     fs::create_directories(folder);
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+    for (const std::size_t i : dressing.worn())
         session.garments[i].file.write(folder / session.garments[i].name(),
                                        session.body.frame.frame.to_file(dressing.garments[i].positions));
 }
@@ -84,10 +84,10 @@ void write_body(const Session& session, const Dressing& dressing, const fs::path
 /// A file may hold fewer digits than we computed with, so what stands in it is what is judged.
 void certify_as_written(const Session& session, Dressing& dressing, const fs::path& folder)
 {
-    std::vector<Positions> written;
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
-        written.push_back(
-            session.body.frame.frame.to_metres(MeshFile::read(folder / session.garments[i].name()).positions()));
+    std::vector<Positions> written(session.garments.size());
+    for (const std::size_t i : dressing.worn())
+        written[i]
+            = session.body.frame.frame.to_metres(MeshFile::read(folder / session.garments[i].name()).positions());
     certify_as_kept(dressing, session.scene.body->surface.triangles, written);
 }
 
@@ -97,7 +97,7 @@ void write_maps(const Session& session, const Dressing& dressing, const fs::path
     fs::create_directories(folder);
     const Frame& frame = session.body.frame.frame;
     const auto values = [](const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i) {
+    for (const std::size_t i : dressing.worn()) {
         const FitMap& map = dressing.maps[i];
         const std::string name = session.garments[i].name();
         write_ply((folder / name).replace_extension(".ply"), frame.to_file(dressing.garments[i].positions),
@@ -124,15 +124,16 @@ void write_frames(const Session& session, const Dressing& dressing, const fs::pa
         return;
     fs::create_directories(folder);
     const Frame& frame = session.body.frame.frame;
+    const std::vector<std::size_t> worn = dressing.worn();
     std::vector<MovingMesh> meshes { { "body", session.body.triangles, {}, { 0.55, 0.35, 0.25 } } };
-    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+    for (const std::size_t i : worn)
         meshes.push_back({ session.garments[i].path.stem().string(),
                            dressing.garments[i].rest.triangles,
                            {},
                            { 0.1, 0.3 / double(i + 1), 0.5 } });
     for (const RecoverFrame& state : dressing.frames)
         for (std::size_t m = 0; m < meshes.size(); ++m) {
-            meshes[m].frames.push_back(m == 0 ? state.body : state.garments[m - 1]);
+            meshes[m].frames.push_back(m == 0 ? state.body : state.garments[worn[m - 1]]);
             write_ply(folder / numbered(meshes[m].name, meshes[m].frames.size() - 1),
                       frame.to_file(meshes[m].frames.back()), meshes[m].triangles);
         }
@@ -151,7 +152,7 @@ void write_last_state(const Session& session, Dressing& dressing, const fs::path
         write_maps(session, dressing, folder / "maps");
         write_frames(session, dressing, folder / "frames");
     } else
-        for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        for (const std::size_t i : dressing.worn())
             fs::remove(folder / session.garments[i].name());
 }
 
@@ -162,7 +163,7 @@ void write_rest_shapes(const Session& session, const fs::path& folder)
     const std::optional<Dressing>& draped = session.scene.draped;
     for (std::size_t i = 0; i < session.garments.size(); ++i) {
         const GarmentFile& garment = session.garments[i];
-        const double size = draped && i < draped->garments.size() ? draped->garments[i].size : 1;
+        const double size = draped && draped->is_worn(i) ? draped->garments[i].size : 1;
         garment.file.write(folder / garment.name(), size * garment.file.positions());
     }
 }
@@ -170,11 +171,12 @@ void write_rest_shapes(const Session& session, const fs::path& folder)
 void write_fitted_body(const Session& session, const fs::path& folder)
 {
     const Rig& rig = *session.scene.rig;
-    const Pose& pose = session.scene.fits.back().pose;
+    const std::size_t outer = outermost(session.scene.fits);
+    const Pose& pose = session.scene.fits[outer].pose;
     const Positions fitted
         = skin(session.scene.body->surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
     write_ply(folder / "body.ply", session.body.frame.frame.to_file(fitted), session.body.triangles, {},
-              { "garmentfit: the body in the pose fitted to " + session.garments.back().name() });
+              { "garmentfit: the body in the pose fitted to " + session.garments[outer].name() });
 }
 
 // ---- what earlier runs wrote ---------------------------------------------------------------------------------------

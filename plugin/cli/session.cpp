@@ -172,8 +172,8 @@ void read_draped(Session& session, const fs::path& folder)
     for (const GarmentFile& garment : session.garments)
         worn.push_back(session.body.frame.frame.to_metres(MeshFile::read(folder / garment.name()).positions()));
     const Positions left = session.body.frame.frame.to_metres(MeshFile::read(folder / "body.ply").positions());
-    session.scene.draped
-        = dressing_from(session.scene, session.scene.fits.back().pose, left, worn, session.garment_names());
+    session.scene.draped = dressing_from(session.scene, session.scene.fits[outermost(session.scene.fits)].pose, left,
+                                         worn, session.garment_names());
 }
 
 }  // namespace fit::cli

@@ -30,7 +30,7 @@ void report_scene(Report& report, const Fitting& fitting)
     }
     if (!end)
         return;
-    const Certificate& outermost = end->garments.back().certificate;
+    const Certificate& outermost = end->garments[end->outermost].certificate;
     report.numbers["smallest_gap"] = outermost.smallest_gap / fitting.body_frame.metres_per_unit;
     report.numbers["strain_p95"] = outermost.strain.p95;
 }

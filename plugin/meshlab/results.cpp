@@ -112,7 +112,7 @@ private:
 
     void add_dressing(const Dressing& dressing, const std::string& suffix)
     {
-        for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        for (const std::size_t i : dressing.worn())
             add_map(add_garment(i, suffix, dressing.garments[i].positions), dressing.maps[i]);
     }
 

@@ -102,7 +102,7 @@ nb::dict PythonMoment::map_arrays(std::size_t garment) const
 nb::list garments_of(const PythonScene& s)
 {
     nb::list made;
-    for (std::size_t i = 0; i < s.dressing().garments.size(); ++i)
+    for (const std::size_t i : s.dressing().worn())
         made.append(garment_of(s, i));
     return made;
 }
@@ -118,6 +118,7 @@ nb::list fits_of(const PythonScene& s)
         for (const Bone bone : result.covered)
             covered.append(nb::str(bone_name(bone).data()));
         fit["covered"] = covered;
+        fit["layer"] = result.layer;
         made.append(fit);
     }
     return made;
@@ -164,8 +165,8 @@ nb::list frames_of(const PythonScene& s)
     nb::list made;
     for (const RecoverFrame& frame : s.dressing().frames) {
         nb::list garments;
-        for (const Positions& positions : frame.garments)
-            garments.append(in_body_units(s, positions));
+        for (const std::size_t i : s.dressing().worn())
+            garments.append(in_body_units(s, frame.garments[i]));
         made.append(nb::make_tuple(frame.share, in_body_units(s, frame.body), garments));
     }
     return made;

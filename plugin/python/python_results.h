@@ -19,7 +19,7 @@ public:
     nb::object body() const;
     nb::object joints() const;
     nb::object garment(std::size_t i) const;
-    std::size_t worn() const { return now_.garments.size(); }
+    std::vector<std::size_t> worn() const { return scene_.dressing().worn(); }
     bool is_body_moved() const;
     nb::dict dressing_arrays() const;
     nb::dict worn_arrays(std::size_t garment) const;

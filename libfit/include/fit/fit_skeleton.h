@@ -82,6 +82,7 @@ struct FitResult {
     Vec3 up = Vec3::UnitY();  ///< what is up for the garment as it was given
     double up_margin = 1;  ///< 0: another way up is as good; 1 also where the given one leaves no doubt
     std::vector<Bone> covered;
+    int layer = 0;  ///< of several garments worn together: 0 for the innermost
     std::array<double, bone_count> scores_before {}, scores {};  ///< E_B of equation (1) by the method's own metric,
         ///< metres, at the start and at the end; 0 for bones that take no part
     std::array<double, bone_count>
@@ -136,5 +137,18 @@ struct CommonFit {
 /// @throws Cancelled
 FIT_API CommonFit common_fit(const Rig& rig, const std::vector<GarmentMesh>& garments,
                              const std::vector<FitResult>& fits, const Progress& progress = {});
+
+/// Of several garments: as they were given, from the inside out, or as found_layers has it.
+enum class LayerOrder { given, found };
+/// "given", "found".
+FIT_API const std::vector<std::string_view>& layer_order_names();
+
+/// Which garment goes over which: the layer of each, 0 for the innermost. Of two that go round the same parts of the body, the type says it
+/// (a coat goes over a jacket, that over a hoodie, that over shirts) or, where it does not, the one that is clearly wider goes over the
+/// other; where that says nothing either, they stay in the order they are in. O(n log n).
+/// @param body  the user's vertices, metres
+/// @param fits  of each garment, with its type
+FIT_API std::vector<int> found_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
+                                      const std::vector<FitResult>& fits);
 
 }  // namespace fit

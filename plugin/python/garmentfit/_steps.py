@@ -49,6 +49,7 @@ class FitOfGarment(NamedTuple):
     type: str
     type_margin: float  #: 0 (a toss-up) to 1 (sure, or given)
     covered: List[str]  #: names of bones
+    layer: int  #: 0 for the innermost of several garments
 
 
 @dataclass(frozen=True)
@@ -143,7 +144,7 @@ class Conflict(NamedTuple):
     """Why no one pose serves two garments."""
 
     bone: str
-    garments: Tuple[int, int]  #: from the inside out; in the first one the bone would lack room
+    garments: Tuple[int, int]  #: which; in the first one the bone would lack room
     angle: float  #: degrees between the bone's directions in their own poses
 
 
@@ -243,7 +244,7 @@ def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_
                  garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Fit:
     """Poses a rigged body so that its bones run through the middle of the garment's parts.
 
-    garments: one, or a list from the inside out; Garment(mesh, type) tells what each is.
+    garments: one, or a list from the inside out (or layer_order="found"); Garment(mesh, type) tells what each is.
     """
     return Fit(_with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up).run("fit", parameters, progress))
 

@@ -460,7 +460,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 _put_all(garment, scene.found_arrays(i))
             if "dressing" in self.MAKES:
                 _put_all(garment, now.worn_arrays(i))
-                if i < now.worn:
+                if i in now.worn:
                     _move(garment, "RestPosition", now.garment(i))
                     _put_all(garment, now.map_arrays(i))
 

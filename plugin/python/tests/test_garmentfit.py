@@ -158,3 +158,10 @@ def test_layers_say_whether_one_pose_serves_them(body, skirt):
     fit = garmentfit.fit_skeleton(garmentfit.rig_body(body), [Garment(skirt, "skirt"), Garment(skirt, "skirt")])
     assert [garment.type for garment in fit.garments] == ["skirt", "skirt"]
     assert fit.conflicts == []
+
+
+def test_layers_are_found_where_asked_for(body, skirt):
+    coat, shirt = Garment(skirt, "coat"), Garment(skirt, "blouse")  # types say it, whatever the shape
+    rig = garmentfit.rig_body(body)
+    assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt]).garments] == [0, 1]
+    assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt], layer_order="found").garments] == [1, 0]

@@ -16,7 +16,7 @@ void write_worn(vtkPolyData& garment, std::size_t i, const Dressing& dressing, c
                 const Moment& now)
 {
     put(garment, arrays_of_worn(dressing, i, known.body_frame));
-    if (i >= now.garments.size())
+    if (!dressing.is_worn(i))
         return;
     move_points(garment, k_rest_position, now.garments[i], known.scene.garments[i].mesh.triangles, known.body_frame);
     put(garment, arrays_of(now.maps[i], known.body_frame));

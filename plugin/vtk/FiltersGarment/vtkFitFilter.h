@@ -10,7 +10,7 @@
  * port 0, the body
  * - point data `JointIndices`, `JointWeights` (4 components each): bones and how much the skin hangs on each
  * - point data `OwnPosition`: the points as given, where they were moved
- * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `DressedPose`: in metres with +y up;
+ * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `FitLayers`, `DressedPose`: in metres with +y up;
  *   `BodyFrame`: metres per unit, and the up axis, of the body as given
  * - field data where several garments were fitted: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle` (degrees)
  * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex; NaN

@@ -34,7 +34,8 @@
     vtkFitChoiceMacro(Type, type);                                                                                     \
     vtkFitChoiceMacro(Method, method);                                                                                 \
     vtkFitNumberMacro(Iterations, int, iterations);                                                                    \
-    vtkFitChoiceMacro(Nearest, nearest)
+    vtkFitChoiceMacro(Nearest, nearest);                                                                               \
+    vtkFitChoiceMacro(LayerOrder, layer_order)
 
 #define vtkFitClothParametersMacro()                                                                                   \
     vtkFitChoiceMacro(Fabric, fabric);                                                                                 \
