@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "../libfit/src/surface_measures.h"
 #include "fixtures.h"
 
 namespace {
@@ -248,6 +249,48 @@ double sag_of_hanging_sheet(int n, const ClothOptions& cloth)
     }
     const Eigen::VectorXd sunk = (x - rest.positions).col(2);
     return sunk.tail(n).mean() - sunk.head(n).mean();
+}
+
+/// An even sheet of equilateral triangles, a row of corners above the other, in the plane z = 0.
+GarmentMesh even_sheet(int across, int up)
+{
+    Positions positions(across * up, 3);
+    Triangles triangles(2 * (across - 1) * (up - 1), 3);
+    for (int j = 0; j < up; ++j)
+        for (int i = 0; i < across; ++i)
+            positions.row(j * across + i) << 0.02 * (i + 0.5 * j), 0.02 * std::sqrt(0.75) * j, 0;
+    Eigen::Index f = 0;
+    for (int j = 0; j + 1 < up; ++j)
+        for (int i = 0; i + 1 < across; ++i) {
+            const int a = j * across + i, b = a + 1, c = a + across, d = c + 1;
+            triangles.row(f++) << a, b, c;
+            triangles.row(f++) << b, d, c;
+        }
+    return { positions, triangles };
+}
+
+// The figures of an isotropic sheet of Poisson's ratio 1/3, which a triangular lattice of springs is: stretched one way and held the
+// other, it has 9/8 of Young's modulus; sheared, 3/8.
+TEST(ClothEnergy, StretchesAndShearsAsAnIsotropicSheet)
+{
+    const ClothOptions cloth;
+    const GarmentMesh rest = even_sheet(9, 7);
+    const ClothEnergy energy(rest, {}, cloth);
+    const auto modulus = [&](const Eigen::Matrix2d& strain) {
+        Positions x = rest.positions;
+        x.leftCols(2) += x.leftCols(2) * strain.transpose();
+        return 2 * energy.elastic_energy(x) / (area({ rest.positions, rest.triangles }) * 1e-6)
+            / cloth.stretch_stiffness;
+    };
+    Eigen::Matrix2d along, across, shear, turned_shear;
+    along << 1e-3, 0, 0, 0;
+    across << 0, 0, 0, 1e-3;
+    shear << 0, 1e-3, 0, 0;
+    turned_shear << 5e-4, 0, 0, -5e-4;
+    EXPECT_NEAR(modulus(along), 9. / 8, 0.01);
+    EXPECT_NEAR(modulus(across), 9. / 8, 0.01);
+    EXPECT_NEAR(modulus(shear), 3. / 8, 0.01);
+    EXPECT_NEAR(modulus(turned_shear), 3. / 8, 0.01);
 }
 
 // Tension at a distance s from the lower hem is density g s, so the hem sinks by density g L^2 / 2k. The springs of a grid
