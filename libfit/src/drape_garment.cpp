@@ -16,6 +16,8 @@
 #include "pushed_up.h"
 #include "straight_hands.h"
 #include "tightness.h"
+#include "untangle.h"
+#include "weld.h"
 
 namespace fit {
 namespace {
@@ -152,6 +154,19 @@ std::optional<double> first_size(Inflatable& inside, const GarmentMesh& garment)
     return largest_free();
 }
 
+/// The garment with its sleeves and legs pushed up, where no pairs cross each other then that did not as it was given: what lies in
+/// narrow folds may, for triangles stay flat, and mostly comes apart.
+std::optional<Positions> without_new_crossings(const PushedUp& pushed, const GarmentMesh& garment)
+{
+    const Weld weld(garment);
+    const GarmentMesh given = weld.gathered(garment);
+    const Untangled up = untangled({ weld.gathered(pushed.positions()), given.triangles });
+    const std::vector<Crossing> crossed = self_crossings({ given.positions, given.triangles });
+    if (!std::includes(crossed.begin(), crossed.end(), up.left.begin(), up.left.end()))
+        return {};
+    return weld.placed(up.positions);
+}
+
 /// How draping begins.
 struct Start {
     Positions cloth;
@@ -163,12 +178,13 @@ struct Start {
 Start start(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
             const std::vector<WornGarment>& worn, const Positions& left)
 {
-    if (const PushedUp pushed(posed(rig.skeleton, pose), garment); pushed.any()) {
-        const GarmentMesh up { pushed.positions(), garment.triangles };
-        Inflatable inside = inflatable(rig, body, pose, up, worn, left, &pushed);
-        if (const auto size = first_size(inside, up))
-            return { up.positions, std::move(inside), *size };
-    }
+    if (const PushedUp pushed(posed(rig.skeleton, pose), garment); pushed.any())
+        if (const auto positions = without_new_crossings(pushed, garment)) {
+            const GarmentMesh up { *positions, garment.triangles };
+            Inflatable inside = inflatable(rig, body, pose, up, worn, left, &pushed);
+            if (const auto size = first_size(inside, up))
+                return { up.positions, std::move(inside), *size };
+        }
     Inflatable inside = inflatable(rig, body, pose, garment, worn, left, nullptr);
     if (const auto size = first_size(inside, garment))
         return { garment.positions, std::move(inside), *size };

@@ -18,8 +18,8 @@ public:
     PushedUp(const Skeleton& joints, const GarmentMesh& garment);
 
     bool any() const;
-    /// The garment's vertices with its sleeves and legs pushed up, n x 3: along each limb a map without folds, which
-    /// lets nothing cross that did not.
+    /// The garment's vertices with its sleeves and legs pushed up, n x 3: along each limb a map without folds. What
+    /// lies in narrow folds may cross all the same, for triangles stay flat.
     const Positions& positions() const { return positions_; }
     /// Of each vertex of skin (m x 3, in the garment's pose) how far it belongs to a hand or foot that stands free now, 0 to 1.
     std::vector<double> freed(const Positions& skin, const SkinWeights& weights, const Skeleton& joints) const;

@@ -22,7 +22,7 @@ constexpr int k_smoothing_passes = 30;
 // A body that moves works its clothes loose: this share of the friction is left.
 constexpr double k_moving_friction = 0.25;
 // What still creeps at the end gets so many time steps more to come to rest.
-constexpr int k_steps_to_rest = 30;
+constexpr int k_steps_to_rest = 60;
 // With no part of the body further than this from its place (metres), a pose counts as reached on the way.
 constexpr double k_in_place = 1e-3;
 // Where cloth holds a part of the body back by this much (metres) more than at the start, there is no room for it further on: it would only
