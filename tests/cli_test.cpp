@@ -377,6 +377,24 @@ TEST_F(CommandLine, FitsSkirtAndCoatInOnePose)
 
 class Slow : public CommandLine { };
 
+TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
+{
+    const fs::path fitted = folder / "fitted", draped = folder / "draped";
+    ASSERT_EQ(run({ "fit", k_body, FIT_SAMPLES "/coat.ply", k_skirt, "--layer-order", "found", "-o", fitted }).code, 0);
+    const auto rig = nlohmann::json::parse(read_text(fitted / "rig.json"));
+    EXPECT_EQ(rig.at("garments").at(0).at("layer"), 1);
+    EXPECT_EQ(rig.at("garments").at(1).at("layer"), 0);
+    EXPECT_EQ(rig.at("fitted"), rig.at("garments").at(0).at("fitted")) << "the pose of the outermost garment";
+
+    const Ended ended = run({ "drape", fitted, "--settling-steps", "2", "--json", "-o", draped });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto report = nlohmann::json::parse(ended.out);
+    EXPECT_EQ(report.at("garments").at(0).at("file"), "coat.ply");
+    EXPECT_EQ(report.at("garments").at(0).at("layer"), 1);
+    const Ended back = run({ "recover", draped, "--recovery-settling-steps", "2", "-o", folder / "dressed" });
+    EXPECT_EQ(back.code, 0) << back.err;
+}
+
 TEST_F(Slow, WritesAsManyFramesAsAskedForAndNoneStayFromAnEarlierRun)
 {
     const fs::path result = folder / "result";
