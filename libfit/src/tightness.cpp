@@ -60,10 +60,11 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
             continue;
         Sums& s = sums[part];
         const double rest = (garment_.positions.row(i) - garment_.positions.row(j)).norm();
-        s.now += std::min(edge.norm(), (1 + k_caught) * rest);
+        const double now = std::min(edge.norm(), (1 + k_caught) * rest);
+        s.now += now;
         s.rest += rest;
         s.radius += radius(positions.row(i), skeleton_, bone);
-        s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
+        s.stretches.push_back(rest > 0 ? now / rest - 1 : 0);
     }
     std::vector<Round> result;
     for (std::size_t p = 0; p < sums.size(); ++p)
