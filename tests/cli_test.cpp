@@ -393,6 +393,12 @@ TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
     EXPECT_EQ(report.at("garments").at(0).at("layer"), 1);
     const Ended back = run({ "recover", draped, "--recovery-settling-steps", "2", "-o", folder / "dressed" });
     EXPECT_EQ(back.code, 0) << back.err;
+
+    fs::remove(draped / "coat.ply");  // as where it is too small
+    const Ended without = run({ "recover", draped, "-o", folder / "without" });
+    EXPECT_EQ(without.code, 2);
+    EXPECT_NE(without.err.find("coat.ply is missing"), std::string::npos) << without.err;
+    EXPECT_FALSE(fs::exists(folder / "without"));
 }
 
 TEST_F(Slow, WritesAsManyFramesAsAskedForAndNoneStayFromAnEarlierRun)

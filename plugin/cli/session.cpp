@@ -105,6 +105,16 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
     }
 }
 
+/// Metres, of a mesh that draping leaves where it comes to a certified state.
+Positions read_left(const Session& session, const fs::path& path)
+{
+    if (!fs::exists(path))
+        throw InvalidInput(path.string()
+                           + " is missing: draping left it out, and report.json beside it says why; drape "
+                           + "again without what is too small");
+    return session.body.frame.frame.to_metres(MeshFile::read(path).positions());
+}
+
 }  // namespace
 
 std::vector<std::string> Session::garment_names() const
@@ -170,10 +180,9 @@ void read_draped(Session& session, const fs::path& folder)
 
     std::vector<Positions> worn;
     for (const GarmentFile& garment : session.garments)
-        worn.push_back(session.body.frame.frame.to_metres(MeshFile::read(folder / garment.name()).positions()));
-    const Positions left = session.body.frame.frame.to_metres(MeshFile::read(folder / "body.ply").positions());
-    session.scene.draped = dressing_from(session.scene, session.scene.fits[outermost(session.scene.fits)].pose, left,
-                                         worn, session.garment_names());
+        worn.push_back(read_left(session, folder / garment.name()));
+    session.scene.draped = dressing_from(session.scene, session.scene.fits[outermost(session.scene.fits)].pose,
+                                         read_left(session, folder / "body.ply"), worn, session.garment_names());
 }
 
 }  // namespace fit::cli
