@@ -161,9 +161,10 @@ std::optional<Positions> without_new_crossings(const PushedUp& pushed, const Gar
     const Weld weld(garment);
     const GarmentMesh given = weld.gathered(garment);
     const Untangled up = untangled({ weld.gathered(pushed.positions()), given.triangles });
-    const std::vector<Crossing> crossed = self_crossings({ given.positions, given.triangles });
-    if (!std::includes(crossed.begin(), crossed.end(), up.left.begin(), up.left.end()))
-        return {};
+    if (!up.left.empty())
+        if (const std::vector<Crossing> crossed = self_crossings({ given.positions, given.triangles });
+            !std::includes(crossed.begin(), crossed.end(), up.left.begin(), up.left.end()))
+            return {};
     return weld.placed(up.positions);
 }
 
