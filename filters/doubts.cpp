@@ -34,25 +34,6 @@ void doubt_garment(std::vector<std::string>& doubts, const std::string& name, co
                          + " cm down: it is too wide for this body to stay where it is worn");
 }
 
-/// Where types and widths of garments say another order than they are worn in.
-void doubt_layers(std::vector<std::string>& doubts, const Scene& scene, const std::vector<std::string>& names,
-                  const HowToSet& set)
-{
-    std::vector<std::string> in_order(scene.layers_found.size());
-    bool same = true;
-    for (std::size_t i = 0; i < in_order.size(); ++i) {
-        in_order[scene.layers_found[i]] = names[i];
-        same &= scene.layers_found[i] == scene.fits[i].layer;
-    }
-    if (same)
-        return;
-    std::string order;
-    for (const std::string& name : in_order)
-        order += (order.empty() ? "" : ", ") + name;
-    doubts.push_back("the garments' types and widths say another order from the inside out: " + order
-                     + "; give them in that, or " + set("layer_order") + " found");
-}
-
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
 {
     std::ostringstream text;
@@ -75,6 +56,24 @@ std::vector<std::string> doubts_about_frame(const std::string& mesh, const Frame
     return doubts;
 }
 
+std::vector<std::string> doubts_about_layers(const Scene& scene, const std::vector<std::string>& names,
+                                             const HowToSet& set)
+{
+    bool same = true;
+    std::vector<std::string> in_order(scene.layers_found.size());
+    for (std::size_t i = 0; i < in_order.size(); ++i) {
+        in_order[scene.layers_found[i]] = names[i];
+        same &= scene.layers_found[i] == scene.fits[i].layer;
+    }
+    if (same)
+        return {};
+    std::string order;
+    for (const std::string& name : in_order)
+        order += (order.empty() ? "" : ", ") + name;
+    return { "the garments' types and widths say another order from the inside out: " + order
+             + "; give them in that, or " + set("layer_order") + " found" };
+}
+
 std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::vector<std::string>& names)
 {
     std::vector<std::string> doubts;
@@ -82,7 +81,8 @@ std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::v
         doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
                          + " mm/s); give more settling steps");
     const auto is_too_small = [&](std::size_t i) {
-        return std::any_of(end.too_tight.begin(), end.too_tight.end(),
+        return (i == end.outermost && end.size_reached < 1)
+            || std::any_of(end.too_tight.begin(), end.too_tight.end(),
                            [&](const TooTight& part) { return part.garment == int(i); });
     };
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -109,7 +109,8 @@ std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vecto
         doubts.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         doubt_type(doubts, names[i], scene.fits[i], set);
-    doubt_layers(doubts, scene, names, set);
+    const std::vector<std::string> layers = doubts_about_layers(scene, names, set);
+    doubts.insert(doubts.end(), layers.begin(), layers.end());
     if (const Dressing* end = final_dressing(scene)) {
         const std::vector<std::string> more = doubts_about_dressing(*end, names);
         doubts.insert(doubts.end(), more.begin(), more.end());

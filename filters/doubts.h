@@ -21,6 +21,10 @@ using HowToSet = std::function<std::string(std::string_view parameter)>;
 std::vector<std::string> doubts_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
                                             const HowToSet& set);
 
+/// Where types and widths of garments say another order than they are worn in.
+std::vector<std::string> doubts_about_layers(const Scene& scene, const std::vector<std::string>& names,
+                                             const HowToSet& set);
+
 /// Of how the garments ended up: where cloth is overstretched, moves still, slipped, crosses itself as it was given.
 std::vector<std::string> doubts_about_dressing(const Dressing& dressing, const std::vector<std::string>& names);
 

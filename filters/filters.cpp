@@ -149,7 +149,7 @@ Dressing dressing_of(const DrapeResult& result, const Pose& pose)
 }
 
 /// Moves a dressed body to another pose. Where that ends in a state that is not clean, the start is the answer.
-/// @param worn  which of the scene's garments the dressing has
+/// @param worn  which of the scene's garments those of the dressing are; more may follow
 Dressing moved(const Scene& scene, const Dressing& from, const std::vector<std::size_t>& worn, const Pose& to,
                const RecoverOptions& options, const Progress& progress)
 {
@@ -231,11 +231,22 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     scene.draped = among_all(dressing, order, order.size());
 }
 
+/// Fits that nobody handed on leave the garments as they were given.
+std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
+{
+    std::vector<std::size_t> worn = scene.draped->worn();
+    if (scene.fits.size() == scene.garments.size())
+        std::stable_sort(worn.begin(), worn.end(),
+                         [&](std::size_t a, std::size_t b) { return scene.fits[a].layer < scene.fits[b].layer; });
+    return worn;
+}
+
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    const std::vector<std::size_t> worn = scene.draped->worn();
+    const std::vector<std::size_t> worn = worn_from_inside_out(scene);
     Dressing recovered = moved(scene, only(*scene.draped, worn), worn, Pose(), p.recover, progress);
     measure(scene, recovered, p.recover.cloth);
+    recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
 }
 
@@ -297,9 +308,9 @@ std::vector<std::size_t> Dressing::worn() const
 
 std::size_t outermost(const std::vector<FitResult>& fits)
 {
-    return std::max_element(fits.begin(), fits.end(),
-                            [](const FitResult& a, const FitResult& b) { return a.layer < b.layer; })
-        - fits.begin();
+    const auto last = std::max_element(fits.rbegin(), fits.rend(),
+                                       [](const FitResult& a, const FitResult& b) { return a.layer < b.layer; });
+    return fits.rend() - last - 1;
 }
 
 const std::vector<Filter>& filters()

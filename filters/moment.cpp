@@ -88,6 +88,7 @@ Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& le
     require_same_count(scene.body->surface.positions, left, "the body");
     Dressing dressing;
     dressing.pose = pose;
+    dressing.outermost = scene.fits.size() == worn.size() ? outermost(scene.fits) : worn.size() - 1;
     dressing.body = as_left(skinned(scene, pose), left);
     for (std::size_t i = 0; i < worn.size(); ++i) {
         const GarmentMesh& rest = scene.garments[i].mesh;

@@ -15,21 +15,14 @@ namespace {
 
 constexpr std::size_t k_named = 3;  // parts of the body, in one line
 
-std::string tight_parts(const Dressing& dressing)
+/// Of the garment that is named first.
+std::vector<TooTight> tight_parts(const Dressing& dressing)
 {
-    std::ostringstream text;
-    for (const TooTight& tight : dressing.too_tight)
-        text << (text.tellp() > 0 ? ", " : "") << tight.part << " by " << std::lround(1000 * tight.missing_girth)
-             << " mm";
-    return text.str();
-}
-
-double largest_enlargement(const Dressing& dressing)
-{
-    double largest = 0;
-    for (const TooTight& tight : dressing.too_tight)
-        largest = std::max(largest, tight.enlargement);
-    return largest;
+    std::vector<TooTight> parts;
+    for (const TooTight& part : dressing.too_tight)
+        if (part.garment == dressing.too_tight.front().garment)
+            parts.push_back(part);
+    return parts;
 }
 
 std::string held_parts(const Dressing& dressing)
@@ -54,16 +47,21 @@ std::string entered_parts(const Dressing& dressing)
 
 std::string why_too_small(const Dressing& end, const std::vector<std::string>& names)
 {
-    const std::string parts = tight_parts(end);
+    const std::vector<TooTight> parts = tight_parts(end);
     std::ostringstream text;
-    text << names[parts.empty() ? end.outermost : end.too_tight.front().garment] << " is too small"
-         << (parts.empty() ? "" : " at " + parts);
+    text << names[parts.empty() ? end.outermost : parts.front().garment] << " is too small";
+    double enlargement = 0;
+    for (const TooTight& part : parts) {
+        text << (enlargement > 0 ? ", " : " at ") << part.part << " by " << std::lround(1000 * part.missing_girth)
+             << " mm";
+        enlargement = std::max(enlargement, part.enlargement);
+    }
     if (end.size_reached < 1)
         text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
     else
         text << " for the body's own pose";
     if (!parts.empty())
-        text << "; a garment " << std::ceil(100 * largest_enlargement(end)) << "% larger would lie there unstretched";
+        text << "; a garment " << std::ceil(100 * enlargement) << "% larger would lie there unstretched";
     return text.str();
 }
 

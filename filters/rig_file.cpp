@@ -247,7 +247,7 @@ RigFile rig_file_of(const Json& json)
 
 const FittedGarment& outermost(const std::vector<FittedGarment>& garments)
 {
-    return *std::max_element(garments.begin(), garments.end(),
+    return *std::max_element(garments.rbegin(), garments.rend(),
                              [](const FittedGarment& a, const FittedGarment& b) { return a.fit.layer < b.fit.layer; });
 }
 

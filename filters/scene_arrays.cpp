@@ -260,11 +260,13 @@ std::vector<FitResult> fits_from(const FindArray& find)
 {
     constexpr const char* k_fit_first = "connect the body that Fit Skeleton made";
     const Rows poses = required(find, "FitPoses", -1, k_pose_columns, k_fit_first);
-    const Rows layers = required(find, "FitLayers", poses.rows(), 1, k_fit_first);
+    Rows layers = Rows::Zero(poses.rows(), 1);  // files of programs that know none: from the inside out
+    if (find("FitLayers"))
+        layers = required(find, "FitLayers", poses.rows(), 1, k_fit_first);
     std::vector<FitResult> fits(poses.rows());
     for (std::size_t i = 0; i < fits.size(); ++i) {
         fits[i].pose = pose_of(poses.row(Eigen::Index(i)));
-        fits[i].layer = int(layers(Eigen::Index(i), 0));
+        fits[i].layer = int(std::clamp(layers(Eigen::Index(i), 0), 0., double(fits.size())));
     }
     return fits;
 }

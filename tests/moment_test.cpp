@@ -71,6 +71,20 @@ TEST_F(Moments, GoOnFromGarmentsAsTheyAreWornIfTheyAreTheSame)
     expect_invalid([&] { dressing_from(scene, {}, own.topRows(3), { worn() }, { "sheet" }); }, "the body");
 }
 
+TEST_F(Moments, GoOnWithTheOutermostGarmentWhereverItWasGiven)
+{
+    scene.garments.push_back(scene.garments[0]);
+    const std::vector<Positions> both { worn(), worn() };
+    const auto outermost_now = [&] {
+        return dressing_from(scene, {}, scene.body->surface.positions, both, { "sheet", "cloth" }).outermost;
+    };
+    EXPECT_EQ(outermost_now(), 1u) << "nothing else known";
+    scene.fits.resize(2);
+    EXPECT_EQ(outermost_now(), 1u) << "as given where layers are the same";
+    scene.fits[0].layer = 1;
+    EXPECT_EQ(outermost_now(), 0u);
+}
+
 TEST_F(Moments, GoOnFromABodyThatClothHeldBack)
 {
     const Positions& own = scene.body->surface.positions;

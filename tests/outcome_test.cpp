@@ -30,6 +30,17 @@ TEST(DressingOutcome, NamesThePartsAtWhichAGarmentIsTooSmall)
               "there unstretched");
 }
 
+TEST(DressingOutcome, NamesTheGarmentThatIsTightestAndItsOwnParts)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->too_tight = { { 1, "chest", 0.031, 0.034 }, { 0, "waist", 0.02, 0.5 }, { 1, "waist", 0.01, 0.04 } };
+    EXPECT_EQ(
+        explain(*final_dressing(scene), { "coat", "shirt" }),
+        "shirt is too small at chest by 31 mm, waist by 10 mm for the body's own pose; a garment 4% larger would lie "
+        "there unstretched");
+}
+
 TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)
 {
     Scene scene = draped_scene();

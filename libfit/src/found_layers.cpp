@@ -32,7 +32,7 @@ struct Layer {
     PerPart widths;
 };
 
-/// How much wider than the body a garment is, part by part; 0 where it is not.
+/// How much wider than the body a garment is, part by part; 0 where it has no cloth.
 PerPart widths(const Rig& rig, const Positions& body, const GarmentMesh& garment, const FitResult& fit)
 {
     const Positions posed_body = skin(body, rig.weights, bone_transforms(rig.skeleton, fit.pose));

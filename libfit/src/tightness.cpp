@@ -60,11 +60,10 @@ std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) cons
             continue;
         Sums& s = sums[part];
         const double rest = (garment_.positions.row(i) - garment_.positions.row(j)).norm();
-        const double now = std::min(edge.norm(), (1 + k_caught) * rest);
-        s.now += now;
+        s.now += std::min(edge.norm(), (1 + k_caught) * rest);
         s.rest += rest;
         s.radius += radius(positions.row(i), skeleton_, bone);
-        s.stretches.push_back(rest > 0 ? now / rest - 1 : 0);
+        s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
     }
     std::vector<Round> result;
     for (std::size_t p = 0; p < sums.size(); ++p)
@@ -104,7 +103,7 @@ std::vector<TooTight> Tightness::too_tight_at_rest(const Positions& positions, d
     std::vector<TooTight> result;
     for (const Round& round : rounds(positions))
         if (round.tightest > allowed)
-            result.push_back(missing(round, round.tightest, 0));
+            result.push_back(missing(round, std::min(round.tightest, k_caught), 0));
     return worst_first(result);
 }
 

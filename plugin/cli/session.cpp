@@ -109,9 +109,8 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
 Positions read_left(const Session& session, const fs::path& path)
 {
     if (!fs::exists(path))
-        throw InvalidInput(path.string()
-                           + " is missing: draping left it out, and report.json beside it says why; drape "
-                           + "again without what is too small");
+        throw InvalidInput(path.string() + " is missing: draping left it out, and report.json beside it says why; "
+                           + "mend that and drape again");
     return session.body.frame.frame.to_metres(MeshFile::read(path).positions());
 }
 

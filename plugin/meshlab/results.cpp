@@ -123,7 +123,7 @@ private:
         for (const RecoverFrame& frame : dressing.frames) {
             const std::string suffix = ", " + std::to_string(percent(frame.share)) + "% of the way";
             add_body(fitting_->body_name + suffix, frame.body);
-            for (std::size_t i = 0; i < frame.garments.size(); ++i)
+            for (const std::size_t i : dressing.worn())
                 add_garment(i, suffix, frame.garments[i]);
         }
     }

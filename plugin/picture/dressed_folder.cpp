@@ -199,6 +199,16 @@ bool is_fit_folder(const fs::path& folder)
     return !is_rig_folder(folder) && read_json(folder / "report.json").at("command") == "fit";
 }
 
+/// @param garments  of rig.json; without layers they stand there from the inside out
+const Json& outermost(const Json& garments)
+{
+    const Json* result = &garments.at(0);
+    for (const Json& garment : garments)
+        if (garment.value("layer", 0) >= result->value("layer", 0))
+            result = &garment;
+    return *result;
+}
+
 std::vector<FittedGarment> read_fit_folder(const fs::path& folder)
 {
     const Json rig = read_json(folder / "rig.json"), report = read_json(folder / "report.json");
@@ -224,7 +234,7 @@ DressedFolder read_dressed_folder(const fs::path& folder)
 
     DressedFolder read;
     read.own = { read_mesh(folder / "rigged.ply", frame), {}, front };
-    read.given.front = fitted_front(rig, rig.at("garments").back(), frame);
+    read.given.front = fitted_front(rig, outermost(rig.at("garments")), frame);
     for (const Json& garment : rig.at("garments"))
         read.given.garments.push_back(
             read_mesh(folder / "rest" / garment.at("file").get<std::string>(), frame_of(garment)));

@@ -33,7 +33,7 @@ constexpr double k_at_rest = 0.02;
 
 /// Where a garment is too small.
 struct TooTight {
-    int garment;  ///< which, from the inside out
+    int garment;  ///< which: from the inside out, as all of libfit counts them
     std::string part;  ///< "chest", "waist", "hips", "left thigh", ...
     double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
     double enlargement;  ///< share by which the garment would have to be larger for that

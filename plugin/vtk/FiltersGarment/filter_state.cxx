@@ -66,8 +66,10 @@ void FilterState::forget_from(Stage stage)
 {
     if (stage <= Stage::rig && filter.makes(Data::rig))
         known_.scene.rig.reset();
-    if (stage <= Stage::fit && filter.makes(Data::fits))
+    if (stage <= Stage::fit && filter.makes(Data::fits)) {
         known_.scene.fits.clear();
+        known_.scene.layers_found.clear();
+    }
     if (stage <= Stage::drape && filter.makes(Data::draped))
         known_.scene.draped.reset();
     known_.scene.recovered.reset();
@@ -79,7 +81,10 @@ std::vector<double> FilterState::numbers_of(Stage stage) const
     const Parameters& p = parameters;
     switch (stage) {
     case Stage::rig: describe(p.rig, numbers); break;
-    case Stage::fit: describe(p.fit, numbers); break;
+    case Stage::fit:
+        describe(p.fit, numbers);
+        describe_layers(p.layer_order, numbers);
+        break;
     case Stage::drape:
         describe(p.drape, numbers);
         if (known_.scene.garments.size() > 1)
@@ -151,10 +156,13 @@ Moment FilterState::moment(double time) const { return moment_of(known_.scene, t
 
 std::vector<std::string> FilterState::warnings() const
 {
+    const auto set = [](std::string_view parameter) { return "set " + std::string(parameter); };
+    std::vector<std::string> lines = doubts_about_layers(known_.scene, known_.garment_names, set);
     const Dressing* dressing = final_dressing(known_.scene);
     if (!dressing)
-        return {};
-    std::vector<std::string> lines = doubts_about_dressing(*dressing, known_.garment_names);
+        return lines;
+    const std::vector<std::string> doubts = doubts_about_dressing(*dressing, known_.garment_names);
+    lines.insert(lines.end(), doubts.begin(), doubts.end());
     if (!dressing->certified)
         lines.insert(lines.begin(), explain(*dressing, known_.garment_names));
     return lines;

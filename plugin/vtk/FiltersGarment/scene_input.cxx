@@ -56,7 +56,7 @@ KnownScene rigged_body(const Filter& filter, vtkPolyData& body)
     known.body_frame = body_frame_from(find);
     set_body(known, mesh_at(body, k_own_position, "the body"));
     known.scene.rig = rig_from(find, known.scene.body->surface.positions);
-    if (filter.reads(Data::fits))
+    if (filter.reads(Data::fits) || (filter.reads(Data::draped) && find("FitPoses")))
         known.scene.fits = fits_from(find);
     return known;
 }

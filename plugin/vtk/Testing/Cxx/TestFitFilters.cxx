@@ -320,6 +320,23 @@ TEST(RigBody, TakesJointsThatTheUserKnowsAndSpeaksTheBodysUnits)
     EXPECT_EQ(number(polydata(*rig, 0), "BodyFrame"), 0.1);
 }
 
+TEST(FitSkeleton, FindsLayersAnewWhereTheirOrderIsAskedFor)
+{
+    vtkNew<vtkMultiBlockDataSet> layers;
+    layers->SetBlock(0, shorts(0.04));
+    layers->SetBlock(1, shorts(0.015));
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(body());
+    vtkNew<vtkFitSkeleton> fit;
+    fit->SetInputConnection(0, rig->GetOutputPort());
+    fit->SetInputData(1, layers);
+    fit->Update();
+    EXPECT_EQ(number(polydata(*fit, 0), "FitLayers"), 0) << "as given";
+    fit->SetLayerOrderByName("found");
+    fit->Update();
+    EXPECT_EQ(number(polydata(*fit, 0), "FitLayers"), 1) << "the wider one";
+}
+
 TEST(DressBody, PutsOnLayersOfACompositeAndGivesThemBackAsOne)
 {
     vtkNew<vtkMultiBlockDataSet> layers;
