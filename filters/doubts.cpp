@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/doubts.h"
+#include "garmentfit/filters/doubts.h"
 
 #include <cmath>
 #include <sstream>
 
-#include "filters/outcome.h"
+#include "garmentfit/filters/outcome.h"
 
 namespace fit {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/filters.h"
+#include "garmentfit/filters/filters.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
 
-#include "filters/outcome.h"
-#include "fit/stopwatch.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/stopwatch.h"
 
 namespace fit {
 namespace {

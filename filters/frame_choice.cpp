@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/frame_choice.h"
+#include "garmentfit/filters/frame_choice.h"
 
 namespace fit {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/joint_names.h"
+#include "garmentfit/filters/joint_names.h"
 
 #include <string>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/moment.h"
+#include "garmentfit/filters/moment.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "filters/outcome.h"
-#include "fit/error.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/error.h"
 
 namespace fit {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/outcome.h"
+#include "garmentfit/filters/outcome.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "fit/units.h"
+#include "garmentfit/units.h"
 
 namespace fit {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/own_rig.h"
+#include "garmentfit/filters/own_rig.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit {
 namespace {

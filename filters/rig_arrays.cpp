@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/rig_arrays.h"
+#include "garmentfit/filters/rig_arrays.h"
 
 #include <cmath>
 #include <string>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/rig_file.h"
+#include "garmentfit/filters/rig_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "filters/joint_names.h"
-#include "fit/error.h"
-#include "fit/io.h"
+#include "garmentfit/filters/joint_names.h"
+#include "garmentfit/error.h"
+#include "garmentfit/io.h"
 
 namespace fit {
 namespace {

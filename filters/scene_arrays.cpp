@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filters/scene_arrays.h"
+#include "garmentfit/filters/scene_arrays.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "filters/doubts.h"
-#include "filters/joint_names.h"
-#include "filters/outcome.h"
-#include "filters/own_rig.h"
-#include "fit/error.h"
+#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/joint_names.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/error.h"
 
 namespace fit {
 namespace {

@@ -14,10 +14,10 @@
 
 #include <gtest/gtest.h>
 
-#include "fit/error.h"
-#include "fit/mesh.h"
-#include "fit/skeleton.h"
-#include "fit/types.h"
+#include "garmentfit/error.h"
+#include "garmentfit/mesh.h"
+#include "garmentfit/skeleton.h"
+#include "garmentfit/types.h"
 
 namespace fit::fixtures {
 

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "filters/filters.h"
+#include "garmentfit/filters/filters.h"
 #include "session.h"
 
 namespace fit::cli {

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <unistd.h>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit::cli {
 namespace {

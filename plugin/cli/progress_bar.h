@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "fit/progress.h"
+#include "garmentfit/progress.h"
 
 namespace fit::cli {
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/global_control.h>
 
-#include "filters/outcome.h"
-#include "fit/units.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/units.h"
 
 namespace fit::cli {
 namespace {

@@ -8,12 +8,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "filters/doubts.h"
-#include "filters/outcome.h"
-#include "filters/rig_file.h"
-#include "fit/animated_gltf.h"
-#include "fit/io.h"
-#include "fit/skinned_gltf.h"
+#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/rig_file.h"
+#include "garmentfit/animated_gltf.h"
+#include "garmentfit/io.h"
+#include "garmentfit/skinned_gltf.h"
 
 namespace fit::cli {
 namespace {

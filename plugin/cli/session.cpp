@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "filters/moment.h"
-#include "filters/own_rig.h"
-#include "filters/rig_file.h"
-#include "fit/error.h"
-#include "fit/reconstruct.h"
-#include "fit/skinned_gltf.h"
-#include "fit/stopwatch.h"
+#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/rig_file.h"
+#include "garmentfit/error.h"
+#include "garmentfit/reconstruct.h"
+#include "garmentfit/skinned_gltf.h"
+#include "garmentfit/stopwatch.h"
 
 namespace fit::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "filters/filters.h"
-#include "filters/frame_choice.h"
-#include "fit/io.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/io.h"
 
 namespace fit::cli {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "filters/filters.h"
-#include "filters/frame_choice.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/frame_choice.h"
 #include "host_api.h"
 #include "menu.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "fields.h"
-#include "filters/frame_choice.h"
-#include "fit/units.h"
+#include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/units.h"
 #include "fitting.h"
 #include "layers.h"
 

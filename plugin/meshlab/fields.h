@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "filters/schema.h"
+#include "garmentfit/filters/schema.h"
 #include "host_api.h"
 #include "menu.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <mutex>
 
-#include "filters/own_rig.h"
+#include "garmentfit/filters/own_rig.h"
 
 namespace fit::meshlab {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "filters/filters.h"
-#include "filters/rig_file.h"
-#include "fit/units.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/rig_file.h"
+#include "garmentfit/units.h"
 #include "host_api.h"
 
 namespace fit::meshlab {

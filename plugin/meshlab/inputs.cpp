@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inputs.h"
 
-#include "filters/doubts.h"
-#include "filters/frame_choice.h"
+#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/frame_choice.h"
 #include "layers.h"
 
 namespace fit::meshlab {

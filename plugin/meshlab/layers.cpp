@@ -8,7 +8,7 @@
 #include <vcg/complex/algorithms/update/color.h>
 #include <vcg/complex/append.h>
 
-#include "filters/scene_arrays.h"
+#include "garmentfit/filters/scene_arrays.h"
 
 namespace fit::meshlab {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "fit/error.h"
-#include "fit/skeleton.h"
-#include "fit/types.h"
+#include "garmentfit/error.h"
+#include "garmentfit/skeleton.h"
+#include "garmentfit/types.h"
 #include "host_api.h"
 
 namespace fit::meshlab {

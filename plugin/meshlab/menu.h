@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "filters/filters.h"
+#include "garmentfit/filters/filters.h"
 
 namespace fit::meshlab {
 

@@ -4,8 +4,8 @@
 #include <iomanip>
 #include <sstream>
 
-#include "filters/doubts.h"
-#include "filters/outcome.h"
+#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/outcome.h"
 
 namespace fit::meshlab {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fit/fit_map.h"
+#include "garmentfit/fit_map.h"
 #include "fitting.h"
 
 namespace fit::meshlab {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results.h"
 
-#include "filters/outcome.h"
-#include "filters/rig_arrays.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/rig_arrays.h"
 #include "layers.h"
 
 namespace fit::meshlab {

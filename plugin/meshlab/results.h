@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "choice.h"
-#include "fit/fit_map.h"
+#include "garmentfit/fit_map.h"
 #include "fitting.h"
 
 namespace fit::meshlab {

@@ -4,10 +4,10 @@
 #include <chrono>
 
 #include "choice.h"
-#include "filters/outcome.h"
-#include "filters/rig_file.h"
-#include "fit/certificate.h"
-#include "fit/fit_map.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/rig_file.h"
+#include "garmentfit/certificate.h"
+#include "garmentfit/fit_map.h"
 #include "inputs.h"
 #include "layers.h"
 #include "results.h"

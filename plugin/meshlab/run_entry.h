@@ -3,7 +3,7 @@
 
 // One filter, from layers in to layers out.
 
-#include "fit/progress.h"
+#include "garmentfit/progress.h"
 #include "host_api.h"
 #include "menu.h"
 #include "report.h"

@@ -9,8 +9,8 @@
 #include <iostream>
 #include <string>
 
-#include "filters/filters.h"
-#include "filters/frame_choice.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/frame_choice.h"
 
 namespace {
 

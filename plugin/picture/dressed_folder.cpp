@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fit/error.h"
-#include "fit/io.h"
-#include "fit/skeleton.h"
-#include "fit/units.h"
+#include "garmentfit/error.h"
+#include "garmentfit/io.h"
+#include "garmentfit/skeleton.h"
+#include "garmentfit/units.h"
 
 namespace fit::picture {
 namespace {

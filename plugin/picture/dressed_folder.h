@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/types.h"
+#include "garmentfit/types.h"
 
 namespace fit::picture {
 

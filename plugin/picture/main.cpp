@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "dressed_folder.h"
-#include "fit/error.h"
+#include "garmentfit/error.h"
 #include "panels.h"
 
 namespace {

@@ -15,9 +15,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "fit/error.h"
-#include "fit/io.h"
-#include "fit/reconstruct.h"
+#include "garmentfit/error.h"
+#include "garmentfit/io.h"
+#include "garmentfit/reconstruct.h"
 #include "plugin/cli/program.h"
 #include "python_results.h"
 #include "python_scene.h"

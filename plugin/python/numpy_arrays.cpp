@@ -6,7 +6,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 
 namespace fit::python {
 namespace {

@@ -10,8 +10,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include "filters/scene_arrays.h"
-#include "fit/types.h"
+#include "garmentfit/filters/scene_arrays.h"
+#include "garmentfit/types.h"
 
 namespace fit::python {
 

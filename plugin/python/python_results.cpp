@@ -3,8 +3,8 @@
 
 #include <nanobind/stl/string.h>
 
-#include "filters/doubts.h"
-#include "filters/outcome.h"
+#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/outcome.h"
 
 namespace fit::python {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "filters/moment.h"
+#include "garmentfit/filters/moment.h"
 #include "python_scene.h"
 
 namespace fit::python {

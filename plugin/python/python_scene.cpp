@@ -3,11 +3,11 @@
 
 #include <nanobind/stl/string.h>
 
-#include "filters/frame_choice.h"
-#include "filters/joint_names.h"
-#include "filters/moment.h"
-#include "filters/outcome.h"
-#include "fit/error.h"
+#include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/filters/joint_names.h"
+#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/error.h"
 
 namespace fit::python {
 namespace {

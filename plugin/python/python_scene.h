@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "filters/filters.h"
-#include "fit/units.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/units.h"
 #include "numpy_arrays.h"
 
 namespace fit::python {

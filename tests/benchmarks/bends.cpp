@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "fit/error.h"
-#include "fit/io.h"
-#include "fit/rig_body.h"
+#include "garmentfit/error.h"
+#include "garmentfit/io.h"
+#include "garmentfit/rig_body.h"
 
 namespace {
 

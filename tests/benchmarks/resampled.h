@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "../../libfit/src/cgal_mesh.h"
-#include "fit/mesh.h"
+#include "cgal_mesh.h"
+#include "garmentfit/mesh.h"
 
 namespace fit {
 

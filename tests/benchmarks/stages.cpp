@@ -6,11 +6,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "fit/drape_garment.h"
-#include "fit/fit_skeleton.h"
-#include "fit/io.h"
-#include "fit/recover_pose.h"
-#include "fit/rig_body.h"
+#include "garmentfit/drape_garment.h"
+#include "garmentfit/fit_skeleton.h"
+#include "garmentfit/io.h"
+#include "garmentfit/recover_pose.h"
+#include "garmentfit/rig_body.h"
 #include "resampled.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 // The smallest program that uses the installed package.
 
-#include "fit/skeleton.h"
+#include "garmentfit/skeleton.h"
 
 int main()
 {

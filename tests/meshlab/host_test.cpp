@@ -19,8 +19,8 @@
 #include <common/pluginmanager.h>
 
 #include "../temporary_folder.h"
-#include "filters/filters.h"
-#include "fit/io.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/io.h"
 #include "open_layer.h"
 
 namespace {

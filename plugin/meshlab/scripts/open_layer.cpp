@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "open_layer.h"
 
-#include "fit/io.h"
+#include "garmentfit/io.h"
 
 namespace fit::meshlab {
 

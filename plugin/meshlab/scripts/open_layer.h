@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "fit/types.h"
+#include "garmentfit/types.h"
 #include "host_api.h"
 
 namespace fit::meshlab {

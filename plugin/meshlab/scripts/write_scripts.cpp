@@ -16,7 +16,7 @@
 #include <common/filterscript.h>
 #include <common/pluginmanager.h>
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 #include "open_layer.h"
 
 namespace {

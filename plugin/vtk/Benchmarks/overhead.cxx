@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "filters/filters.h"
-#include "fit/io.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/io.h"
 #include "polydata_of.h"
 #include "resampled.h"
 

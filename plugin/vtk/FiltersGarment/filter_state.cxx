@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_state.h"
 
-#include "filters/doubts.h"
-#include "filters/outcome.h"
+#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/outcome.h"
 
 #include "vtkDataObject.h"
 #include "vtkPolyData.h"

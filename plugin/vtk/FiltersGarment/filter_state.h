@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "filters/filters.h"
-#include "filters/moment.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/moment.h"
 #include "known_scene.h"
 #include "scene_input.h"
 

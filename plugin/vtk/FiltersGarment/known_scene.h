@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "filters/filters.h"
-#include "fit/units.h"
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/units.h"
 
 namespace fit {
 

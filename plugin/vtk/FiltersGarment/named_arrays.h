@@ -5,7 +5,7 @@
 #ifndef named_arrays_h
 #define named_arrays_h
 
-#include "filters/scene_arrays.h"
+#include "garmentfit/filters/scene_arrays.h"
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "filters/filters.h"
+#include "garmentfit/filters/filters.h"
 
 namespace fit {
 

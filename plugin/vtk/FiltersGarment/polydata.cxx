@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "polydata.h"
 
-#include "fit/error.h"
+#include "garmentfit/error.h"
 #include "named_arrays.h"
 
 #include "vtkCellArray.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "fit/fit_skeleton.h"
-#include "fit/types.h"
-#include "fit/units.h"
+#include "garmentfit/fit_skeleton.h"
+#include "garmentfit/types.h"
+#include "garmentfit/units.h"
 
 class vtkDataObject;
 class vtkPolyData;

@@ -3,9 +3,9 @@
 
 #include <sstream>
 
-#include "filters/joint_names.h"
-#include "filters/moment.h"
-#include "filters/scene_arrays.h"
+#include "garmentfit/filters/joint_names.h"
+#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/scene_arrays.h"
 #include "named_arrays.h"
 #include "polydata.h"
 

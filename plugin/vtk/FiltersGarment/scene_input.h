@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "filters/frame_choice.h"
+#include "garmentfit/filters/frame_choice.h"
 #include "known_scene.h"
 
 class vtkDataObject;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_output.h"
 
-#include "filters/outcome.h"
-#include "filters/scene_arrays.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/scene_arrays.h"
 #include "named_arrays.h"
 #include "polydata.h"
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "filters/moment.h"
+#include "garmentfit/filters/moment.h"
 #include "known_scene.h"
 
 class vtkPolyData;

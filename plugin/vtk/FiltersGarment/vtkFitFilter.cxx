@@ -2,7 +2,7 @@
 #include "vtkFitFilter.h"
 
 #include "filter_state.h"
-#include "fit/error.h"
+#include "garmentfit/error.h"
 #include "named_parameters.h"
 #include "scene_output.h"
 

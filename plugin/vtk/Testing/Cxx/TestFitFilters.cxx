@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "filters/filters.h"
+#include "garmentfit/filters/filters.h"
 #include "fixtures.h"
 #include "polydata_of.h"
 

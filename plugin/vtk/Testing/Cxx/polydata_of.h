@@ -5,7 +5,7 @@
 #ifndef polydata_of_h
 #define polydata_of_h
 
-#include "fit/mesh.h"
+#include "garmentfit/mesh.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The table of filters that every host shows: command line, and whatever else wants to be one.
+//
+// A filter reads parts of a Scene and fills others. A host puts its meshes into the scene, its widgets into Parameters,
+// calls run, and takes out what `outputs` names. Metres, +y up, as everywhere in libfit.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "garmentfit/filters/schema.h"
+#include "garmentfit/fit_map.h"
+#include "garmentfit/layer_order.h"
+
+namespace fit {
+
+enum class Stage { rig, fit, drape, recover };
+constexpr int k_stage_count = 4;
+/// "rig", "fit", "drape", "recover".
+std::string_view name_of(Stage stage);
+
+/// The options of all stages; a filter shows those of the stages it runs.
+struct Parameters {
+    RigOptions rig;
+    FitOptions fit;  ///< its type holds for garments that bring none
+    LayerOrder layer_order = LayerOrder::given;
+    DrapeOptions drape;
+    RecoverOptions recover;  ///< its cloth counts only where draping is not part of the filter
+};
+
+struct GarmentInput {
+    GarmentMesh mesh;
+    GarmentType type = GarmentType::automatic;
+    std::string name = {};  ///< to tell it from others in messages, or empty
+};
+
+/// Garments on the body, in one pose.
+struct Dressing {
+    std::vector<WornGarment> garments;  ///< one for each of the scene's; without positions where it is not worn
+    Positions body;  ///< of the user's vertices
+    Pose pose;
+    std::size_t outermost = 0;  ///< which garment was put on last, or was to be
+    double size_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
+    double pose_reached = 1;  ///< of the last way between two poses
+    std::vector<TooTight> too_tight;
+    std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
+    std::vector<Overlap> overlaps;  ///< where the body leaves it none, in that pose
+    std::optional<double>
+        speed;  ///< m/s, of the fastest vertex of the cloth at the end; none where it was not let settle
+    ClothSeconds seconds;  ///< of all motions that led here
+    bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
+    std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
+    int frames_asked = 0;  ///< how many those would be if all were certified and the whole way was gone
+    std::vector<FitMap> maps;  ///< of each garment that is worn, as the next two
+    std::vector<std::vector<Girth>> girths;  ///< of garment and body under it
+    std::vector<Overstretch> overstretches;
+
+    bool is_worn(std::size_t garment) const
+    {
+        return garment < garments.size() && garments[garment].positions.rows() > 0;
+    }
+    /// Which garments are.
+    std::vector<std::size_t> worn() const;
+};
+
+struct Scene {
+    std::optional<BodyMesh> body;
+    std::vector<GarmentInput> garments;
+    std::optional<Rig> rig;
+    std::vector<FitResult> fits;  ///< one for each garment
+    std::vector<int> layers_found;  ///< of several garments: the layer of each by type and width
+    std::optional<bool> one_pose;  ///< of several garments: whether all fits turn the bones alike; by the fast method
+    std::vector<FitConflict> conflicts;  ///< why they do not
+    std::optional<Dressing> draped;  ///< in the pose of the outermost garment's fit
+    std::optional<Dressing> recovered;  ///< in the body's own pose
+    std::array<double, k_stage_count> seconds {};  ///< wall clock spent in each stage
+};
+
+/// Which garment goes over all others.
+std::size_t outermost(const std::vector<FitResult>& fits);
+
+/// What a filter reads and makes; a host's ports.
+enum class Data { body, garments, rig, fits, draped, recovered };
+
+struct Filter {
+    std::string_view name;  ///< "dress": a command, a method
+    std::string_view label;  ///< "Dress Body": a menu entry
+    std::string_view help;
+    std::vector<Data> inputs;
+    std::vector<Data> outputs;
+    std::vector<Stage> stages;  ///< run one after another
+
+    bool has(Stage stage) const;
+    bool reads(Data data) const;
+    bool makes(Data data) const;
+    /// The same while a garment is put on and while its wearer moves, where the filter does both.
+    const ClothOptions& cloth(const Parameters& parameters) const;
+
+    /// Checks inputs and ranges, then fills the outputs of each stage. Draping is the last one when not all
+    /// could be put on.
+    /// @throws InvalidInput, SolverFailure, Cancelled; outputs of the stages before it stay in the scene.
+    void run(Scene& scene, const Parameters& parameters, const Progress& progress = {}) const;
+};
+
+/// Rig Body, Fit Skeleton, Drape Garment, Recover Pose, Dress Body.
+const std::vector<Filter>& filters();
+/// @throws InvalidInput listing the names.
+const Filter& filter_of(std::string_view name);
+
+/// The parameters of one filter, each once.
+template <class AnyParameters, class Visitor, IfOptionsOf<AnyParameters, Parameters>* = nullptr>
+void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
+{
+    if (filter.has(Stage::rig))
+        describe(p.rig, visit);
+    if (filter.has(Stage::fit)) {
+        describe(p.fit, visit);
+        describe_layers(p.layer_order, visit);
+    }
+    if (filter.has(Stage::drape)) {
+        describe(p.drape, visit);
+        describe_way(p.recover, visit);  // garments already worn move on to the pose of the next one
+        if (filter.has(Stage::recover))
+            describe_frames(p.recover, visit);
+    } else if (filter.has(Stage::recover)) {
+        describe(p.recover, visit);
+    }
+}
+
+}  // namespace fit

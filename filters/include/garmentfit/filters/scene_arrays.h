@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Parts of a scene as named arrays: what hosts that know nothing but arrays hand from filter to filter, keep in files and
+// show. Names are the same in all of them. Rigs, poses and frames are in metres with +y up, so that a rig read back is the
+// one written; what users look at is in the body's unit.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/rig_arrays.h"
+#include "garmentfit/units.h"
+
+namespace fit {
+
+using Counts = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using BoneIndices
+    = Eigen::Matrix<unsigned short, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  ///< as glTF has them
+using Texts = std::vector<std::string>;
+
+/// One row for each vertex, cell or entry.
+struct NamedArray {
+    std::string name;
+    std::variant<Rows, Counts, BoneIndices, Texts> values;
+};
+
+struct MeshArrays {
+    std::vector<NamedArray> points, cells, field;
+};
+
+// ---- written ---------------------------------------------------------------------------------------------------------
+
+/// Of the body: JointIndices, JointWeights; RigJoints, RigAxes, RigRadii, RigSideMargin, BodyFrame.
+MeshArrays arrays_of(const Rig& rig, const Frame& body);
+/// Of the body: FitPoses, FitLayers, and where several garments were asked for one pose: OnePose, ConflictBone, ConflictGarments,
+/// ConflictAngle (degrees).
+MeshArrays arrays_of_fits(const Scene& scene);
+/// Of the body: DressedPose, Certified, SizeReached, PoseReached, Speed, Note, HeldBackPart, HeldBackDistance.
+MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& names, const Frame& body);
+
+/// Of a garment: GarmentFrame.
+MeshArrays arrays_of(const Frame& garment);
+/// Of a garment: FoundType, FoundTypeMargin.
+MeshArrays arrays_of(const FitResult& fit);
+/// Of a garment: Worn; if it is: the certificate, girths, where it is too tight.
+MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const Frame& body);
+/// Of a garment: Ease, Strain, Pressure.
+MeshArrays arrays_of(const FitMap& map, const Frame& body);
+
+/// Of the skeleton's joints: JointName, JointId, JointParent; of its lines: BoneName, BoneId (-1: a tip).
+MeshArrays arrays_of_skeleton();
+/// Bones and tips as lines between the rows that rows_of(skeleton) has for its joints; in the order of the cell arrays.
+std::vector<std::pair<int, int>> skeleton_lines();
+
+// ---- read back -------------------------------------------------------------------------------------------------------
+
+/// The array of that name, if there is one, as numbers.
+using FindArray = std::function<std::optional<Rows>(const char* name)>;
+
+/// @throws InvalidInput naming the array that is missing or mangled and the filter that makes it, or both numbers of
+///         vertices where the rig is another body's. So do the others.
+/// @param own  the body's positions in its own pose, metres
+Rig rig_from(const FindArray& find, const Positions& own);
+Frame body_frame_from(const FindArray& find);
+std::vector<FitResult> fits_from(const FindArray& find);
+Pose dressed_pose_from(const FindArray& find);
+/// Nothing where no filter has seen the garment.
+std::optional<Frame> garment_frame_from(const FindArray& find);
+
+}  // namespace fit

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a result is judged by: exact counts of crossings, the smallest gap, the strain.
+//
+// An edge crosses a triangle when it meets the triangle's interior or border; pairs that share a vertex, or the place
+// of one, do not count.
+// Decided by exact predicates on a CGAL AABB tree: no tolerance, so never a crossing called clean.
+
+#include <utility>
+#include <vector>
+
+#include "garmentfit/export.h"
+#include "garmentfit/mesh.h"
+
+namespace fit {
+
+/// (edge of `a` as a row of edges_of, triangle of `b`).
+using Crossing = std::pair<int, int>;
+
+/// Every edge of `a` through every triangle of `b`. Cost O((n + k) log n).
+FIT_API std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b);
+/// Every edge of `mesh` through every triangle of `mesh`, neighbours left out.
+FIT_API std::vector<Crossing> self_crossings(const TriangleMesh& mesh);
+/// Both ways: edges of each through triangles of the other.
+FIT_API int crossing_count(const TriangleMesh& a, const TriangleMesh& b);
+
+struct Strain {
+    double median = 0, p95 = 0, max = 0;  ///< of |l / l0 - 1| over all edges
+};
+FIT_API Strain strain_of(const GarmentMesh& rest, const Positions& positions);
+
+struct Certificate {
+    int body_crossings = 0;  ///< between garment and body, both ways
+    int self_crossings = 0;  ///< of the garment with itself, pairs that the input did not have
+    int input_self_crossings = 0;  ///< that the garment was given with
+    std::vector<Crossing> kept_self_crossings;  ///< those of them that it still has
+    int layer_crossings = 0;  ///< with the garments worn under it
+    int vertices_inside = 0;  ///< garment vertices inside the body
+    double smallest_gap = 0;  ///< m, between garment and body
+    Strain strain;
+
+    bool clean() const
+    {
+        return body_crossings == 0 && self_crossings == 0 && layer_crossings == 0 && vertices_inside == 0;
+    }
+};
+
+/// Judges one dressed garment. `under` are the garments below it, dressed.
+FIT_API Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Positions& positions,
+                            const std::vector<TriangleMesh>& under = {});
+
+}  // namespace fit

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How far cloth is stretched, edge by edge.
+
+#include <vector>
+
+#include "garmentfit/mesh.h"
+
+namespace fit {
+
+/// l / l0 - 1 of every edge of the garment that has a length at rest. O(n).
+std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions);
+
+/// The value that this share of them does not exceed; 0 of none. O(n).
+double quantile(std::vector<double> values, double share);
+
+}  // namespace fit

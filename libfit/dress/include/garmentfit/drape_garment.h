@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Puts a body into a garment that its skeleton was fitted to, without ever letting cloth and body cross.
+//
+// Method   The posed body is collapsed onto its bones, which run inside the garment, and inflated to full size; the
+//          cloth is pushed outwards (projective dynamics [bouaziz_2014_projective_dynamics]) and every motion is cut to
+//          its intersection-free part (additive CCD [li_2021_cipc]). Then it settles under gravity.
+// Units    metres, kilograms, seconds.
+// Cost     contact search dominates: O((n + c) log n) a step, n vertices, c close pairs; some 100 steps.
+// Promise  every state returned or shown is certified, or says in its certificate what is wrong with it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "garmentfit/certificate.h"
+#include "garmentfit/cloth.h"
+#include "garmentfit/mesh.h"
+#include "garmentfit/progress.h"
+#include "garmentfit/skeleton.h"
+
+namespace fit {
+
+struct DrapeOptions {
+    ClothOptions cloth;
+    int inflation_steps = 24;  ///< from the bones to full size
+    int settling_steps = 20;  ///< time steps under gravity
+};
+
+/// Where a garment is too small.
+struct TooTight {
+    int garment;  ///< which: from the inside out, as all of libfit counts them
+    std::string part;  ///< "chest", "waist", "hips", "left thigh", ...
+    double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
+    double enlargement;  ///< share by which the garment would have to be larger for that
+};
+
+/// Where cloth keeps a part of the body from its place.
+struct HeldBack {
+    std::string part;  ///< as in TooTight
+    double distance;  ///< m; what is left of the way of its furthest vertex
+};
+
+/// A garment on a body, layer upon layer.
+struct WornGarment {
+    GarmentMesh rest;  ///< as given, or enlarged: edge lengths and folds
+    Positions positions;  ///< as worn, n x 3
+    Certificate certificate;
+    double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
+    double slipped
+        = 0;  ///< m that it sank along the body since it was put on, by the median of its vertices; much, and it is too
+        ///< wide to stay where it is worn
+};
+
+/// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n). @return whether all are clean
+FIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
+
+struct DrapeResult {
+    std::vector<WornGarment>
+        garments;  ///< from the inside out; the last one is new, and left out where it is too small to
+        ///< be put on over the others
+    Positions
+        body;  ///< the user's vertices in the fitted pose, at the size reached; hands that would stand across a sleeve are
+    ///< stretched out
+    double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
+    std::vector<TooTight> too_tight;
+    std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
+    std::optional<double>
+        speed;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None where
+    ///< the garment is too small: it was not let settle
+    bool certified = false;  ///< every garment's certificate is clean and the body has its full size
+    ClothSeconds seconds;
+};
+
+/// @param pose    takes the body from its own pose into the garment (from fit_skeleton)
+/// @param worn    garments that the body wears already, in that pose, from the inside out; they move with the body
+/// @param left    the body's vertices as it wears those garments: what draping them gave
+/// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does. Cancelled.
+FIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
+                                  const DrapeOptions& options = {}, const Progress& progress = {},
+                                  const std::vector<WornGarment>& worn = {}, const Positions& left = Positions(0, 3));
+
+}  // namespace fit

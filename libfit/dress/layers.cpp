@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layers.h"
+
+#include <algorithm>
+
+namespace fit {
+
+void put_positions(std::vector<WornGarment>& garments, const Positions& positions)
+{
+    Eigen::Index first = 0;
+    for (WornGarment& garment : garments) {
+        garment.positions = positions.middleRows(first, garment.rest.positions.rows());
+        first += garment.rest.positions.rows();
+    }
+}
+
+void add_slips(std::vector<WornGarment>& garments, const Positions& along)
+{
+    Eigen::Index first = 0;
+    for (WornGarment& garment : garments) {
+        const Eigen::Index vertices = garment.positions.rows();
+        Eigen::VectorXd down = along.col(1).segment(first, vertices) - garment.positions.col(1);
+        const auto middle = down.begin() + vertices / 2;
+        std::nth_element(down.begin(), middle, down.end());
+        garment.slipped += *middle;
+        first += vertices;
+    }
+}
+
+}  // namespace fit

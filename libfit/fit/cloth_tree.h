@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The cloth as the fit measures it: small patches, each its middle and its area vector, in a tree of balls.
+
+#include <vector>
+
+#include "garmentfit/types.h"
+
+namespace fit {
+
+/// Cloth in one small cell.
+struct ClothPatch {
+    Eigen::Vector3f centre;  // m, of its area
+    Eigen::Vector3f area_vector;  // m^2, the sum of area times normal
+};
+
+/// One patch for each cell of a grid that has cloth, so that their number depends on the cloth's area and not on its vertices.
+/// Cost O(n). All cloth lies within `cell` of a patch's centre.
+std::vector<ClothPatch> cloth_patches(const TriangleMesh& outward, double cell);
+
+class ClothTree {
+public:
+    /// Cost O(n log n).
+    explicit ClothTree(std::vector<ClothPatch> patches);
+
+    /// m, to a patch's centre that is at most a tenth further away than the nearest. O(log n).
+    float distance(const Vec3& query) const;
+
+    /// Generalized winding number: 1 well inside, 0 outside, fading through openings; within a patch's size of the cloth it
+    /// passes smoothly from one to the other. Method: a dipole for each patch near by, one for each ball of the tree far away
+    /// [barill_2018_fast_winding_numbers]. O(log n).
+    float winding(const Vec3& query) const;
+
+    /// Both at the k x k x k nodes of a small grid, x fastest, in one walk down the tree; distances here are exact.
+    static constexpr int k = 4;
+    using Values = Eigen::Array<float, k * k * k, 1>;
+    struct Block {
+        Values distances, windings;
+    };
+    Block block(const Vec3& first_node, double spacing) const;
+
+    const std::vector<ClothPatch>& patches() const { return patches_; }
+
+private:
+    struct Ball {
+        Eigen::Vector3f centre, area_vector;
+        float radius;  // of a ball about the centre with the centres of all its patches
+        float size;  // sum of areas' lengths: how wide a single patch is
+        int begin, end;  // range of patches_
+        int right;  // second child; the first one follows its parent. 0: a leaf
+    };
+    int build(int begin, int end);
+    struct Nodes;
+    void gather(int ball, const Eigen::Vector3f& centre, float reach, std::vector<int>& patches) const;
+    Values squared_distances(const Nodes& nodes) const;
+    void add_windings(int ball, const Nodes& nodes, Values& angles) const;
+    void look_into(int ball, const Eigen::Vector3f& query, float& nearest) const;
+
+    std::vector<ClothPatch> patches_;
+    std::vector<Ball> balls_;
+};
+
+}  // namespace fit

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include "climb.h"
+#include "garmentfit/error.h"
+#include "garmentfit/fit_skeleton.h"
+#include "outward_cloth.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_room_kept = 0.75;  // share of the room it has in a garment's own fit that a bone keeps
+constexpr double k_room_lost = 0.01;  // m, of a bone's five samples: 2 mm each are no loss
+constexpr double k_same_place = 0.2, k_same_turn = 0.35;  // m, rad; of roots that may become one
+constexpr Steps k_steps { 0.16, 0.005 };  // rad
+
+// A garment held upright, and the body as its own fit found it there.
+class OwnFit {
+public:
+    OwnFit(const Rig& rig, const JointLimits& limits, const GarmentMesh& garment, const FitResult& fit,
+           const std::array<bool, bone_count>& worn) :
+        turn_(shortest_arc(fit.up, Vec3::UnitY())),
+        outward_(turned(outward_cloth(garment), turn_)), cloth_(outward_), metric_(cloth_, figure(rig, fit, worn)),
+        search_(rig, limits, metric_, cues_of(openings_of(outward_))),
+        posture_(turned(posture_of(rig.skeleton, fit.pose), turn_)), joints_(placed(rig.skeleton, posture_).joints)
+    {
+    }
+
+    const SkeletonSearch& search() const { return search_; }
+    const Posture& posture() const { return posture_; }
+    bool covers(int bone) const { return metric_.figure().covered[bone]; }
+    Vec3 direction_from_root(int bone) const { return posture_.turn.conjugate() * posture_.directions[bone]; }
+
+    /// Bones that lack room which they have in the own fit, or that pass through cloth, or the head does. Hands and feet may.
+    std::vector<int> bones_lacking(const Posture& posture) const
+    {
+        const Skeleton joints = placed(search_.own(), posture).joints;
+        std::vector<int> lacking;
+        for (int b = 0; b < bone_count; ++b)
+            if (cloth_.crosses(joints.head(b), joints.tail(b)) || lacks_room(b, joints)
+                || (b == upperneck && cloth_.crosses(joints.tail(b), joints.tips[head_top])))
+                lacking.push_back(b);
+        return lacking;
+    }
+
+    /// The own fit's result with another pose, of which only place and turn of the root are this garment's.
+    FitResult moved(FitResult result, const Posture& posture, const Pose& bones) const
+    {
+        result.pose = pose_of(search_.own(), turned(posture, turn_.conjugate()));
+        result.pose.rotations = bones.rotations;
+        result.scores = search_.scores(posture);
+        result.room = metric_.shares_of_room(placed(search_.own(), posture).joints);
+        result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);
+        return result;
+    }
+
+private:
+    static Figure figure(const Rig& rig, const FitResult& fit, const std::array<bool, bone_count>& worn)
+    {
+        Figure figure = figure_of(rig, fit.covered);
+        figure.worn_elsewhere = worn;
+        return figure;
+    }
+
+    bool lacks_room(int b, const Skeleton& joints) const
+    {
+        const auto needed = [&](const Skeleton& s) { return metric_.needed(b, s.head(b), s.tail(b)); };
+        return covers(b) && needed(joints) < k_room_kept * needed(joints_) - k_room_lost;
+    }
+
+    Eigen::Quaterniond turn_;  // upright from as given
+    TriangleMesh outward_;
+    ClothRoom cloth_;
+    BoneMetric metric_;
+    SkeletonSearch search_;
+    Posture posture_;
+    Skeleton joints_;
+};
+
+using OwnFits = std::vector<std::unique_ptr<const OwnFit>>;
+
+OwnFits own_fits(const Rig& rig, const JointLimits& limits, const std::vector<GarmentMesh>& garments,
+                 const std::vector<FitResult>& fits)
+{
+    std::array<bool, bone_count> worn {};
+    for (const FitResult& fit : fits)
+        for (const Bone b : fit.covered)
+            worn[b] = true;
+    OwnFits result;
+    for (std::size_t i = 0; i < fits.size(); ++i)
+        result.push_back(std::make_unique<const OwnFit>(rig, limits, garments[i], fits[i], worn));
+    return result;
+}
+
+// Who has a say where a bone points: the garments that cover it, or else its parent, or else all.
+std::vector<std::size_t> voices(const OwnFits& garments, int bone)
+{
+    std::vector<std::size_t> result;
+    for (int b = bone; b >= 0 && result.empty(); b = parent_of(b))
+        for (std::size_t i = 0; i < garments.size(); ++i)
+            if (garments[i]->covers(b))
+                result.push_back(i);
+    if (result.empty()) {
+        result.resize(garments.size());
+        std::iota(result.begin(), result.end(), 0);
+    }
+    return result;
+}
+
+// Each garment's own root with the bones as all of those say that cover them, in the mean.
+std::vector<Posture> starts_of(const OwnFits& garments)
+{
+    std::vector<Posture> starts;
+    for (const auto& garment : garments)
+        starts.push_back(garment->posture());
+    for (int b = 0; b < bone_count; ++b) {
+        Vec3 sum = Vec3::Zero();
+        for (const std::size_t i : voices(garments, b))
+            sum += garments[i]->direction_from_root(b);
+        const Vec3 mean = sum.norm() > 0 ? sum.normalized() : garments[0]->direction_from_root(b);
+        for (Posture& start : starts)
+            start.directions[b] = start.turn * mean;
+    }
+    return starts;
+}
+
+bool can_share_root(const std::vector<FitResult>& fits)
+{
+    return std::all_of(fits.begin(), fits.end(), [&](const FitResult& fit) {
+        const Pose &a = fits[0].pose, &b = fit.pose;
+        return fit.up == fits[0].up && (a.root_translation - b.root_translation).norm() < k_same_place
+            && a.root_rotation.angularDistance(b.root_rotation) < k_same_turn;
+    });
+}
+
+// The first one leads.
+std::vector<Posture> with_mean_root(std::vector<Posture> postures)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Posture& posture : postures)
+        sum += posture.root;
+    postures[0].root = sum / double(postures.size());
+    return postures;
+}
+
+double angle_apart(const OwnFit& a, const OwnFit& b, int bone)
+{
+    return angle_between(a.direction_from_root(bone), b.direction_from_root(bone));
+}
+
+// With the garment that holds the bone furthest from where this one has it; rather one that covers it.
+FitConflict conflict_of(const OwnFits& garments, std::size_t where, int bone)
+{
+    std::vector<std::size_t> others = voices(garments, bone);
+    if (others == std::vector<std::size_t> { where }) {
+        others.resize(garments.size());
+        std::iota(others.begin(), others.end(), 0);
+    }
+    std::erase(others, where);
+    const auto angle = [&](std::size_t i) { return angle_apart(*garments[where], *garments[i], bone); };
+    const std::size_t other = *std::max_element(others.begin(), others.end(),
+                                                [&](std::size_t i, std::size_t j) { return angle(i) < angle(j); });
+    return { Bone(bone), { int(where), int(other) }, angle(other) };
+}
+
+bool are_alike(const FitConflict& a, const FitConflict& b)
+{
+    return a.bone == b.bone && std::minmax(a.garments[0], a.garments[1]) == std::minmax(b.garments[0], b.garments[1]);
+}
+
+std::vector<FitConflict> conflicts_of(const OwnFits& garments, const std::vector<Posture>& postures)
+{
+    std::vector<FitConflict> conflicts;
+    for (std::size_t i = 0; i < garments.size(); ++i)
+        for (const int bone : garments[i]->bones_lacking(postures[i])) {
+            const FitConflict conflict = conflict_of(garments, i, bone);
+            if (std::none_of(conflicts.begin(), conflicts.end(),
+                             [&](const FitConflict& other) { return are_alike(other, conflict); }))
+                conflicts.push_back(conflict);
+        }
+    std::stable_sort(conflicts.begin(), conflicts.end(),
+                     [](const FitConflict& a, const FitConflict& b) { return a.angle > b.angle; });
+    return conflicts;
+}
+
+std::vector<Posture> together(const OwnFits& garments, bool one_root)
+{
+    std::vector<const SkeletonSearch*> searches;
+    for (const auto& garment : garments)
+        searches.push_back(&garment->search());
+    const std::vector<Posture> starts = starts_of(garments);
+    return polished_together(searches, one_root ? with_mean_root(starts) : starts, one_root, k_steps);
+}
+
+}  // namespace
+
+CommonFit common_fit(const Rig& rig, const std::vector<GarmentMesh>& garments, const std::vector<FitResult>& fits,
+                     const Progress& progress)
+{
+    if (garments.size() != fits.size())
+        throw InvalidInput(std::to_string(garments.size()) + " garments have " + std::to_string(fits.size())
+                           + " fits; give one for each");
+    CommonFit result { fits, fits.size() == 1, {} };
+    if (fits.size() < 2)
+        return result;
+    const JointLimits limits(rig);
+    const OwnFits own = own_fits(rig, limits, garments, fits);
+    for (const bool one_root : { true, false }) {
+        progress.at(one_root ? 0.3 : 0.6);
+        if (result.one_pose || (one_root && !can_share_root(fits)))
+            continue;
+        const std::vector<Posture> postures = together(own, one_root);
+        result.conflicts = conflicts_of(own, postures);
+        result.one_pose = result.conflicts.empty();
+        for (std::size_t i = 0; result.one_pose && i < fits.size(); ++i)
+            result.fits[i] = own[i]->moved(fits[i], postures[i], pose_of(rig.skeleton, postures[0]));
+    }
+    return result;
+}
+
+}  // namespace fit

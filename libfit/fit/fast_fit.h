@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "garmentfit/fit_skeleton.h"
+
+namespace fit {
+
+/// The fast method, told in docs/fit.md.
+FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress);
+
+}  // namespace fit

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "garmentfit/mesh.h"
+
+namespace fit {
+
+/// The garment as the fit looks at it: equal vertices welded, equal faces dropped, and every patch turned outwards whatever
+/// way its faces were given. Cost O(n log n).
+TriangleMesh outward_cloth(const GarmentMesh& garment);
+
+TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn);
+
+}  // namespace fit

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "way_up.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "type_guess.h"
+#include "outward_cloth.h"
+#include "posture.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_nearly_along = 0.26;  // rad, 15 degrees: so far a worn garment's axes lean from the vertical
+constexpr double k_apart = 0.17;  // rad; between ways that are worth trying apart
+
+// Along which the cloth is spread, most first.
+std::vector<Vec3> axes_of(const TriangleMesh& cloth)
+{
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+    Vec3 first = Vec3::Zero();
+    double area = 0;
+    for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f) {
+        const Vec3 a = cloth.positions.row(cloth.triangles(f, 0)), b = cloth.positions.row(cloth.triangles(f, 1)),
+                   c = cloth.positions.row(cloth.triangles(f, 2));
+        const double weight = 0.5 * (b - a).cross(c - a).norm();
+        const Vec3 middle = (a + b + c) / 3;
+        area += weight;
+        first += weight * middle;
+        second += weight * middle * middle.transpose();
+    }
+    const Vec3 mean = first / std::max(area, 1e-300);
+    const Eigen::Matrix3d axes
+        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second - area * mean * mean.transpose()).eigenvectors();
+    return { axes.col(2), axes.col(1), axes.col(0) };
+}
+
+// Two sleeves, or two legs, as far as that can be told whatever the way up.
+bool are_twins(const Opening& a, const Opening& b)
+{
+    constexpr double k_alike = 1.4;
+    return a.piece == b.piece && std::max(a.girth, b.girth) < k_alike * std::min(a.girth, b.girth)
+        && std::max(a.tube_girth, b.tube_girth) < k_alike * std::min(a.tube_girth, b.tube_girth)
+        && face_alike(a, b, (b.centre - a.centre).stableNormalized()) && (b.centre - a.centre).norm() > 0.5 * a.girth;
+}
+
+double spread(const std::vector<Opening>& openings)
+{
+    double largest = 0;
+    for (const Opening& a : openings)
+        for (const Opening& b : openings)
+            largest = std::max(largest, (a.centre - b.centre).norm());
+    return largest;
+}
+
+struct Middles {
+    std::vector<Vec3> points;  // of openings, or of twins
+    Vec3 across = Vec3::Zero();  // from one twin to the other
+};
+
+// Of one piece's openings.
+Middles middles_of(const std::vector<Opening>& openings)
+{
+    Middles middles;
+    for (std::size_t i = 0; i < openings.size(); ++i) {
+        middles.points.push_back(openings[i].centre);
+        for (std::size_t j = i + 1; j < openings.size(); ++j)
+            if (are_twins(openings[i], openings[j])) {
+                middles.points.push_back(0.5 * (openings[i].centre + openings[j].centre));
+                const Vec3 across = openings[j].centre - openings[i].centre;
+                if (across.norm() > middles.across.norm())
+                    middles.across = across;
+            }
+    }
+    return middles;
+}
+
+// Along which its parts follow each other, in the plane that parts left from right: from hem to neck, from between the legs to the waist.
+// Too short a line says nothing.
+std::vector<Vec3> lines_along(const std::vector<Opening>& openings)
+{
+    constexpr double k_long = 0.4;  // of the distance between its openings
+    const Middles middles = middles_of(openings);
+    const Vec3 across = middles.across.stableNormalized();
+    const double least = k_long * spread(openings);
+    std::vector<Vec3> lines;
+    for (std::size_t i = 0; i < middles.points.size(); ++i)
+        for (std::size_t j = i + 1; j < middles.points.size(); ++j) {
+            const Vec3 line = middles.points[j] - middles.points[i], level = line - line.dot(across) * across;
+            if (level.norm() > least && level.norm() > 0.8 * line.norm())
+                lines.push_back(level);
+        }
+    std::stable_sort(lines.begin(), lines.end(), [](const Vec3& a, const Vec3& b) { return a.norm() > b.norm(); });
+    return lines;
+}
+
+std::vector<Vec3> lines_along_pieces(const std::vector<Opening>& openings)
+{
+    std::map<int, std::vector<Opening>> pieces;
+    for (const Opening& opening : openings)
+        pieces[opening.piece].push_back(opening);
+    std::vector<Vec3> lines;
+    for (const auto& [name, piece] : pieces)
+        for (const Vec3& line : lines_along(piece))
+            lines.push_back(line.normalized());
+    return lines;
+}
+
+std::vector<Vec3> both_ways(const std::vector<Vec3>& lines)
+{
+    std::vector<Vec3> result;
+    for (const Vec3& line : lines)
+        result.insert(result.end(), { line, -line });
+    return result;
+}
+
+std::vector<Vec3> room_axes() { return both_ways({ Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ() }); }
+
+// The first of those that are nearly alike.
+std::vector<Vec3> distinct(const std::vector<Vec3>& directions)
+{
+    std::vector<Vec3> kept;
+    for (const Vec3& one : directions)
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const Vec3& other) { return angle_between(one, other) < k_apart; }))
+            kept.push_back(one);
+    return kept;
+}
+
+// Garments are mostly given along the room's axes, and lean a little by their cut.
+Vec3 snapped(const Vec3& direction)
+{
+    for (const Vec3& axis : room_axes())
+        if (angle_between(axis, direction) < k_nearly_along)
+            return axis;
+    return direction;
+}
+
+std::vector<Vec3> likely_ups(const TriangleMesh& outward, const std::vector<Opening>& openings)
+{
+    std::vector<Vec3> lines = lines_along_pieces(openings);
+    if (lines.empty())  // as for a jacket, whose front is open from neck to hem
+        lines = axes_of(outward);
+    std::vector<Vec3> ups = both_ways(lines);
+    std::transform(ups.begin(), ups.end(), ups.begin(), snapped);
+    std::stable_partition(ups.begin(), ups.end(), [](const Vec3& up) { return up == Vec3::UnitY(); });
+    return distinct(ups);
+}
+
+double uprightness_turned(const TriangleMesh& outward, const std::vector<Opening>& openings,
+                          const Eigen::Quaterniond& turn)
+{
+    return uprightness(turned(openings, turned(outward, turn), turn));
+}
+
+// Less what speaks for the way that is upside down.
+WayUp way(const Vec3& up, const TriangleMesh& outward, const std::vector<Opening>& openings)
+{
+    const Eigen::Quaterniond turn = shortest_arc(up, Vec3::UnitY()),
+                             over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+    return { turn, uprightness_turned(outward, openings, turn) - uprightness_turned(outward, openings, over * turn) };
+}
+
+}  // namespace
+
+std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Opening>& openings)
+{
+    const std::vector<Vec3> ups = likely_ups(outward, openings);
+    const WayUp given = way(Vec3::UnitY(), outward, openings);
+    if (given.evidence > 0 && !ups.empty() && ups[0] == Vec3::UnitY())
+        return { given };
+
+    std::vector<Vec3> all = room_axes();
+    all.insert(all.end(), ups.begin(), ups.end());
+    std::vector<WayUp> ways;
+    for (const Vec3& up : distinct(all))
+        ways.push_back(way(up, outward, openings));
+    std::stable_sort(ways.begin(), ways.end(), [](const WayUp& a, const WayUp& b) { return a.evidence > b.evidence; });
+    return ways;
+}
+
+}  // namespace fit

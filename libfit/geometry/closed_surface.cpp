@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "closed_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/iterator.h>
+
+#include "cgal_mesh.h"
+#include "garmentfit/error.h"
+#include "surface_measures.h"
+#include "winding_number.h"
+#include "wrapped_surface.h"
+
+namespace fit {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+// Shares of the diagonal within which vertices are one, tried in turn: 2 micrometres of a body to 1 mm for soups that were
+// rounded or shaken.
+constexpr double k_welds[] = { 1e-6, 1e-5, 1e-4, 5e-4 };
+constexpr double k_rival = 0.2;   // a piece of this share of the body's size is no island but a limb, or somebody else
+constexpr std::size_t k_cubic = 300;  // edges of a hole: trying all patches costs their third power, a second here
+constexpr int k_samples = 9;      // of a piece's vertices, to tell whether it lies within the body
+
+struct Soup {
+    std::vector<CgalKernel::Point_3> points;
+    std::vector<std::vector<std::size_t>> triangles;
+};
+
+double diagonal(const TriangleMesh& surface)
+{
+    return (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
+}
+
+/// Finds the first of all points given so far that is no more than a distance away.
+class Welder {
+public:
+    explicit Welder(double distance) : distance_(std::max(distance, 1e-300)) { }
+
+    std::size_t row(const Vec3& p, std::vector<CgalKernel::Point_3>& points)
+    {
+        const Cell corner = cell(p - Vec3::Constant(0.5 * cell_size()));
+        for (int k = 0; k < 8; ++k)  // the eight cells nearest to p
+            if (const auto found = rows_.find({ corner[0] + (k & 1), corner[1] + (k >> 1 & 1), corner[2] + (k >> 2) });
+                found != rows_.end())
+                for (const std::size_t row : found->second)
+                    if ((Vec3(points[row].x(), points[row].y(), points[row].z()) - p).squaredNorm() <= distance_ * distance_)
+                        return row;
+        rows_[cell(p)].push_back(points.size());
+        points.emplace_back(p.x(), p.y(), p.z());
+        return points.size() - 1;
+    }
+
+private:
+    using Cell = std::array<long long, 3>;
+    struct Hash {
+        std::size_t operator()(const Cell& c) const
+        {
+            return std::size_t(c[0]) * 73856093u ^ std::size_t(c[1]) * 19349663u ^ std::size_t(c[2]) * 83492791u;
+        }
+    };
+
+    double cell_size() const { return 2 * distance_; }
+    Cell cell(const Vec3& p) const
+    {
+        return { std::llround(std::floor(p.x() / cell_size())), std::llround(std::floor(p.y() / cell_size())),
+                 std::llround(std::floor(p.z() / cell_size())) };
+    }
+
+    double distance_;
+    std::unordered_map<Cell, std::vector<std::size_t>, Hash> rows_;
+};
+
+/// Vertices that lie at one place become one; triangles that lose a corner, and all but the first on the same corners, go.
+Soup welded(const TriangleMesh& surface, double distance)
+{
+    Soup soup;
+    Welder welder(distance);
+    std::vector<std::size_t> row;
+    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
+        row.push_back(welder.row(surface.positions.row(v), soup.points));
+    std::vector<std::array<std::size_t, 4>> sorted;  // corners in rising order, then which triangle
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        std::array<std::size_t, 4> corners { row[surface.triangles(f, 0)], row[surface.triangles(f, 1)],
+                                             row[surface.triangles(f, 2)], std::size_t(f) };
+        std::sort(corners.begin(), corners.begin() + 3);
+        if (corners[0] != corners[1] && corners[1] != corners[2])
+            sorted.push_back(corners);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    const auto same = [](const auto& a, const auto& b) { return std::equal(a.begin(), a.begin() + 3, b.begin()); };
+    sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+    for (const auto& corners : sorted) {
+        const auto f = Eigen::Index(corners[3]);
+        soup.triangles.push_back({ row[surface.triangles(f, 0)], row[surface.triangles(f, 1)], row[surface.triangles(f, 2)] });
+    }
+    return soup;
+}
+
+/// For each corner 3 f + k: the corner before which the other triangle on the edge from k to k + 1 begins that edge; empty
+/// where an edge has not exactly one triangle on each side.
+std::vector<int> across_edges(const Triangles& triangles)
+{
+    struct Half {
+        int low, high, corner;
+    };
+    std::vector<Half> halves;
+    halves.reserve(3 * triangles.rows());
+    for (int f = 0; f < int(triangles.rows()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(triangles(f, k), triangles(f, (k + 1) % 3));
+            halves.push_back({ low, high, 3 * f + k });
+        }
+    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
+        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+    });
+    std::vector<int> across(halves.size(), -1);
+    const auto from = [&](const Half& h) { return triangles(h.corner / 3, h.corner % 3); };
+    for (std::size_t i = 0; i < halves.size(); i += 2) {
+        const auto joins = [&](std::size_t j) {
+            return j < halves.size() && halves[j].low == halves[i].low && halves[j].high == halves[i].high;
+        };
+        if (halves[i].low == halves[i].high || !joins(i + 1) || joins(i + 2) || from(halves[i]) == from(halves[i + 1]))
+            return {};
+        across[halves[i].corner] = halves[i + 1].corner;
+        across[halves[i + 1].corner] = halves[i].corner;
+    }
+    return across;
+}
+
+/// Whether the triangles at each vertex are one fan, and all vertices have some.
+bool has_one_fan_a_vertex(const TriangleMesh& surface, const std::vector<int>& across)
+{
+    std::vector<bool> seen(surface.positions.rows(), false);
+    std::vector<bool> in_fan(across.size(), false);
+    for (int corner = 0; corner < int(across.size()); ++corner) {
+        if (in_fan[corner])
+            continue;
+        const int v = surface.triangles(corner / 3, corner % 3);
+        if (seen[v])
+            return false;
+        seen[v] = true;
+        for (int c = corner; !in_fan[c]; c = across[c / 3 * 3 + (c + 2) % 3])  // over the edge that ends at v
+            in_fan[c] = true;
+    }
+    return std::find(seen.begin(), seen.end(), false) == seen.end();
+}
+
+bool is_one_piece(const std::vector<int>& across)
+{
+    std::vector<bool> reached(across.size() / 3, false);
+    std::vector<int> front { 0 };
+    reached[0] = true;
+    for (std::size_t i = 0; i < front.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (const int next = across[3 * front[i] + k] / 3; !reached[next]) {
+                reached[next] = true;
+                front.push_back(next);
+            }
+    return front.size() == reached.size();
+}
+
+/// One piece, closed, a manifold, its faces all turned one way, every vertex used, not all of it shrunk to a point.
+bool is_one_closed_manifold(const TriangleMesh& surface)
+{
+    const std::vector<int> across = across_edges(surface.triangles);
+    return !across.empty() && has_one_fan_a_vertex(surface, across) && is_one_piece(across) && volume(surface) != 0;
+}
+
+/// What hangs together.
+struct Piece {
+    std::size_t label = 0;
+    Eigen::AlignedBox3d box;
+    double volume = 0;  ///< m^3, about the middle of its box: an open sheet has next to none
+
+    double size() const { return box.diagonal().norm() * std::cbrt(std::abs(volume)); }
+};
+
+constexpr const char* k_label = "f:piece";
+
+/// The largest first: long and full, as a body is, and a floor or a block is not.
+std::vector<Piece> labelled_pieces(CgalMesh& mesh)
+{
+    const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>(k_label, 0).first;
+    std::vector<Piece> pieces(pmp::connected_components(mesh, labels));
+    const auto corner = [&](CgalMesh::Halfedge_index h) {
+        const auto& p = mesh.point(mesh.target(h));
+        return Vec3(p.x(), p.y(), p.z());
+    };
+    for (const auto h : mesh.halfedges())
+        if (!mesh.is_border(h))
+            pieces[labels[mesh.face(h)]].box.extend(corner(h));
+    for (const auto face : mesh.faces()) {
+        const auto h = mesh.halfedge(face);
+        Piece& piece = pieces[labels[face]];
+        const Vec3 o = piece.box.center(), a = corner(h) - o, b = corner(mesh.next(h)) - o;
+        piece.volume += a.cross(b).dot(corner(mesh.prev(h)) - o) / 6;
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        pieces[i].label = i;
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.size() > b.size(); });
+    return pieces;
+}
+
+CgalMesh only(CgalMesh mesh, std::size_t label)
+{
+    const auto labels = mesh.property_map<CgalMesh::Face_index, std::size_t>(k_label).first;  // the copy's: CGAL overwrites them
+    pmp::keep_connected_components(mesh, std::vector<std::size_t> { label }, labels);
+    mesh.collect_garbage();
+    return mesh;
+}
+
+/// An inner wall, say, or the lungs.
+bool lies_within(const TriangleMesh& piece, const TriangleMesh& main)
+{
+    const Eigen::Index step = std::max<Eigen::Index>(1, piece.positions.rows() / k_samples);
+    int inside = 0, samples = 0;
+    for (Eigen::Index v = 0; v < piece.positions.rows(); v += step, ++samples)
+        inside += std::abs(winding_number(main, piece.positions.row(v))) > 0.5;
+    return 2 * inside > samples;
+}
+
+/// The largest piece, and how much smaller the next one is that lies beside it; islands are far smaller.
+struct Body {
+    CgalMesh mesh;
+    double rival = 0;  ///< share of size
+};
+
+Body main_body(CgalMesh mesh)
+{
+    const std::vector<Piece> pieces = labelled_pieces(mesh);
+    if (pieces.empty() || pieces[0].size() == 0)
+        return {};
+    Body body { only(mesh, pieces[0].label) };
+    for (std::size_t i = 1; i < pieces.size() && body.rival == 0; ++i) {
+        const double share = pieces[i].size() / pieces[0].size();
+        if (share < k_rival)
+            break;
+        if (!lies_within(from_cgal(only(mesh, pieces[i].label)), from_cgal(body.mesh)))
+            body.rival = share;
+    }
+    return body;
+}
+
+/// @return whether a patch was found, its edges taken from a Delaunay triangulation or from all there could be
+bool is_patched(CgalMesh& mesh, CgalMesh::Halfedge_index hole, bool delaunay)
+{
+    std::vector<CgalMesh::Face_index> patch;
+    std::vector<CgalMesh::Vertex_index> added;
+    pmp::triangulate_refine_and_fair_hole(
+        mesh, hole, std::back_inserter(patch), std::back_inserter(added),
+        pmp::parameters::use_delaunay_triangulation(delaunay).do_not_use_cubic_algorithm(delaunay));
+    return !patch.empty();
+}
+
+/// Triangles from the border to its middle: not smooth, but closed.
+void put_tent(CgalMesh& mesh, CgalMesh::Halfedge_index hole)
+{
+    CgalKernel::Vector_3 sum = CGAL::NULL_VECTOR;
+    const auto corners = CGAL::vertices_around_face(hole, mesh);
+    for (const auto v : corners)
+        sum = sum + (mesh.point(v) - CGAL::ORIGIN);
+    const auto middle = CGAL::ORIGIN + sum / double(corners.size());
+    CGAL::Euler::fill_hole(hole, mesh);
+    mesh.point(mesh.target(CGAL::Euler::add_center_vertex(hole, mesh))) = middle;
+}
+
+void fill_holes(CgalMesh& mesh)
+{
+    std::vector<CgalMesh::Halfedge_index> holes;
+    pmp::extract_boundary_cycles(mesh, std::back_inserter(holes));
+    for (const auto hole : holes) {
+        const std::size_t edges = CGAL::halfedges_around_face(hole, mesh).size();
+        if (!is_patched(mesh, hole, true) && !(edges < k_cubic && is_patched(mesh, hole, false)))
+            put_tent(mesh, hole);
+    }
+}
+
+/// Nothing when the body comes in parts.
+CgalMesh closed_soup(Soup soup)
+{
+    pmp::orient_polygon_soup(soup.points, soup.triangles);
+    CgalMesh mesh;
+    pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
+    pmp::stitch_borders(mesh);
+    Body body = main_body(std::move(mesh));
+    if (body.rival > 0)
+        return {};
+    fill_holes(body.mesh);
+    return body.mesh;
+}
+
+bool is_solid(const CgalMesh& mesh)
+{
+    return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
+}
+
+CgalMesh wrapped_body(const TriangleMesh& surface)
+{
+    Body body = main_body(to_cgal(wrapped_surface(surface)));
+    if (body.rival > 0)
+        throw InvalidInput("body: it is in pieces that lie apart, the second " + std::to_string(std::lround(100 * body.rival))
+                           + "% the size of the first (an island has at most " + std::to_string(std::lround(100 * k_rival))
+                           + "%); give one human body");
+    return std::move(body.mesh);
+}
+
+TriangleMesh outward(TriangleMesh mesh)
+{
+    if (volume(mesh) < 0)
+        mesh.triangles.col(1).swap(mesh.triangles.col(2));
+    return mesh;
+}
+
+}  // namespace
+
+TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
+{
+    if (is_one_closed_manifold(surface)) {
+        TriangleMesh result = outward(surface);
+        repaired = result.triangles != surface.triangles;
+        return result;
+    }
+    repaired = true;
+    const double size = diagonal(surface);
+    if (welded(surface, k_welds[0] * size).triangles.empty())
+        throw InvalidInput("body: all " + std::to_string(surface.triangles.rows())
+                           + " faces are degenerate; give a surface with area");
+    try {
+        for (const double weld : k_welds)
+            if (const CgalMesh mesh = closed_soup(welded(surface, weld * size)); is_solid(mesh))
+                return outward(from_cgal(mesh));
+        if (const CgalMesh mesh = wrapped_body(surface); is_solid(mesh))  // in tatters or in parts
+            return outward(from_cgal(mesh));
+    } catch (const CGAL::Failure_exception&) {
+        // told below, in the user's words
+    }
+    throw InvalidInput("body: its " + std::to_string(surface.triangles.rows())
+                       + " faces cannot be closed to a solid; close the mesh or remesh it as one surface");
+}
+
+}  // namespace fit

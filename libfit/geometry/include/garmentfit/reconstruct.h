@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A surface through the points of a scanner.
+//
+// Method   outliers removed, smoothed to a coarser scale [digne_2011_scale_space], joined by an advancing front
+//          [cohensteiner_2004_greedy]. Needs no normals.
+// Cost     O(n log n); some seconds for 50 thousand points; of denser clouds, so many are taken.
+// Promise  the points keep their places and their order; those that are outliers, or one too many, have no triangle.
+
+#include "garmentfit/export.h"
+#include "garmentfit/progress.h"
+#include "garmentfit/types.h"
+
+namespace fit {
+
+/// Rows of `points`. Holes stay where no points are: make_body closes them. @throws InvalidInput: too few points. Cancelled.
+FIT_API Triangles reconstruct_surface(const Positions& points, const Progress& progress = {});
+
+}  // namespace fit

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plain data that libfit speaks.
+//
+// Units and axes: libfit works in metres with +y up, always. Hosts convert at the door (see garmentfit/units.h).
+// Handedness: right. Triangles are counter-clockwise seen from outside.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace fit {
+
+using Vec3 = Eigen::Vector3d;
+
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< n x 3, metres
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< m x 3, rows of Positions
+
+struct TriangleMesh {
+    Positions positions;
+    Triangles triangles;
+};
+
+}  // namespace fit

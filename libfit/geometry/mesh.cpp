@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "closed_surface.h"
+#include "garmentfit/error.h"
+#include "named_vertices.h"
+
+namespace fit {
+namespace {
+
+void check(const char* what, const Positions& positions, const Triangles& triangles)
+{
+    const std::string name(what);
+    if (triangles.rows() == 0)
+        throw InvalidInput(name + " has no faces; give a surface mesh");
+    for (Eigen::Index v = 0; v < positions.rows(); ++v)
+        if (!positions.row(v).allFinite())
+            throw InvalidInput(name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
+    require_named_vertices(name, positions.rows(), triangles);
+}
+
+Vec3 area_vector(const Positions& p, const Triangles& t, Eigen::Index f)
+{
+    const Vec3 a = p.row(t(f, 0)), b = p.row(t(f, 1)), c = p.row(t(f, 2));
+    return 0.5 * (b - a).cross(c - a);
+}
+
+}  // namespace
+
+BodyMesh make_body(const Positions& positions, const Triangles& triangles)
+{
+    check("body", positions, triangles);
+    BodyMesh body;
+    body.surface = { positions, triangles };
+    body.closed = closed_surface(body.surface, body.repaired);
+    return body;
+}
+
+GarmentMesh make_garment(const Positions& positions, const Triangles& triangles)
+{
+    check("garment", positions, triangles);
+    double area = 0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        area += area_vector(positions, triangles, f).norm();
+    if (!(area > 0))
+        throw InvalidInput("garment: all " + std::to_string(triangles.rows()) + " faces are degenerate; give a surface with area");
+    return { positions, triangles };
+}
+
+Positions vertex_normals(const Positions& positions, const Triangles& triangles)
+{
+    Positions normals = Positions::Zero(positions.rows(), 3);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const Vec3 n = area_vector(positions, triangles, f);
+        for (int k = 0; k < 3; ++k)
+            normals.row(triangles(f, k)) += n;
+    }
+    for (Eigen::Index v = 0; v < normals.rows(); ++v)
+        if (const double length = normals.row(v).norm(); length > 0)
+            normals.row(v) /= length;
+    return normals;
+}
+
+Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const Triangles& triangles)
+{
+    std::vector<std::array<int, 2>> edges;
+    edges.reserve(3 * triangles.rows());
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto [i, j] = std::minmax(triangles(f, k), triangles(f, (k + 1) % 3));
+            if (i != j)
+                edges.push_back({ i, j });
+        }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> result(edges.size(), 2);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        result.row(e) << edges[e][0], edges[e][1];
+    return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "named_vertices.h"
+
+#include <string>
+
+#include "garmentfit/error.h"
+
+namespace fit {
+
+void require_named_vertices(std::string_view what, Eigen::Index vertices, const Triangles& triangles)
+{
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (triangles.row(f).minCoeff() < 0 || triangles.row(f).maxCoeff() >= vertices)
+            throw InvalidInput(std::string(what) + ": triangle " + std::to_string(f) + " names a vertex outside 0.."
+                               + std::to_string(vertices - 1) + "; repair the file");
+}
+
+}  // namespace fit

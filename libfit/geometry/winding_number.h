@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Generalized winding number: 1 well inside an outward surface, 0 outside, fading through openings.
+//
+// Method  exact solid angles near by, one dipole per tree node far away [barill_2018_fast_winding_numbers].
+// Cost    O(n log n) once, O(log n) a query.
+
+#include <vector>
+
+#include "garmentfit/types.h"
+
+namespace fit {
+
+class WindingNumber {
+public:
+    explicit WindingNumber(const TriangleMesh& surface);
+
+    double operator()(const Vec3& query) const;
+
+private:
+    struct Node {
+        Vec3 centre = Vec3::Zero();         // of area
+        Vec3 area_vector = Vec3::Zero();    // sum of area times normal
+        double radius = 0;                  // of a ball about `centre` with all of the node's triangles
+        int begin = 0, end = 0;             // range of corners_
+        int right = 0;                      // second child; the first one follows its parent. 0: a leaf
+    };
+    int build(int begin, int end);
+
+    std::vector<Node> nodes_;
+    std::vector<Eigen::Matrix3d> corners_;  // of each triangle, one corner a column
+};
+
+/// The same at one query or a few: all solid angles, exact; no cost beforehand.
+double winding_number(const TriangleMesh& surface, const Vec3& query);
+
+}  // namespace fit

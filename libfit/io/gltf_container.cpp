@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gltf_container.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstring>
+
+#include "garmentfit/error.h"
+
+namespace fit {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::uint32_t k_json_type = 0x4E4F534A, k_binary_type = 0x004E4942;   // "JSON", "BIN\0"
+constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;
+constexpr int k_deepest_json = 100;   // real files stay below 20; a parser's stack does not last for ever
+
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian, and read as it is");
+
+std::uint32_t word_at(const FileBytes& file, std::size_t offset)
+{
+    std::uint32_t word = 0;
+    std::memcpy(&word, file.bytes.data() + offset, sizeof word);
+    return word;
+}
+
+std::string word_bytes(std::size_t value)
+{
+    const auto raw = std::bit_cast<std::array<char, 4>>(static_cast<std::uint32_t>(value));
+    return { raw.begin(), raw.end() };
+}
+
+std::vector<GltfChunk> read_chunks(const FileBytes& file)
+{
+    if (file.bytes.size() < k_header_bytes)
+        file.fail_at_byte(file.bytes.size(), "the GLB header is truncated");
+    if (const std::uint32_t version = word_at(file, 4); version != 2)
+        file.fail_at_byte(4, "is GLB version " + std::to_string(version) + "; this program reads version 2");
+    const std::size_t length = word_at(file, 8);
+    if (length > file.bytes.size() || length < k_header_bytes)
+        file.fail_at_byte(8, "the GLB header says " + std::to_string(length) + " bytes, the file has "
+                                 + std::to_string(file.bytes.size()) + "; it is truncated or mangled");
+    std::vector<GltfChunk> chunks;
+    for (std::size_t at = k_header_bytes; at < length;) {
+        const std::size_t room = length - at;
+        if (room < k_chunk_header_bytes || word_at(file, at) > room - k_chunk_header_bytes)
+            file.fail_at_byte(at, "a chunk reaches beyond the end of the file; it is truncated or mangled");
+        const std::size_t size = word_at(file, at);
+        chunks.push_back({ word_at(file, at + 4), file.bytes.substr(at + k_chunk_header_bytes, size) });
+        at += k_chunk_header_bytes + size;
+    }
+    if (chunks.empty() || chunks.front().type != k_json_type)
+        file.fail_at_byte(k_header_bytes, "the first chunk is not JSON; the file is mangled");
+    return chunks;
+}
+
+ordered_json parsed(const FileBytes& file, const std::string& text)
+{
+    const auto limit_depth = [&](int depth, ordered_json::parse_event_t, ordered_json&) {
+        if (depth > k_deepest_json)
+            file.fail("its JSON is nested more than " + std::to_string(k_deepest_json) + " levels deep");
+        return true;
+    };
+    try {
+        ordered_json json = ordered_json::parse(text, limit_depth);
+        if (!json.is_object())
+            file.fail("its JSON is not an object");
+        return json;
+    } catch (const ordered_json::parse_error& error) {
+        file.fail("its JSON is mangled or truncated at byte " + std::to_string(error.byte) + " of the text");
+    } catch (const ordered_json::out_of_range&) {
+        file.fail("its JSON holds a number too large to read");
+    }
+}
+
+/// "%20" -> " ", as file names stand in URIs.
+std::string decoded(const std::string& uri)
+{
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned char code = 0;
+        if (uri[i] == '%' && i + 2 < uri.size()
+            && std::from_chars(uri.data() + i + 1, uri.data() + i + 3, code, 16).ptr == uri.data() + i + 3) {
+            text += static_cast<char>(code);
+            i += 2;
+        } else {
+            text += uri[i];
+        }
+    }
+    return text;
+}
+
+std::string padded(std::string bytes, char filler)
+{
+    bytes.resize((bytes.size() + 3) / 4 * 4, filler);
+    return bytes;
+}
+
+std::string chunk_bytes(std::uint32_t type, const std::string& bytes)
+{
+    return word_bytes(bytes.size()) + word_bytes(type) + bytes;
+}
+
+}  // namespace
+
+std::string* GltfContainer::own_buffer()
+{
+    return chunks.empty() || chunks.front().type != k_binary_type ? nullptr : &chunks.front().bytes;
+}
+
+GltfContainer read_gltf_container(const FileBytes& file)
+{
+    GltfContainer container;
+    container.is_binary = file.bytes.starts_with("glTF");
+    if (container.is_binary) {
+        container.chunks = read_chunks(file);
+        container.json = parsed(file, container.chunks.front().bytes);
+        container.chunks.erase(container.chunks.begin());
+    } else {
+        container.json = parsed(file, file.bytes);
+        const std::size_t line_break = file.bytes.find('\n');
+        container.is_indented = line_break != std::string::npos && line_break + 1 < file.bytes.size();
+    }
+    return container;
+}
+
+std::string bytes_of(const GltfContainer& container)
+{
+    if (!container.is_binary)
+        return container.json.dump(container.is_indented ? 2 : -1) + (container.is_indented ? "\n" : "");
+    std::string chunks = chunk_bytes(k_json_type, padded(container.json.dump(), ' '));
+    for (const GltfChunk& chunk : container.chunks)
+        chunks += chunk_bytes(chunk.type, padded(chunk.bytes, '\0'));
+    return "glTF" + word_bytes(2) + word_bytes(k_header_bytes + chunks.size()) + chunks;
+}
+
+std::string data_uri(std::string_view mime_type, std::string_view bytes)
+{
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string uri = "data:" + std::string(mime_type) + ";base64,";
+    uri.reserve(uri.size() + bytes.size() * 4 / 3 + 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0);
+        for (std::size_t k = 0; k < 4; ++k)
+            uri += k <= count ? alphabet[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    return uri;
+}
+
+void embed_pictures(ordered_json& json, const std::filesystem::path& folder)
+{
+    if (!json.contains("images"))
+        return;
+    for (ordered_json& picture : json["images"]) {
+        const std::string uri = picture.is_object() && picture.contains("uri") && picture["uri"].is_string() ? picture["uri"] : "";
+        if (uri.empty() || uri.starts_with("data:"))
+            continue;
+        try {
+            const FileBytes file = read_file(folder / decoded(uri));
+            picture["uri"] = data_uri(file.bytes.starts_with("\x89PNG") ? "image/png" : "image/jpeg", file.bytes);
+        } catch (const InvalidInput&) {
+            // a picture that is not there cannot be taken along; geometry does not need it
+        }
+    }
+}
+
+}  // namespace fit

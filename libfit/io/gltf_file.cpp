@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "garmentfit/error.h"
+#include "gltf_container.h"
+#include "gltf_model.h"
+#include "mesh_content.h"
+#include "turned_normals.h"
+
+namespace fit {
+namespace {
+
+using nlohmann::ordered_json;
+
+// ---- the scene ----------------------------------------------------------------------------------------------------------
+
+/// A run of vertices in the file: rows [first_row, first_row + positions.count) of the whole.
+struct Block {
+    int node = 0;
+    Eigen::Affine3d world_from_local;
+    Column positions;
+    std::optional<Column> normals;
+    Eigen::Index first_row = 0;
+};
+
+void require_sizes(const FileBytes& file, const tinygltf::Node& node)
+{
+    const auto is = [](const std::vector<double>& values, std::size_t size) { return values.empty() || values.size() == size; };
+    if (!is(node.matrix, 16) || !is(node.translation, 3) || !is(node.rotation, 4) || !is(node.scale, 3))
+        file.fail("node '" + first_line(node.name) + "' has a transform of the wrong length");
+}
+
+Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& node)
+{
+    require_sizes(file, node);
+    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+    if (!node.matrix.empty()) {
+        transform.matrix().topRows<3>() = Eigen::Matrix4d::Map(node.matrix.data()).topRows<3>();
+        return transform;
+    }
+    if (!node.translation.empty())
+        transform.translate(Vec3::Map(node.translation.data()));
+    if (!node.rotation.empty())
+        transform.rotate(Eigen::Quaterniond(Eigen::Vector4d::Map(node.rotation.data())).normalized());   // x y z w, as in Eigen
+    if (!node.scale.empty())
+        transform.scale(Vec3::Map(node.scale.data()));
+    return transform;
+}
+
+class SceneReader {
+public:
+    SceneReader(const FileBytes& file, const tinygltf::Model& model) : file_(file), model_(model), seen_(model.nodes.size()) { }
+
+    /// Nodes in the order of the tree, parents first.
+    void read()
+    {
+        struct Visit {
+            int node;
+            Eigen::Affine3d world_from_parent;
+        };
+        std::vector<Visit> open;
+        const auto push = [&](const std::vector<int>& nodes, const Eigen::Affine3d& transform) {
+            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+                open.push_back({ *node, transform });
+        };
+        push(roots(), Eigen::Affine3d::Identity());
+        while (!open.empty()) {
+            const Visit visit = open.back();
+            open.pop_back();
+            const tinygltf::Node& node = checked(file_, model_.nodes, visit.node, "node");
+            if (std::exchange(seen_[visit.node], true))
+                file_.fail("node " + std::to_string(visit.node) + " hangs on two parents; the file is mangled");
+            const Eigen::Affine3d world_from_node = visit.world_from_parent * parent_from_node(file_, node);
+            // the place of a skinned mesh is that of its bones, in whose rest pose it lies as it is stored
+            read_mesh(visit.node, node, node.skin >= 0 ? Eigen::Affine3d::Identity() : world_from_node);
+            push(node.children, world_from_node);
+        }
+    }
+
+    std::vector<Block> blocks;
+    Triangles triangles() const { return fans_.triangles(); }
+    Eigen::Index rows() const { return rows_; }
+
+private:
+    std::vector<int> roots() const
+    {
+        if (!model_.scenes.empty())
+            return checked(file_, model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+        std::vector<bool> is_child(model_.nodes.size());
+        for (const tinygltf::Node& node : model_.nodes)
+            for (const int child : node.children)
+                if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+                    is_child[child] = true;
+        std::vector<int> nodes;
+        for (std::size_t node = 0; node < is_child.size(); ++node)
+            if (!is_child[node])
+                nodes.push_back(static_cast<int>(node));
+        return nodes;
+    }
+
+    void read_mesh(int index, const tinygltf::Node& node, const Eigen::Affine3d& world_from_local)
+    {
+        if (node.mesh < 0)
+            return;
+        for (const tinygltf::Primitive& primitive : checked(file_, model_.meshes, node.mesh, "mesh").primitives)
+            read_primitive(index, primitive, world_from_local);
+    }
+
+    void read_primitive(int node, const tinygltf::Primitive& primitive, const Eigen::Affine3d& world_from_local)
+    {
+        if (primitive.extensions.count("KHR_draco_mesh_compression"))
+            file_.fail("is packed with KHR_draco_mesh_compression; export it without compression");
+        const auto attribute = primitive.attributes.find("POSITION");
+        const bool is_surface = primitive.mode < 0 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+        if (attribute == primitive.attributes.end() || !is_surface)
+            return;
+        const Block& block = block_of(node, primitive, vector_column(file_, model_, attribute->second, "POSITION"), world_from_local);
+        add_faces(primitive, indices_of(primitive, block), block);
+    }
+
+    /// Primitives may share vertices: each run of them is read once.
+    const Block& block_of(int node, const tinygltf::Primitive& primitive, const Column& positions,
+                          const Eigen::Affine3d& world_from_local)
+    {
+        std::optional<Column> normals;
+        if (const auto attribute = primitive.attributes.find("NORMAL"); attribute != primitive.attributes.end())
+            normals = vector_column(file_, model_, attribute->second, "NORMAL");
+        const auto [entry, is_new] = block_at_.try_emplace({ positions.buffer, positions.begin }, blocks.size());
+        if (is_new)
+            add_block({ node, world_from_local, positions, normals, rows_ });
+        Block& block = blocks[entry->second];
+        if (block.node != node)
+            file_.fail("nodes " + std::to_string(block.node) + " and " + std::to_string(node)
+                       + " show the same mesh; give each its own copy");
+        if (!block.normals)
+            block.normals = normals;
+        const bool same_normals = !normals || normals->place() == block.normals->place();
+        if (block.positions.place() != positions.place() || !same_normals)
+            file_.fail("two primitives share POSITION (accessor " + std::to_string(positions.accessor)
+                       + ") in part only; export them with their own vertices");
+        return block;
+    }
+
+    void add_block(const Block& block)
+    {
+        const double volume = std::abs(block.world_from_local.linear().determinant());
+        if (!block.world_from_local.matrix().allFinite() || !std::isnormal(volume))
+            file_.fail("node " + std::to_string(block.node) + " flattens its mesh; give it a scale other than 0");
+        if (block.normals && block.normals->count != block.positions.count)
+            file_.fail("POSITION and NORMAL have different counts; the file is mangled");
+        if (block.positions.count > static_cast<std::size_t>(INT_MAX - rows_))
+            file_.fail("has more vertices than this program can count");
+        blocks.push_back(block);
+        rows_ += static_cast<Eigen::Index>(block.positions.count);
+    }
+
+    std::vector<int> indices_of(const tinygltf::Primitive& primitive, const Block& block) const
+    {
+        std::vector<int> indices;
+        if (primitive.indices < 0) {
+            for (std::size_t i = 0; i < block.positions.count; ++i)
+                indices.push_back(static_cast<int>(i));
+            return indices;
+        }
+        const Column column = column_of(file_, model_, primitive.indices, "indices");
+        const tinygltf::Accessor& accessor = model_.accessors[primitive.indices];
+        const std::size_t bytes = tinygltf::GetComponentSizeInBytes(accessor.componentType);
+        const bool is_unsigned = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+            || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+            || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        if (!is_unsigned || accessor.type != TINYGLTF_TYPE_SCALAR)
+            file_.fail("indices (accessor " + std::to_string(column.accessor) + ") are not unsigned integers; the file is mangled");
+        for (std::size_t i = 0; i < column.count; ++i) {
+            std::uint32_t index = 0;
+            std::memcpy(&index, model_.buffers[column.buffer].data.data() + column.offset(i), bytes);
+            if (index >= block.positions.count)
+                file_.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i) + ", names vertex "
+                           + std::to_string(index) + " of " + std::to_string(block.positions.count));
+            indices.push_back(static_cast<int>(index));
+        }
+        return indices;
+    }
+
+    void add_faces(const tinygltf::Primitive& primitive, const std::vector<int>& indices, const Block& block)
+    {
+        const bool is_mirrored = block.world_from_local.linear().determinant() < 0;
+        const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+            if (is_mirrored)
+                std::swap(b, c);
+            const int first = static_cast<int>(block.first_row);
+            fans_.add({ first + indices[a], first + indices[b], first + indices[c] });
+        };
+        const std::size_t step = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP || primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ? 1 : 3;
+        for (std::size_t i = 0; i + 2 < indices.size(); i += step) {
+            if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN)
+                add(0, i + 1, i + 2);
+            else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1)   // every other one is wound the other way
+                add(i, i + 2, i + 1);
+            else
+                add(i, i + 1, i + 2);
+        }
+    }
+
+    const FileBytes& file_;
+    const tinygltf::Model& model_;
+    std::vector<char> seen_;
+    std::map<std::pair<int, std::size_t>, std::size_t> block_at_;   // (buffer, first byte) -> block
+    FanBuilder fans_;
+    Eigen::Index rows_ = 0;
+};
+
+/// Writing must not change one vertex by another's number.
+void require_apart(const FileBytes& file, const std::vector<Block>& blocks)
+{
+    std::vector<std::pair<int, std::size_t>> places;
+    for (const Block& block : blocks)
+        for (const Column* column : { &block.positions, block.normals ? &*block.normals : nullptr })
+            for (std::size_t row = 0; column && row < column->count; ++row)
+                places.emplace_back(column->buffer, column->offset(row));
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < places.size(); ++i)
+        if (places[i].first == places[i - 1].first && places[i].second - places[i - 1].second < sizeof(Eigen::Vector3f))
+            file.fail("vertices overlap in buffer " + std::to_string(places[i].first) + " at byte " + std::to_string(places[i].second)
+                      + "; export them with their own data");
+}
+
+// ---- values -------------------------------------------------------------------------------------------------------------
+
+using Buffers = std::vector<tinygltf::Buffer>;
+
+Vec3 value_at(const Buffers& buffers, const Column& column, Eigen::Index row)
+{
+    Eigen::Vector3f value;
+    std::memcpy(value.data(), buffers[column.buffer].data.data() + column.offset(row), sizeof value);
+    return value.cast<double>();
+}
+
+void set_value(Buffers& buffers, const Column& column, Eigen::Index row, const Vec3& value)
+{
+    const Eigen::Vector3f single = value.cast<float>();
+    std::memcpy(buffers[column.buffer].data.data() + column.offset(row), single.data(), sizeof single);
+}
+
+struct GltfContent : MeshFile::Content {
+    GltfContainer container;
+    Buffers buffers;
+    std::vector<Block> blocks;
+    Positions normals;   ///< of the world; zero where the file has none
+
+    std::string bytes_with(const Positions& moved) const override
+    {
+        const Positions turned = turned_normals(normals, triangles, triangles, positions, moved);
+        Buffers written = buffers;
+        GltfContainer result = container;
+        for (const Block& block : blocks)
+            write_block(block, moved, turned, written, result.json);
+        store(written, result);
+        return bytes_of(result);
+    }
+
+private:
+    void write_block(const Block& block, const Positions& moved, const Positions& turned, Buffers& written, ordered_json& json) const
+    {
+        const Eigen::Affine3d local_from_world = block.world_from_local.inverse();
+        const Eigen::Matrix3d local_from_world_normal = block.world_from_local.linear().transpose();
+        bool has_moved = false;
+        for (std::size_t i = 0; i < block.positions.count; ++i) {
+            const Eigen::Index row = block.first_row + static_cast<Eigen::Index>(i);
+            if (moved.row(row) != positions.row(row)) {
+                set_value(written, block.positions, i, local_from_world * Vec3(moved.row(row)));
+                has_moved = true;
+            }
+            if (block.normals && turned.row(row) != normals.row(row) && turned.row(row).allFinite())
+                set_value(written, *block.normals, i, (local_from_world_normal * Vec3(turned.row(row))).normalized());
+        }
+        if (has_moved)
+            write_bounds(block.positions, written, json["accessors"][block.positions.accessor]);
+    }
+
+    static void write_bounds(const Column& column, const Buffers& written, ordered_json& accessor)
+    {
+        Eigen::AlignedBox3d box;
+        for (std::size_t i = 0; i < column.count; ++i)
+            box.extend(value_at(written, column, i));
+        accessor["min"] = { box.min().x(), box.min().y(), box.min().z() };
+        accessor["max"] = { box.max().x(), box.max().y(), box.max().z() };
+    }
+
+    static void store(const Buffers& written, GltfContainer& result)
+    {
+        for (std::size_t i = 0; i < written.size(); ++i) {
+            const std::vector<unsigned char>& data = written[i].data;
+            ordered_json& buffer = result.json["buffers"][i];
+            const std::string_view bytes(reinterpret_cast<const char*>(data.data()), data.size());
+            if (std::string* own = result.own_buffer(); own && i == 0 && !buffer.contains("uri"))
+                own->replace(0, bytes.size(), bytes);
+            else
+                buffer["uri"] = data_uri("application/octet-stream", bytes);
+        }
+    }
+};
+
+void read_values(const FileBytes& file, GltfContent& content, Eigen::Index rows)
+{
+    content.positions.resize(rows, 3);
+    content.normals = Positions::Zero(rows, 3);
+    for (const Block& block : content.blocks) {
+        const Eigen::Matrix3d world_from_local_normal = block.world_from_local.linear().inverse().transpose();
+        for (std::size_t i = 0; i < block.positions.count; ++i) {
+            const Eigen::Index row = block.first_row + static_cast<Eigen::Index>(i);
+            content.positions.row(row) = block.world_from_local * value_at(content.buffers, block.positions, i);
+            if (!content.positions.row(row).allFinite())
+                file.fail("POSITION (accessor " + std::to_string(block.positions.accessor) + "), vertex " + std::to_string(i)
+                          + ", is not finite; repair the file");
+            if (block.normals)
+                content.normals.row(row) = world_from_local_normal * value_at(content.buffers, *block.normals, i);
+        }
+    }
+}
+
+}  // namespace
+
+ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
+{
+    auto content = std::make_shared<GltfContent>();
+    content->container = read_gltf_container(file);
+    content->format = content->container.is_binary ? "glb" : "gltf";
+    try {
+        tinygltf::Model model = load_model(file, content->container, folder);
+        SceneReader scene(file, model);
+        scene.read();
+        require_apart(file, scene.blocks);
+        content->triangles = scene.triangles();
+        content->blocks = std::move(scene.blocks);
+        content->buffers = std::move(model.buffers);
+        read_values(file, *content, scene.rows());
+        embed_pictures(content->container.json, folder);
+    } catch (const InvalidInput&) {
+        throw;
+    } catch (const std::exception& error) {   // of the JSON library: a member of an unexpected type
+        file.fail("is not valid glTF: " + first_line(error.what()));
+    }
+    return content;
+}
+
+}  // namespace fit

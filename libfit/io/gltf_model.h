@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// From the container to a glTF model whose indices can be trusted. Private: only sources that read glTF include it.
+
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+#include "garmentfit/types.h"
+#include "gltf_container.h"
+
+namespace fit {
+
+/// For messages.
+std::string first_line(const std::string& text);
+
+tinygltf::Model load_model(const FileBytes& file, const GltfContainer& container, const std::filesystem::path& folder);
+
+template <class Item>
+const Item& checked(const FileBytes& file, const std::vector<Item>& items, int index, const char* what)
+{
+    if (index < 0 || static_cast<std::size_t>(index) >= items.size())
+        file.fail("names " + std::string(what) + " " + std::to_string(index) + " of " + std::to_string(items.size()));
+    return items[index];
+}
+
+/// Where the values of an accessor lie.
+struct Column {
+    int accessor = -1;
+    int buffer = 0;
+    std::size_t begin = 0, stride = 0, count = 0;
+
+    std::size_t offset(Eigen::Index row) const { return begin + static_cast<std::size_t>(row) * stride; }
+    auto place() const { return std::tie(buffer, begin, stride, count); }
+};
+
+/// @throws InvalidInput: sparse, packed, or beyond its buffer.
+Column column_of(const FileBytes& file, const tinygltf::Model& model, int index, const char* what);
+/// The same, and made of three floats.
+Column vector_column(const FileBytes& file, const tinygltf::Model& model, int index, const char* what);
+
+}  // namespace fit

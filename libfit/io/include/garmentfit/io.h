@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Mesh files: OBJ, PLY, OFF, STL, glTF/GLB. What geometry needs is read; all the rest is kept for writing it back.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "garmentfit/export.h"
+#include "garmentfit/types.h"
+
+namespace fit {
+
+/// A mesh file that can be written again with other positions and nothing else changed: same vertices, order, polygons,
+/// UVs, groups, materials, comments, extra properties. Normals, where the file has some, are turned along.
+class FIT_API MeshFile {
+public:
+    /// The format is told by the content where it has a signature, else by the extension.
+    /// @throws InvalidInput: missing, unreadable, unknown format, truncated, mangled, no faces, index out of range, not
+    ///         finite; names file and line or byte.
+    static MeshFile read(const std::filesystem::path& path);
+
+    /// The same for what may have no faces: the points of a scanner. @throws InvalidInput.
+    static MeshFile read_points(const std::filesystem::path& path);
+
+    const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
+    const Triangles& triangles() const;  ///< polygons cut into fans
+    const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" or "gltf"
+
+    /// Writes the file as it was read but for the positions (n x 3, same order). Never leaves a half-written file:
+    /// written beside, then renamed. @throws InvalidInput when the place cannot be written.
+    void write(const std::filesystem::path& path, const Positions& positions) const;
+
+    struct Content;  ///< one kind for each format, private
+
+private:
+    std::shared_ptr<const Content> content_;
+};
+
+/// One named column of vertex data for write_ply; `integer` columns are written as int, the others as double.
+struct VertexProperty {
+    std::string name;
+    std::vector<double> values;
+    bool integer = false;
+};
+
+/// Binary little-endian PLY with double positions. Never leaves a half-written file.
+FIT_API void write_ply(const std::filesystem::path& path, const Positions& positions, const Triangles& triangles,
+                       const std::vector<VertexProperty>& properties = {},
+                       const std::vector<std::string>& comments = {});
+
+/// Scalar vertex properties of a PLY file by name. @throws InvalidInput.
+FIT_API std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& path);
+
+/// Writes beside the place, then renames: a reader sees the old file or the whole new one, never a half.
+/// @throws InvalidInput when the place cannot be written.
+FIT_API void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace fit

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/io.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "garmentfit/error.h"
+#include "mesh_content.h"
+
+namespace fit {
+namespace {
+
+std::string extension_of(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
+ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
+{
+    const std::string extension = extension_of(path);
+    if (file.bytes.starts_with("ply") || extension == ".ply")
+        return read_ply(std::move(file));
+    if (file.bytes.starts_with("glTF") || extension == ".glb" || extension == ".gltf")
+        return read_gltf(std::move(file), path.parent_path());
+    if (is_off(file) || extension == ".off")
+        return read_off(std::move(file));
+    if (extension == ".obj")
+        return read_obj(std::move(file));
+    if (extension == ".stl")
+        return read_stl(std::move(file));
+    file.fail("unknown format; known are .obj, .ply, .off, .stl, .glb and .gltf");
+}
+
+}  // namespace
+
+MeshFile MeshFile::read(const std::filesystem::path& path)
+{
+    MeshFile mesh = read_points(path);
+    if (mesh.triangles().rows() == 0)
+        throw InvalidInput(path.string() + ": has no faces; give a surface mesh, or --reconstruct the points of a body");
+    return mesh;
+}
+
+MeshFile MeshFile::read_points(const std::filesystem::path& path)
+{
+    MeshFile mesh;
+    mesh.content_ = read_content(read_file(path), path);
+    return mesh;
+}
+
+const Positions& MeshFile::positions() const { return content_->positions; }
+const Triangles& MeshFile::triangles() const { return content_->triangles; }
+const std::string& MeshFile::format() const { return content_->format; }
+
+void MeshFile::write(const std::filesystem::path& path, const Positions& positions) const
+{
+    if (positions.rows() != content_->positions.rows())
+        throw InvalidInput(path.string() + ": cannot write " + std::to_string(positions.rows()) + " positions into a mesh of "
+                           + std::to_string(content_->positions.rows()) + " vertices");
+    write_file(path, content_->bytes_with(positions));
+}
+
+}  // namespace fit

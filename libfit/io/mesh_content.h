@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What each format keeps of a mesh file, and the readers that make it.
+
+#include <string>
+#include <vector>
+
+#include "file_bytes.h"
+#include "garmentfit/io.h"
+
+namespace fit {
+
+struct MeshFile::Content {
+    Positions positions;
+    Triangles triangles;
+    std::string format;
+
+    virtual ~Content() = default;
+    /// The file again, with other positions (same count).
+    virtual std::string bytes_with(const Positions& positions) const = 0;
+};
+
+using ContentPtr = std::shared_ptr<const MeshFile::Content>;
+
+ContentPtr read_obj(FileBytes file);
+ContentPtr read_off(FileBytes file);
+ContentPtr read_stl(FileBytes file);
+/// The file's own buffers and pictures lie beside it, in `folder`.
+ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder);
+ContentPtr read_ply(FileBytes file);
+
+/// Whether the header line says OFF.
+bool is_off(const FileBytes& file);
+
+/// Collects faces corner by corner and cuts polygons into fans.
+class FanBuilder {
+public:
+    explicit FanBuilder(int columns = 1) : columns_(columns), fans_(columns) { }
+
+    /// One polygon: `columns` indices (of position, of normal, ...) for each corner, all of the first corner first.
+    void add(const std::vector<int>& corners);
+    Triangles triangles(int column = 0) const;
+
+private:
+    int columns_;
+    std::vector<std::vector<int>> fans_;
+};
+
+}  // namespace fit

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/rig_body.h"
+
+#include <algorithm>
+
+#include "body_graph.h"
+#include "curve_skeleton.h"
+#include "garmentfit/error.h"
+#include "given_joints.h"
+#include "heat_weights.h"
+#include "joint_labels.h"
+#include "proxy_surface.h"
+#include "rig_gates.h"
+#include "side_vote.h"
+#include "skin_transfer.h"
+
+namespace fit {
+namespace {
+
+struct LimbBones {
+    int root, upper, lower;
+    Extremity tip;
+};
+
+constexpr LimbBones k_left_arm { lclavicle, lhumerus, lradius, lhand_tip },
+    k_right_arm { rclavicle, rhumerus, rradius, rhand_tip }, k_left_leg { lhipjoint, lfemur, ltibia, lfoot_tip },
+    k_right_leg { rhipjoint, rfemur, rtibia, rfoot_tip };
+
+void place(const LimbJoints& joints, const LimbBones& bones, Skeleton& skeleton)
+{
+    skeleton.tails[bones.root] = joints.root;
+    skeleton.tails[bones.upper] = joints.middle;
+    skeleton.tails[bones.lower] = joints.end;
+    skeleton.tips[bones.tip] = joints.tip;
+}
+
+Skeleton skeleton_of(const BodyJoints& joints, const Sides& sides)
+{
+    Skeleton skeleton;
+    skeleton.root = joints.pelvis;
+    skeleton.tails[lowerback] = joints.lower_spine;
+    skeleton.tails[upperback] = joints.upper_spine;
+    skeleton.tails[thorax] = joints.neck_base;
+    skeleton.tails[lowerneck] = joints.mid_neck;
+    skeleton.tails[upperneck] = joints.skull_base;
+    skeleton.tips[head_top] = joints.crown;
+    place(joints.arms[sides.left_arm], k_left_arm, skeleton);
+    place(joints.arms[1 - sides.left_arm], k_right_arm, skeleton);
+    place(joints.legs[sides.left_leg], k_left_leg, skeleton);
+    place(joints.legs[1 - sides.left_leg], k_right_leg, skeleton);
+    return skeleton;
+}
+
+/// A stretch of the surface sees the bones inside it and those next to them.
+std::array<bool, bone_count> bones_of_curve(int curve, const Sides& sides)
+{
+    std::array<bool, bone_count> visible {};
+    const auto see = [&](std::initializer_list<int> bones) {
+        for (const int b : bones)
+            visible[b] = true;
+    };
+    const auto see_limb = [&](const LimbBones& limb) { see({ limb.root, limb.upper, limb.lower }); };
+    if (curve < 2) {
+        see_limb(curve == sides.left_arm ? k_left_arm : k_right_arm);
+        see({ thorax });  // an arm's curve begins on the flank
+    } else if (curve < 4)
+        see_limb(curve - 2 == sides.left_leg ? k_left_leg : k_right_leg);
+    else if (curve == 4)
+        see({ thorax, lowerneck, upperneck, lclavicle, rclavicle });
+    else
+        see({ lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle });
+    return visible;
+}
+
+VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, const Sides& sides)
+{
+    VisibleBones visible;
+    for (const int node : curves.node_of_vertex) {
+        const int curve = node < 0 ? -1 : graph.place_of_node[node].curve;
+        visible.push_back(bones_of_curve(curve, sides));
+    }
+    return visible;
+}
+
+/// Far from the origin, differences of squares lose their digits.
+BodyMesh centred(BodyMesh body, const Vec3& centre)
+{
+    body.surface.positions.rowwise() -= centre.transpose();
+    body.closed.positions.rowwise() -= centre.transpose();
+    return body;
+}
+
+Skeleton moved(Skeleton skeleton, const Vec3& by)
+{
+    skeleton.root += by;
+    for (Vec3& tail : skeleton.tails)
+        tail += by;
+    for (Vec3& tip : skeleton.tips)
+        tip += by;
+    return skeleton;
+}
+
+/// Skeleton and what the limbs' curves say about who sees whom.
+struct FoundBones {
+    Rig rig;  ///< without weights
+    VisibleBones visible;
+};
+
+FoundBones found_bones(const TriangleMesh& proxy, const RigOptions& options, const Progress& progress)
+{
+    const CurveSkeleton curves = curve_skeleton(proxy, progress);
+    const BodyGraph graph = body_graph(curves);
+    const BodyJoints joints = joint_labels(proxy, curves, graph);
+    Sides sides = side_vote(joints, options.front);
+    if (options.swap_sides) {
+        sides.left_arm = 1 - sides.left_arm;
+        sides.left_leg = 1 - sides.left_leg;
+        sides.front = -sides.front;
+    }
+    FoundBones found { {}, visible_bones(curves, graph, sides) };
+    found.rig.skeleton = corrected(skeleton_of(joints, sides), options.joints);
+    found.rig.up = sides.up;
+    found.rig.front = sides.front;
+    found.rig.side_margin = sides.margin;
+    return found;
+}
+
+/// Nothing to find: every joint is given.
+FoundBones given_bones(const TriangleMesh& proxy, const GivenJoints& joints)
+{
+    std::array<bool, bone_count> all;
+    all.fill(true);
+    FoundBones given { {}, VisibleBones(proxy.positions.rows(), all) };
+    const Skeleton& s = given.rig.skeleton = skeleton_of(joints);
+    given.rig.up = (s.tail(thorax) - s.root).normalized();
+    given.rig.front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(given.rig.up).normalized();
+    given.rig.side_margin = 1;
+    return given;
+}
+
+Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
+{
+    const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
+    progress.at(0.15);
+    auto [rig, visible] = options.joints.complete() ? given_bones(proxy, options.joints)
+                                                    : found_bones(proxy, options, progress.part(0.15, 0.8));
+    progress.at(0.8);
+    check_rig(proxy, rig.skeleton);
+    const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible);
+    progress.at(0.9);
+    rig.weights = transferred(proxy, weights, body);
+    rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
+    progress.at(1);
+    return rig;
+}
+
+GivenJoints moved(GivenJoints joints, const Vec3& by)
+{
+    const auto move = [&](std::optional<Vec3>& joint) {
+        if (joint)
+            *joint += by;
+    };
+    move(joints.root);
+    std::for_each(joints.tails.begin(), joints.tails.end(), move);
+    std::for_each(joints.tips.begin(), joints.tips.end(), move);
+    return joints;
+}
+
+struct Attempt {
+    double proxy, from, to;  ///< share of the vertices; slice of the progress
+};
+
+// The flow may lose its way at a touching hand or a deep bend: other triangles, another way.
+constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { 2.0 / 3, 0.9, 0.95 }, { 1.5, 0.95, 1 } };
+
+/// @throws InvalidInput of the first attempt, when none passes the gates.
+Rig first_that_passes(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+{
+    std::optional<InvalidInput> refusal;
+    for (const Attempt& attempt : k_attempts)
+        try {
+            Rig rig = rigged(body, int(attempt.proxy * options.proxy_vertices), options,
+                             progress.part(attempt.from, attempt.to));
+            progress.at(1);
+            return rig;
+        } catch (const InvalidInput& reason) {
+            if (!refusal)
+                refusal = reason;
+        }
+    throw *refusal;
+}
+
+}  // namespace
+
+Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+{
+    const Vec3 centre = 0.5 * (body.closed.positions.colwise().minCoeff() + body.closed.positions.colwise().maxCoeff());
+    const BodyMesh at_origin = centred(body, centre);
+    RigOptions there = options;
+    there.joints = moved(options.joints, -centre);
+    if (!options.joints.complete())
+        check_shape(at_origin.closed);
+    Rig rig = first_that_passes(at_origin, there, progress);
+    rig.skeleton = moved(rig.skeleton, centre);
+    return rig;
+}
+
+}  // namespace fit

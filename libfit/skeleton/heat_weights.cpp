@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "heat_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/SparseCholesky>
+
+#include "garmentfit/error.h"
+#include "segment.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive definite on obtuse triangles
+constexpr double k_heat = 18;  // c of the paper; larger keeps skin stiffer between joints
+constexpr double k_heat_of_arms = 1.5;  // else they would reach down the flank, far from the spine that should hold it
+constexpr double k_least_facing = 0.1;  // cosine: no bone is hidden from skin, only further away
+
+/// Hands, feet and head hang on the bones before them.
+Vec3 nearest_on_bone(const Vec3& p, const Skeleton& skeleton, int bone)
+{
+    Vec3 nearest = nearest_on_segment(p, skeleton.head(bone), skeleton.tail(bone));
+    for (int e = 0; e < extremity_count; ++e)
+        if (bone_before(Extremity(e)) == bone) {
+            const Vec3 beyond = nearest_on_segment(p, skeleton.tail(bone), skeleton.tips[e]);
+            if ((beyond - p).squaredNorm() < (nearest - p).squaredNorm())
+                nearest = beyond;
+        }
+    return nearest;
+}
+
+struct NearestBone {
+    int bone = -1;
+    double distance = 0;
+};
+
+/// Nearest by the ball that touches the skin from inside and reaches the bone: bones that skin faces count as near. An arm
+/// beside the trunk may be nearer to the flank than the spine is, but it does not lie behind that skin.
+NearestBone nearest_visible(const Vec3& p, const Vec3& normal, const Skeleton& skeleton,
+                            const std::array<bool, bone_count>& visible)
+{
+    NearestBone nearest;
+    double smallest_ball = std::numeric_limits<double>::max();
+    for (int b = 0; b < bone_count; ++b) {
+        if (!visible[b])
+            continue;
+        const Vec3 from_bone = p - nearest_on_bone(p, skeleton, b);
+        const double distance = from_bone.norm();
+        const double ball = distance / std::max(k_least_facing, from_bone.dot(normal) / std::max(distance, 1e-300));
+        if (ball < smallest_ball) {
+            smallest_ball = ball;
+            nearest = { b, distance };
+        }
+    }
+    return nearest;
+}
+
+/// Cotangent Laplacian (positive semi-definite) and the area of each vertex.
+Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd& areas)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    areas = Eigen::VectorXd::Zero(mesh.positions.rows());
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int i = mesh.triangles(f, k), j = mesh.triangles(f, (k + 1) % 3), o = mesh.triangles(f, (k + 2) % 3);
+            const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o),
+                       b = mesh.positions.row(j) - mesh.positions.row(o);
+            const double twice_area = a.cross(b).norm();
+            const double half_cotangent = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, 1e-300));
+            areas[o] += twice_area / 6;
+            entries.emplace_back(i, i, half_cotangent);
+            entries.emplace_back(j, j, half_cotangent);
+            entries.emplace_back(i, j, -half_cotangent);
+            entries.emplace_back(j, i, -half_cotangent);
+        }
+    Eigen::SparseMatrix<double> matrix(mesh.positions.rows(), mesh.positions.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+}  // namespace
+
+Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleton, const VisibleBones& visible)
+{
+    const Eigen::Index n = closed.positions.rows();
+    Eigen::VectorXd areas;
+    Eigen::SparseMatrix<double> system = stiffness(closed, areas);
+    const Positions normals = vertex_normals(closed.positions, closed.triangles);
+    Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
+    for (Eigen::Index v = 0; v < n; ++v) {
+        const NearestBone nearest = nearest_visible(closed.positions.row(v), normals.row(v), skeleton, visible[v]);
+        const double heat_of_bone = is_arm(nearest.bone) ? k_heat_of_arms : k_heat;
+        const double source
+            = heat_of_bone * areas[v] / std::max(std::pow(nearest.distance, 2), 1e-8);  // H of the paper
+        system.coeffRef(v, v) += source;
+        heat(v, nearest.bone) = source;
+    }
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(system);
+    if (solver.info() != Eigen::Success)
+        throw SolverFailure("skin weights: the heat equation cannot be solved on this surface");
+    Eigen::MatrixXd weights = solver.solve(heat);
+    weights = weights.cwiseMax(0.0);
+    for (Eigen::Index v = 0; v < n; ++v)
+        weights.row(v) /= weights.row(v).sum();
+    return weights;
+}
+
+}  // namespace fit

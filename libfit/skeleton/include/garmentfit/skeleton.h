@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The skeleton of 17 bones, its poses, and the skin that hangs on it.
+//
+// Skeleton  the CMU motion-capture (ASF) skeleton without hands, feet and head, as in [wu_2018_garment_fitting].
+// Skinning  dual quaternions [kavan_2008_dual_quaternions].
+// Spaces    "own" = the pose in which the body was given; a Pose turns bones away from it, so the identity Pose is the own pose.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "garmentfit/export.h"
+#include "garmentfit/types.h"
+
+namespace fit {
+
+/// Bones in the order of every table in libfit. Parents come before children.
+enum Bone : int {
+    lhipjoint,
+    lfemur,
+    ltibia,
+    rhipjoint,
+    rfemur,
+    rtibia,
+    lowerback,
+    upperback,
+    thorax,
+    lowerneck,
+    upperneck,
+    lclavicle,
+    lhumerus,
+    lradius,
+    rclavicle,
+    rhumerus,
+    rradius,
+    bone_count
+};
+
+/// "lhipjoint", ... in the order of Bone.
+FIT_API std::string_view bone_name(int bone);
+/// -1 when there is no bone of that name.
+FIT_API int bone_of(std::string_view name);
+/// The bone at whose tail this one begins; -1 for the three that hang on the root.
+FIT_API int parent_of(int bone);
+/// lfemur <-> rfemur ...; bones of the spine are their own mirror.
+FIT_API int mirror_of(int bone);
+/// Of the humerus and radius of either side.
+constexpr bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
+/// Of the femur and tibia of either side.
+constexpr bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bone == rfemur || bone == rtibia; }
+
+/// What lies beyond the last joints: not bones (they never bend), but the body reaches there.
+enum Extremity : int { head_top, lhand_tip, rhand_tip, lfoot_tip, rfoot_tip, extremity_count };
+
+/// The bone at whose tail an extremity begins: upperneck, lradius, rradius, ltibia, rtibia.
+FIT_API int bone_before(Extremity extremity);
+
+/// Joint positions of one body, in one pose. The head of a bone is the tail of its parent (or the root).
+struct Skeleton {
+    Vec3 root = Vec3::Zero();
+    std::array<Vec3, bone_count> tails {};
+    std::array<Vec3, extremity_count> tips {};
+
+    FIT_API const Vec3& head(int bone) const;
+    const Vec3& tail(int bone) const { return tails[bone]; }
+    Vec3 direction(int bone) const { return (tail(bone) - head(bone)).normalized(); }
+    double length(int bone) const { return (tail(bone) - head(bone)).norm(); }
+};
+
+/// Turns of the bones away from the own pose.
+struct Pose {
+    Vec3 root_translation = Vec3::Zero();  ///< metres, added to the root
+    Eigen::Quaterniond root_rotation = Eigen::Quaterniond::Identity();  ///< about the root, of the whole body
+    std::array<Eigen::Quaterniond, bone_count> rotations;  ///< of each bone about its head, in the axes of the own
+        ///< pose: world rotation = parent's world rotation * this
+    FIT_API Pose();  ///< the own pose
+};
+
+/// Whether two poses are alike, bit for bit.
+FIT_API bool is_same(const Pose& a, const Pose& b);
+
+/// Where each bone goes: world-from-own rigid transforms.
+using BoneTransforms = std::array<Eigen::Isometry3d, bone_count>;
+
+/// Parents composed in. O(1).
+FIT_API BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose);
+
+/// The joints in a pose.
+FIT_API Skeleton posed(const Skeleton& own, const Pose& pose);
+
+/// Interpolates every joint by spherical linear interpolation, the root linearly; t in [0, 1].
+FIT_API Pose slerp(const Pose& from, const Pose& to, double t);
+
+/// At most four bones a vertex; weights are non-negative and sum to 1, unused slots carry weight 0.
+struct SkinWeights {
+    Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor> bones;
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> weights;
+};
+
+/// Poses vertices by dual quaternion blending; n x 3 in, n x 3 out. O(n).
+/// Vertices come back bit for bit when every transform is exactly the identity.
+FIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights, const BoneTransforms& transforms);
+
+/// Everything that rigging a body finds out.
+struct Rig {
+    Skeleton skeleton;  ///< in the body's own pose
+    SkinWeights weights;  ///< of the user's own vertices, all of them
+    Vec3 up = Vec3::UnitY();  ///< of the trunk: pelvis towards neck
+    Vec3 front = Vec3::UnitZ();  ///< of the trunk: where the chest faces
+    double side_margin = 0;  ///< how sure left and right are, 0 (a guess) to 1 (every cue agrees)
+    std::array<double, bone_count>
+        radii {};  ///< m, room that a bone needs, from bone_radii; 0: unknown, taken from the leg's length
+};
+
+/// How far the skin is from each bone, m: the lower quartile over the vertices that hang mostly on it, so that a flat part
+/// counts with its thin side; 0 for a bone on which nothing hangs. O(n log n).
+FIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights,
+                                                  const Positions& own_positions);
+
+}  // namespace fit

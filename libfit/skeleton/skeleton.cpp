@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fit {
+namespace {
+
+struct BoneRow {
+    std::string_view name;
+    int parent, mirror;
+};
+
+constexpr std::array<BoneRow, bone_count> k_bones { {
+    { "lhipjoint", -1, rhipjoint }, { "lfemur", lhipjoint, rfemur }, { "ltibia", lfemur, rtibia },
+    { "rhipjoint", -1, lhipjoint }, { "rfemur", rhipjoint, lfemur }, { "rtibia", rfemur, ltibia },
+    { "lowerback", -1, lowerback }, { "upperback", lowerback, upperback }, { "thorax", upperback, thorax },
+    { "lowerneck", thorax, lowerneck }, { "upperneck", lowerneck, upperneck },
+    { "lclavicle", thorax, rclavicle }, { "lhumerus", lclavicle, rhumerus }, { "lradius", lhumerus, rradius },
+    { "rclavicle", thorax, lclavicle }, { "rhumerus", rclavicle, lhumerus }, { "rradius", rhumerus, lradius },
+} };
+
+struct DualQuaternion {
+    Eigen::Vector4d real, dual;  // coefficients x, y, z, w
+};
+
+DualQuaternion dual_quaternion(const Eigen::Isometry3d& transform)
+{
+    const Eigen::Quaterniond q(transform.linear());
+    const Vec3 t = transform.translation();
+    const Eigen::Quaterniond d = Eigen::Quaterniond(0, t.x(), t.y(), t.z()) * q;
+    return { q.coeffs(), 0.5 * d.coeffs() };
+}
+
+bool is_identity(const Eigen::Isometry3d& t)
+{
+    return t.matrix() == Eigen::Matrix4d::Identity();
+}
+
+}  // namespace
+
+std::string_view bone_name(int bone) { return k_bones[bone].name; }
+int parent_of(int bone) { return k_bones[bone].parent; }
+int mirror_of(int bone) { return k_bones[bone].mirror; }
+
+int bone_of(std::string_view name)
+{
+    for (int b = 0; b < bone_count; ++b)
+        if (k_bones[b].name == name)
+            return b;
+    return -1;
+}
+
+int bone_before(Extremity extremity)
+{
+    constexpr std::array<int, extremity_count> bones { upperneck, lradius, rradius, ltibia, rtibia };
+    return bones[extremity];
+}
+
+const Vec3& Skeleton::head(int bone) const
+{
+    return parent_of(bone) < 0 ? root : tails[parent_of(bone)];
+}
+
+Pose::Pose() { rotations.fill(Eigen::Quaterniond::Identity()); }
+
+bool is_same(const Pose& a, const Pose& b)
+{
+    for (int bone = 0; bone < bone_count; ++bone)
+        if (a.rotations[bone].coeffs() != b.rotations[bone].coeffs())
+            return false;
+    return a.root_translation == b.root_translation && a.root_rotation.coeffs() == b.root_rotation.coeffs();
+}
+
+BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose)
+{
+    const auto about = [](const Vec3& from, const Vec3& to, const Eigen::Quaterniond& rotation) {
+        Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
+        t.linear() = rotation.toRotationMatrix();
+        t.translation() = (to - from) + (from - t.linear() * from);  // exactly zero for the identity
+        return t;
+    };
+    std::array<Eigen::Quaterniond, bone_count> world;
+    BoneTransforms transforms;
+    for (int b = 0; b < bone_count; ++b) {
+        const int p = parent_of(b);
+        world[b] = (p < 0 ? pose.root_rotation : world[p]) * pose.rotations[b];
+        const Vec3 head = own.head(b);
+        const Vec3 posed_head = p < 0 ? Vec3(own.root + pose.root_translation) : Vec3(transforms[p] * head);
+        transforms[b] = about(head, posed_head, world[b]);
+    }
+    return transforms;
+}
+
+Skeleton posed(const Skeleton& own, const Pose& pose)
+{
+    const auto transforms = bone_transforms(own, pose);
+    Skeleton result = own;
+    result.root = own.root + pose.root_translation;
+    for (int b = 0; b < bone_count; ++b)
+        result.tails[b] = transforms[b] * own.tails[b];
+    for (int e = 0; e < extremity_count; ++e)
+        result.tips[e] = transforms[bone_before(Extremity(e))] * own.tips[e];
+    return result;
+}
+
+Pose slerp(const Pose& from, const Pose& to, double t)
+{
+    if (t <= 0 || t >= 1)
+        return t <= 0 ? from : to;
+    Pose result;
+    result.root_translation = (1 - t) * from.root_translation + t * to.root_translation;
+    result.root_rotation = from.root_rotation.slerp(t, to.root_rotation);
+    for (int b = 0; b < bone_count; ++b)
+        result.rotations[b] = from.rotations[b].slerp(t, to.rotations[b]);
+    return result;
+}
+
+// Kavan et al. 2008, algorithm 1; antipodal quaternions are flipped towards the vertex's first bone.
+Positions skin(const Positions& own_positions, const SkinWeights& weights,
+               const BoneTransforms& transforms)
+{
+    std::array<DualQuaternion, bone_count> dual;
+    std::array<bool, bone_count> still {};
+    for (int b = 0; b < bone_count; ++b) {
+        dual[b] = dual_quaternion(transforms[b]);
+        still[b] = is_identity(transforms[b]);
+    }
+    Positions result(own_positions.rows(), 3);
+    for (Eigen::Index v = 0; v < own_positions.rows(); ++v) {
+        const Vec3 p = own_positions.row(v);
+        Eigen::Vector4d real = Eigen::Vector4d::Zero(), d = Eigen::Vector4d::Zero();
+        bool moves = false;
+        const Eigen::Vector4d& first = dual[weights.bones(v, 0)].real;
+        for (int k = 0; k < 4; ++k) {
+            const double w = weights.weights(v, k);
+            if (w == 0)
+                continue;
+            const int b = weights.bones(v, k);
+            moves |= !still[b];
+            const double sign = first.dot(dual[b].real) < 0 ? -w : w;
+            real += sign * dual[b].real;
+            d += sign * dual[b].dual;
+        }
+        if (!moves) {
+            result.row(v) = p;
+            continue;
+        }
+        const double norm = real.norm();
+        real /= norm;
+        d /= norm;
+        const Vec3 r = real.head<3>(), e = d.head<3>();
+        const double w = real.w(), ew = d.w();
+        result.row(v) = p + 2 * r.cross(r.cross(p) + w * p) + 2 * (w * e - ew * r + r.cross(e));
+    }
+    return result;
+}
+
+std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights, const Positions& own_positions)
+{
+    std::array<std::vector<double>, bone_count> distances;
+    for (Eigen::Index v = 0; v < own_positions.rows(); ++v) {
+        int slot = 0;
+        weights.weights.row(v).maxCoeff(&slot);
+        const int b = weights.bones(v, slot);
+        const Vec3 from_head = Vec3(own_positions.row(v)) - own.head(b);
+        const double along = from_head.dot(own.direction(b));
+        if (along > 0 && along < own.length(b))  // beside the bone: neither hand nor foot
+            distances[b].push_back((from_head - along * own.direction(b)).norm());
+    }
+    std::array<double, bone_count> radii {};
+    for (int b = 0; b < bone_count; ++b)
+        if (auto& d = distances[b]; !d.empty()) {
+            std::nth_element(d.begin(), d.begin() + d.size() / 4, d.end());
+            radii[b] = d[d.size() / 4];
+        }
+    return radii;
+}
+
+}  // namespace fit

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "skin_transfer.h"
+
+#include <algorithm>
+#include <map>
+
+#include <flann/flann.hpp>
+
+#include "joined_vertices.h"
+#include "loose_vertices.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "skin_weights.h"
+
+namespace fit {
+namespace {
+
+constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
+constexpr int k_neighbours = 4;  // that a transferred weight is blended from
+constexpr int k_block = 4096;  // vertices, of which one core finds the neighbours at a time
+constexpr int k_far_bones = 3;  // steps: from forearm to ribs; at the crotch thigh meets thigh, but both meet the hips
+
+/// Rows (position, weighted normal): near in this space means near and facing the same way.
+using OrientedPoints = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+OrientedPoints oriented_points(const Positions& positions, const Positions& normals, double normal_length)
+{
+    OrientedPoints rows(positions.rows(), 6);
+    rows << positions, normal_length * normals;
+    return rows;
+}
+
+/// Outwards. What had to be repaired may be turned any way: there the nearest place of the closed surface tells.
+Positions outward_normals(const BodyMesh& body, const Positions& places)
+{
+    if (!body.repaired)
+        return vertex_normals(body.surface.positions, body.surface.triangles);
+    const Positions closed = vertex_normals(body.closed.positions, body.closed.triangles);
+    const NearestPoint nearest(body.closed.positions);
+    Positions normals(places.rows(), 3);
+    for (Eigen::Index v = 0; v < normals.rows(); ++v)
+        normals.row(v) = closed.row(nearest.index(places.row(v)));
+    return normals;
+}
+
+std::vector<int> main_bones(const Eigen::MatrixXd& weights)
+{
+    std::vector<int> bones(weights.rows());
+    for (Eigen::Index v = 0; v < weights.rows(); ++v)
+        weights.row(v).maxCoeff(&bones[v]);
+    return bones;
+}
+
+using BoneSteps = std::array<std::array<int, bone_count>, bone_count>;
+
+/// Steps along the skeleton from bone to bone; the three bones at the root are next to each other.
+BoneSteps bone_steps()
+{
+    BoneSteps steps;
+    for (int a = 0; a < bone_count; ++a)
+        for (int b = 0; b < bone_count; ++b)
+            steps[a][b] = a == b                         ? 0
+                : parent_of(a) == b || parent_of(b) == a ? 1
+                : parent_of(a) == parent_of(b)           ? 1
+                                                         : bone_count;
+    for (int middle = 0; middle < bone_count; ++middle)
+        for (auto& from : steps)
+            for (int to = 0; to < bone_count; ++to)
+                from[to] = std::min(from[to], from[middle] + steps[middle][to]);
+    return steps;
+}
+
+int steps_between(int bone, int other)
+{
+    static const BoneSteps steps = bone_steps();
+    return steps[bone][other];
+}
+
+/// Rows of weights at places nearby, blended by inverse squared distance. Fingertips that touch have no part in each other: neighbours
+/// count that hang on bones near to that of the nearest.
+class BlendedWeights {
+public:
+    BlendedWeights(OrientedPoints points, Eigen::MatrixXd weights) :
+        points_(std::move(points)), weights_(std::move(weights)), bones_(main_bones(weights_)),
+        neighbours_(std::min<int>(k_neighbours, int(points_.rows()))),
+        tree_(flann::Matrix<double>(points_.data(), points_.rows(), 6), flann::KDTreeSingleIndexParams())
+    {
+        tree_.buildIndex();
+    }
+
+    Eigen::MatrixXd at(OrientedPoints queries) const
+    {
+        const std::size_t n = queries.rows();
+        const double same = 1e-12 * (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).squaredNorm();
+        Eigen::MatrixXd blended(n, bone_count);
+        parallel_for((n + k_block - 1) / k_block, [&](std::size_t block) {
+            const std::size_t first = block * k_block, count = std::min<std::size_t>(k_block, n - first);
+            std::vector<int> rows(count * neighbours_);
+            std::vector<double> squared(count * neighbours_);
+            flann::Matrix<int> found(rows.data(), count, neighbours_);
+            flann::Matrix<double> distances(squared.data(), count, neighbours_);
+            tree_.knnSearch(flann::Matrix<double>(queries.data() + 6 * first, count, 6), found, distances, neighbours_,
+                            flann::SearchParams(-1));
+            for (std::size_t v = 0; v < count; ++v) {
+                Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
+                const int* const near = rows.data() + v * neighbours_;
+                for (int k = 0; k < neighbours_; ++k)
+                    if (steps_between(bones_[near[0]], bones_[near[k]]) < k_far_bones)
+                        row += weights_.row(near[k]) / (squared[v * neighbours_ + k] + same);
+                blended.row(first + v) = row;
+            }
+        });
+        return blended;
+    }
+
+private:
+    OrientedPoints points_;
+    Eigen::MatrixXd weights_;
+    std::vector<int> bones_;
+    int neighbours_;
+    flann::Index<flann::L2<double>> tree_;
+};
+
+template <typename Visit>
+void for_each_edge(const Triangles& triangles, Visit&& visit)
+{
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            visit(triangles(f, k), triangles(f, (k + 1) % 3));
+}
+
+/// Vertices that are not of the largest part of their surface, when it is cut where bones far apart meet.
+std::vector<bool> cut_off(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
+{
+    const int n = int(bone_of_vertex.size());
+    JoinedVertices parts(n), surfaces(n);
+    for_each_edge(triangles, [&](int a, int b) {
+        surfaces.join(a, b);
+        if (steps_between(bone_of_vertex[a], bone_of_vertex[b]) < k_far_bones)
+            parts.join(a, b);
+    });
+    std::vector<int> size(n, 0), largest(n, -1);
+    for (int v = 0; v < n; ++v)
+        ++size[parts.root(v)];
+    for (int v = 0; v < n; ++v) {
+        int& best = largest[surfaces.root(v)];
+        if (best < 0 || size[parts.root(v)] > size[best])
+            best = parts.root(v);
+    }
+    std::vector<bool> result(n);
+    for (int v = 0; v < n; ++v)
+        result[v] = parts.root(v) != largest[surfaces.root(v)];
+    return result;
+}
+
+/// The weights of those vertices alone that hang mostly on one of the bones; of all, where none does.
+BlendedWeights weights_on(const std::array<bool, bone_count>& bones, const std::vector<int>& bone_of_vertex,
+                          const OrientedPoints& points, const Eigen::MatrixXd& weights)
+{
+    std::vector<int> rows;
+    for (int v = 0; v < int(bone_of_vertex.size()); ++v)
+        if (bones[bone_of_vertex[v]])
+            rows.push_back(v);
+    if (rows.empty())
+        return { points, weights };
+    return { points(rows, Eigen::all), weights(rows, Eigen::all) };
+}
+
+}  // namespace
+
+std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
+{
+    const std::vector<bool> stray = cut_off(triangles, bone_of_vertex);
+    JoinedVertices joined(int(bone_of_vertex.size()));
+    for_each_edge(triangles, [&](int a, int b) {
+        if (stray[a] && stray[b])
+            joined.join(a, b);
+    });
+    std::map<int, StrayPatch> patches;
+    for (int v = 0; v < int(stray.size()); ++v)
+        if (stray[v])
+            patches[joined.root(v)].vertices.push_back(v);
+    for_each_edge(triangles, [&](int a, int b) {
+        if (stray[a] == stray[b])
+            return;
+        const int around = bone_of_vertex[stray[a] ? b : a];
+        for (int bone = 0; bone < bone_count; ++bone)
+            patches[joined.root(stray[a] ? a : b)].near_bones[bone] |= steps_between(bone, around) <= 1;
+    });
+    std::vector<StrayPatch> result;
+    for (auto& [root, patch] : patches)
+        result.push_back(std::move(patch));
+    return result;
+}
+
+SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to)
+{
+    const double normal_length
+        = k_normal_weight * (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
+    const OrientedPoints points
+        = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), normal_length);
+    const Positions places = brought_to_stumps(to);
+    const OrientedPoints queries = oriented_points(places, outward_normals(to, places), normal_length);
+
+    Eigen::MatrixXd carried = BlendedWeights(points, weights).at(queries);
+    const std::vector<int> bone_of_point = main_bones(weights);
+    for (const StrayPatch& patch : stray_patches(to.surface.triangles, main_bones(carried)))
+        carried(patch.vertices, Eigen::all)
+            = weights_on(patch.near_bones, bone_of_point, points, weights).at(queries(patch.vertices, Eigen::all));
+    return strongest_four(std::move(carried));
+}
+
+}  // namespace fit

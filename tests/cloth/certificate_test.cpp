@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    TriangleMesh mesh { Positions(3, 3), Triangles(1, 3) };
+    mesh.positions << a.transpose(), b.transpose(), c.transpose();
+    mesh.triangles << 0, 1, 2;
+    return mesh;
+}
+
+TriangleMesh ball(double radius, const Vec3& centre = Vec3::Zero())
+{
+    TriangleMesh mesh
+        = polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-0.3), Vec3::Constant(0.3), 0.05);
+    mesh.positions.rowwise() += centre.transpose();
+    return mesh;
+}
+
+TEST(Certificate, CountsAnEdgeThroughATriangleOnce)
+{
+    const TriangleMesh flat = triangle({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 });
+    const TriangleMesh spike = triangle({ 0.2, 0.2, -1 }, { 0.2, 0.2, 1 }, { 9, 9, 1 });
+    ASSERT_EQ(crossings(spike, flat).size(), 1u);
+    EXPECT_EQ(crossings(spike, flat).front().second, 0);
+    EXPECT_TRUE(crossings(flat, triangle({ 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 })).empty());
+}
+
+TEST(Certificate, CallsABorderThatTouchesACrossing)
+{
+    const TriangleMesh flat = triangle({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 });
+    EXPECT_EQ(crossings(triangle({ 0.5, 0, 0 }, { 0.5, -1, 1 }, { 0.5, -1, 2 }), flat).size(), 2u);
+}
+
+TEST(Certificate, DoesNotCountNeighboursAsCrossings)
+{
+    EXPECT_TRUE(self_crossings(ball(0.2)).empty());
+    const TriangleMesh apart = joined(ball(0.2), ball(0.1));
+    EXPECT_TRUE(self_crossings(apart).empty());
+    EXPECT_FALSE(self_crossings(joined(ball(0.2), ball(0.2, Vec3(0.1, 0, 0)))).empty());
+}
+
+TEST(Certificate, FindsAGarmentThatLiesInsideTheBodyWithoutCrossingIt)
+{
+    const TriangleMesh body = ball(0.2), inner = ball(0.1), outer = ball(0.25);
+    const GarmentMesh hidden { inner.positions, inner.triangles }, worn { outer.positions, outer.triangles };
+    const Certificate bad = certify(body, hidden, hidden.positions), good = certify(body, worn, worn.positions);
+    EXPECT_EQ(bad.body_crossings, 0);
+    EXPECT_EQ(bad.vertices_inside, inner.positions.rows());
+    EXPECT_FALSE(bad.clean());
+    EXPECT_TRUE(good.clean());
+    EXPECT_GT(good.smallest_gap, 0.02);  // the balls are polyhedra
+    EXPECT_LT(good.smallest_gap, 0.05);
+}
+
+TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)
+{
+    const TriangleMesh two = joined(ball(0.1), ball(0.1, Vec3(0.103, 0.007, 0.011)));
+    const GarmentMesh rest { two.positions, two.triangles };
+    const TriangleMesh body = ball(0.05, Vec3(0, 0, 2));
+    EXPECT_GT(certify(body, rest, rest.positions).input_self_crossings, 0);
+    EXPECT_TRUE(certify(body, rest, rest.positions).clean());
+    EXPECT_EQ(certify(body, rest, rest.positions).kept_self_crossings, self_crossings(two));
+
+    const TriangleMesh apart = joined(ball(0.1), ball(0.1, Vec3(0.4, 0, 0)));
+    EXPECT_GT(certify(body, { apart.positions, apart.triangles }, two.positions).self_crossings, 0);
+    EXPECT_TRUE(certify(body, { apart.positions, apart.triangles }, two.positions).kept_self_crossings.empty());
+}
+
+TEST(Certificate, KnowsNoCrossingWhereTheInputOnlyTouched)
+{
+    // the spike's edge passes exactly through the border that two triangles share, and then beside it
+    TriangleMesh mesh { Positions(7, 3), Triangles(3, 3) };
+    mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0, 0.5, 0, -1, 0.5, 0, 1, 9, 9, 1;
+    mesh.triangles << 0, 1, 2, 1, 0, 3, 4, 5, 6;
+    const TriangleMesh body = ball(0.05, Vec3(0, 0, 5));
+    EXPECT_GT(certify(body, { mesh.positions, mesh.triangles }, mesh.positions).input_self_crossings, 0);
+    Positions moved = mesh.positions;
+    moved.bottomRows(3).col(1).array() += 0.1;
+    EXPECT_GT(certify(body, { mesh.positions, mesh.triangles }, moved).self_crossings, 0);
+}
+
+TEST(Certificate, MeasuresStrainAgainstTheRestLengths)
+{
+    const TriangleMesh mesh = ball(0.2);
+    const Strain strain = strain_of({ mesh.positions, mesh.triangles }, 1.1 * mesh.positions);
+    EXPECT_NEAR(strain.median, 0.1, 1e-9);
+    EXPECT_NEAR(strain.max, 0.1, 1e-9);
+}
+
+TEST(Certificate, CountsLayersApartFromTheBody)
+{
+    const TriangleMesh body = ball(0.05, Vec3(0, 0, 2)), under = ball(0.2), over = ball(0.2, Vec3(0.1, 0, 0));
+    const Certificate certificate = certify(body, { over.positions, over.triangles }, over.positions, { under });
+    EXPECT_GT(certificate.layer_crossings, 0);
+    EXPECT_EQ(certificate.body_crossings, 0);
+    EXPECT_FALSE(certificate.clean());
+}
+
+}  // namespace

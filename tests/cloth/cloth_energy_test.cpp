@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloth_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "surface_measures.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+GarmentMesh flat_sheet()
+{
+    const TriangleMesh mesh = sheet(6, 0.02, [](double, double) { return 0; });
+    return { mesh.positions, mesh.triangles };
+}
+
+Positions shaken(Positions x, double by)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shake(-by, by);
+    for (double& value : x.reshaped())
+        value += shake(random);
+    return x;
+}
+
+TEST(ClothEnergy, IsNothingAtRestAndNothingPullsThere)
+{
+    const GarmentMesh rest = flat_sheet();
+    const ClothEnergy energy(rest, {}, {});
+    EXPECT_NEAR(energy.elastic_energy(rest.positions), 0, 1e-15);
+    EXPECT_LT(energy.elastic_forces(rest.positions).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(ClothEnergy, ForcesAreMinusItsGradient)
+{
+    const GarmentMesh rest = flat_sheet();
+    ClothOptions cloth;
+    cloth.bend_stiffness = 1e-2;  // so that bending shows beside stretch
+    const ClothEnergy energy(rest, {}, cloth);
+    Positions x = shaken(rest.positions, 4e-3);
+    const Positions forces = energy.elastic_forces(x);
+    constexpr double h = 1e-7;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        for (int k = 0; k < 3; ++k) {
+            const double here = x(v, k);
+            x(v, k) = here + h;
+            const double after = energy.elastic_energy(x);
+            x(v, k) = here - h;
+            const double before = energy.elastic_energy(x);
+            x(v, k) = here;
+            EXPECT_NEAR(forces(v, k), -(after - before) / (2 * h), 1e-5 * forces.cwiseAbs().maxCoeff())
+                << v << ' ' << k;
+        }
+}
+
+/// How the energy grows along a way, J/m, by central differences.
+double slope(const ClothEnergy& energy, const Positions& x, const Positions& way)
+{
+    constexpr double h = 1e-7;
+    return (energy.elastic_energy(x + h * way) - energy.elastic_energy(x - h * way)) / (2 * h);
+}
+
+GarmentMesh crumpled_sheet()
+{
+    const TriangleMesh mesh
+        = sheet(6, 0.02, [](double x, double z) { return 0.02 * std::sin(60 * x) + 0.015 * std::cos(45 * z); });
+    return { mesh.positions, mesh.triangles };
+}
+
+// The forces leave out how the axes of a hinge turn, which change the energy by the work of what a hinge lacks to its fold, turned with it.
+// A fold that has its own shape, larger and turned, lacks something along the fold only; turning changes nothing there, so the forces are
+// the whole gradient.
+TEST(ClothEnergy, ForcesAreMinusItsGradientWhereFoldsHaveTheirShape)
+{
+    const GarmentMesh rest = crumpled_sheet();
+    ClothOptions cloth;
+    cloth.bend_stiffness = 1e-2;
+    const ClothEnergy energy(rest, {}, cloth);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Positions x = 1.15 * rest.positions * turn.transpose(), forces = energy.elastic_forces(x);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        for (int k = 0; k < 3; ++k) {
+            Positions way = Positions::Zero(x.rows(), 3);
+            way(v, k) = 1;
+            EXPECT_NEAR(forces(v, k), -slope(energy, x, way), 1e-5 * forces.cwiseAbs().maxCoeff()) << v << ' ' << k;
+        }
+}
+
+// Of a fold with another shape than its own they are the gradient along all ways on which its axes stay: of the corners in the planes of their
+// triangles, and of the edge along itself.
+TEST(ClothEnergy, ForcesOfAnOpenedFoldAreMinusItsGradientWhileItsAxesHold)
+{
+    GarmentMesh rest { Positions(4, 3), (Triangles(2, 3) << 0, 1, 2, 1, 0, 3).finished() };
+    rest.positions << 0, 0, 0, 0.02, 0, 0, 0.01, 0.008, 0.016, 0.008, 0.01, -0.015;
+    ClothOptions cloth;
+    cloth.bend_stiffness = 1e-2;
+    const ClothEnergy energy(rest, {}, cloth);
+    Positions x = rest.positions;
+    x.row(2) << 0.012, 0.002, 0.019;
+    x.row(3) << 0.009, 0.004, -0.017;
+    const Positions forces = energy.elastic_forces(x);
+    const auto beside = [&](int v, const Eigen::RowVector3d& direction) {
+        Positions way = Positions::Zero(4, 3);
+        way.row(v) = direction.normalized();
+        return forces.row(v).dot(way.row(v)) + slope(energy, x, way);
+    };
+    const double close = 1e-5 * forces.cwiseAbs().maxCoeff();
+    const Eigen::RowVector3d edge = x.row(1) - x.row(0);
+    for (const int corner : { 2, 3 }) {
+        const Eigen::RowVector3d up = x.row(corner) - x.row(0);
+        EXPECT_NEAR(beside(corner, edge), 0, close);
+        EXPECT_NEAR(beside(corner, up), 0, close);
+        EXPECT_GT(std::abs(beside(corner, edge.cross(up))), 100 * close)
+            << "the axes turn: not held, this shows nothing";
+    }
+    for (const int end : { 0, 1 })
+        EXPECT_NEAR(beside(end, edge), 0, close);
+}
+
+TEST(ClothEnergy, StiffensWhereAnEdgeIsOverstretched)
+{
+    constexpr double k_edge = 0.02, k_time_step = 0.02;
+    const GarmentMesh rest { (Positions(3, 3) << 0, 0, 0, k_edge, 0, 0, k_edge / 2, 0, k_edge).finished(),
+                             (Triangles(1, 3) << 0, 1, 2).finished() };
+    ClothEnergy energy(rest, {}, {});
+    energy.set_time_step(k_time_step);
+    const auto stretch_when_drawn_by = [&](double force) {
+        Positions inertial = rest.positions;
+        for (int end : { 0, 1 })
+            inertial(end, 0) += (end == 0 ? -1 : 1) * force * k_time_step * k_time_step / energy.masses()[end];
+        Descent descent(energy, rest.positions, inertial);
+        for (int i = 0; i < 300; ++i) {
+            if (i % 3 == 0)
+                descent.press({});
+            descent.step();
+        }
+        return (descent.positions().row(1) - descent.positions().row(0)).norm() / k_edge - 1;
+    };
+    double force = 0.01;
+    while (stretch_when_drawn_by(force) < 0.3)
+        force *= 1.1;
+    const double four_times = stretch_when_drawn_by(4 * force);
+    EXPECT_GT(four_times, 0.4);
+    EXPECT_LT(four_times, 0.7) << "it would be 1.2 were it not to stiffen";
+}
+
+TEST(ClothEnergy, DoesNotChangeWhenTheClothIsMovedAsAWhole)
+{
+    GarmentMesh rest = flat_sheet();
+    rest.positions.col(1) = 0.05 * (20 * rest.positions.col(0)).array().sin();  // with folds of its own
+    const ClothEnergy energy(rest, {}, {});
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(3, 1, 2).normalized()).toRotationMatrix();
+    EXPECT_NEAR(energy.elastic_energy((rest.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(1, 2, 3)), 0,
+                1e-15);
+    const Positions x = shaken(rest.positions, 2e-3);
+    EXPECT_NEAR(energy.elastic_energy(x * turn.transpose()) / energy.elastic_energy(x), 1, 1e-9);
+}
+
+TEST(ClothEnergy, FreeFallIsThatOfImplicitEuler)
+{
+    const GarmentMesh rest = flat_sheet();
+    ClothEnergy energy(rest, {}, {});
+    constexpr double h = 0.01, g = 9.81;
+    energy.set_time_step(h);
+    Positions x = rest.positions, velocity = Positions::Zero(x.rows(), 3);
+    constexpr int steps = 20;
+    for (int i = 0; i < steps; ++i) {
+        Positions inertial = x + h * velocity;
+        inertial.col(1).array() -= g * h * h;
+        Descent descent(energy, x, inertial);
+        for (int k = 0; k < 4; ++k)
+            descent.step();
+        velocity = (descent.positions() - x) / h;
+        x = descent.positions();
+    }
+    const double fallen = g * h * h * steps * (steps + 1) / 2;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        EXPECT_NEAR(rest.positions(v, 1) - x(v, 1), fallen, 1e-3 * fallen);
+}
+
+// What is minimised: energy of inertia, springs, hinges and presses, J.
+double total_energy(const ClothEnergy& energy, const Positions& x, const Positions& inertial, double h,
+                    const std::vector<Press>& presses)
+{
+    double sum = energy.elastic_energy(x);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        sum += 0.5 * energy.masses()[v] / (h * h) * (x.row(v) - inertial.row(v)).squaredNorm();
+    for (const Press& press : presses) {
+        const Vec3 off = Vec3(x.row(press.vertices[0])) - press.target;
+        sum += 0.5 * off.dot(press.stiffness_times(off));
+    }
+    return sum;
+}
+
+TEST(ClothEnergy, DescentNeverGoesUpAndSoonComesNearTheBottom)
+{
+    const GarmentMesh rest = flat_sheet();
+    ClothEnergy energy(rest, {}, {});
+    constexpr double h = 0.02;
+    energy.set_time_step(h);
+    const Positions start = 1.1 * rest.positions, inertial = rest.positions;
+    std::vector<Press> presses;
+    for (int v : { 0, 3, 7 })
+        presses.push_back({ { v, -1, -1, -1 },
+                            { 1, 0, 0, 0 },
+                            Vec3(rest.positions.row(v)) + Vec3(0, 0.01, 0),
+                            Vec3::UnitY(),
+                            500,
+                            100 });
+    Descent descent(energy, start, inertial);
+    descent.press(presses);
+    const auto energy_now = [&] { return total_energy(energy, descent.positions(), inertial, h, presses); };
+    std::vector<double> energies { energy_now() };
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 3 == 0)
+            descent.press(presses);
+        descent.step();
+        energies.push_back(energy_now());
+        ASSERT_LE(energies.back(), energies[i] * (1 + 1e-9)) << "step " << i;
+    }
+    EXPECT_LT(energies[20] - energies.back(), 0.01 * (energies.front() - energies.back()));
+}
+
+/// How far the lower hem of a square sheet of half a metre sinks when it hangs by its upper hem, m.
+double sag_of_hanging_sheet(int n, const ClothOptions& cloth)
+{
+    const TriangleMesh mesh = sheet(n, 0.5 / (n - 1), [](double, double) { return 0; });
+    const GarmentMesh rest { mesh.positions, mesh.triangles };
+    ClothEnergy energy(rest, {}, cloth);
+    constexpr double h = 0.2, pin = 4e3;  // s, N/m: neither so far from the cloth's own that the solver crawls
+    energy.set_time_step(h);
+    std::vector<Press> pins;
+    for (int v = 0; v < n; ++v)
+        pins.push_back({ { v, -1, -1, -1 }, { 1, 0, 0, 0 }, rest.positions.row(v), Vec3::UnitY(), pin, pin });
+    Positions x = rest.positions;
+    for (int i = 0; i < 3000; ++i) {
+        Positions inertial = x;
+        inertial.col(2).array() += 9.81 * h * h;
+        Descent descent(energy, x, inertial);
+        descent.press(pins);
+        for (int k = 0; k < 3; ++k)
+            descent.step();
+        x = descent.positions();
+    }
+    const Eigen::VectorXd sunk = (x - rest.positions).col(2);
+    return sunk.tail(n).mean() - sunk.head(n).mean();
+}
+
+/// An even sheet of equilateral triangles, a row of corners above the other, in the plane z = 0.
+GarmentMesh even_sheet(int across, int up)
+{
+    Positions positions(across * up, 3);
+    Triangles triangles(2 * (across - 1) * (up - 1), 3);
+    for (int j = 0; j < up; ++j)
+        for (int i = 0; i < across; ++i)
+            positions.row(j * across + i) << 0.02 * (i + 0.5 * j), 0.02 * std::sqrt(0.75) * j, 0;
+    Eigen::Index f = 0;
+    for (int j = 0; j + 1 < up; ++j)
+        for (int i = 0; i + 1 < across; ++i) {
+            const int a = j * across + i, b = a + 1, c = a + across, d = c + 1;
+            triangles.row(f++) << a, b, c;
+            triangles.row(f++) << b, d, c;
+        }
+    return { positions, triangles };
+}
+
+// The figures of an isotropic sheet of Poisson's ratio 1/3, which a triangular lattice of springs is: stretched one way and held the
+// other, it has 9/8 of Young's modulus; sheared, 3/8.
+TEST(ClothEnergy, StretchesAndShearsAsAnIsotropicSheet)
+{
+    const ClothOptions cloth;
+    const GarmentMesh rest = even_sheet(9, 7);
+    const ClothEnergy energy(rest, {}, cloth);
+    const auto modulus = [&](const Eigen::Matrix2d& strain) {
+        Positions x = rest.positions;
+        x.leftCols(2) += x.leftCols(2) * strain.transpose();
+        return 2 * energy.elastic_energy(x) / (area({ rest.positions, rest.triangles }) * 1e-6)
+            / cloth.stretch_stiffness;
+    };
+    Eigen::Matrix2d along, across, shear, turned_shear;
+    along << 1e-3, 0, 0, 0;
+    across << 0, 0, 0, 1e-3;
+    shear << 0, 1e-3, 0, 0;
+    turned_shear << 5e-4, 0, 0, -5e-4;
+    EXPECT_NEAR(modulus(along), 9. / 8, 0.01);
+    EXPECT_NEAR(modulus(across), 9. / 8, 0.01);
+    EXPECT_NEAR(modulus(shear), 3. / 8, 0.01);
+    EXPECT_NEAR(modulus(turned_shear), 3. / 8, 0.01);
+}
+
+// Tension at a distance s from the lower hem is density g s, so the hem sinks by density g L^2 / 2k. The springs of a grid
+// resist between 1 and 1.2 times as much as their k, as shear and narrowing go along or not.
+TEST(ClothEnergy, AHangingSheetGivesAsMuchAsItsStiffnessSays)
+{
+    const ClothOptions cloth;
+    const double expected = cloth.density * 9.81 * 0.5 * 0.5 / (2 * cloth.stretch_stiffness);
+    const double coarse = sag_of_hanging_sheet(6, cloth), fine = sag_of_hanging_sheet(11, cloth);
+    EXPECT_GT(fine, expected / 1.25);
+    EXPECT_LT(fine, expected * 1.02);
+    EXPECT_NEAR(coarse / fine, 1, 0.05);
+}
+
+}  // namespace

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The private steps under drape_garment.h and recover_pose.h: what they stand on is tested here.
+#include "contact.h"
+
+#include <gtest/gtest.h>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <random>
+#include <set>
+
+#include "cloth_energy.h"
+#include "cloth_motion.h"
+#include "collapse.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+// A tube round +y with open ends.
+GarmentMesh tube(double radius, int rings = 12, int around = 24)
+{
+    GarmentMesh mesh { Positions(rings * around, 3), Triangles(2 * (rings - 1) * around, 3) };
+    for (int r = 0; r < rings; ++r)
+        for (int a = 0; a < around; ++a) {
+            const double angle = 2 * M_PI * a / around;
+            mesh.positions.row(r * around + a) << radius * std::sin(angle), 0.03 * (r - rings / 2.0),
+                radius * std::cos(angle);
+        }
+    int f = 0;
+    for (int r = 0; r + 1 < rings; ++r)
+        for (int a = 0; a < around; ++a) {
+            const int i = r * around + a, j = r * around + (a + 1) % around;
+            mesh.triangles.row(f++) << i, j, i + around;
+            mesh.triangles.row(f++) << j, j + around, i + around;
+        }
+    return mesh;
+}
+
+TriangleMesh ball(double radius)
+{
+    return polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-radius - 0.1),
+                      Vec3::Constant(radius + 0.1), 0.25 * radius);
+}
+
+Corners random_corners(std::mt19937& random)
+{
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Corners x;
+    for (Vec3& p : x)
+        p = Vec3(uniform(random), uniform(random), uniform(random));
+    return x;
+}
+
+TEST(Proximity, ClosestPointsAreNoFurtherThanAnySample)
+{
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 200; ++trial) {
+        const Corners x = random_corners(random);
+        const double face = closest(PairKind::vertex_face, x).distance,
+                     edges = closest(PairKind::edge_edge, x).distance;
+        for (double s = 0; s <= 1; s += 0.1)
+            for (double t = 0; t <= 1; t += 0.1) {
+                EXPECT_LE(edges, (x[0] + s * (x[1] - x[0]) - x[2] - t * (x[3] - x[2])).norm() + 1e-12);
+                if (s + t <= 1) {
+                    EXPECT_LE(face, (x[0] - x[1] - s * (x[2] - x[1]) - t * (x[3] - x[1])).norm() + 1e-12);
+                }
+            }
+    }
+}
+
+TEST(Proximity, DegeneratePrimitivesHaveDistances)
+{
+    const Vec3 o = Vec3::Zero(), x = Vec3::UnitX(), y = Vec3::UnitY();
+    EXPECT_DOUBLE_EQ(closest(PairKind::vertex_face, { y, o, o, o }).distance, 1);
+    EXPECT_DOUBLE_EQ(closest(PairKind::vertex_face, { y, -x, o, x }).distance, 1);
+    EXPECT_DOUBLE_EQ(closest(PairKind::edge_edge, { y, y, o, o }).distance, 1);
+    EXPECT_DOUBLE_EQ(closest(PairKind::edge_edge, { y, Vec3(x + y), o, x }).distance, 1);  // parallel
+}
+
+TEST(Proximity, TheFreeShareNeverComesNearerThanItMay)
+{
+    std::mt19937 random(2);
+    constexpr double gap = 0.01;
+    for (int trial = 0; trial < 500; ++trial)
+        for (const PairKind kind : { PairKind::vertex_face, PairKind::edge_edge }) {
+            const Corners x = random_corners(random), d = random_corners(random);
+            const double share = free_share(kind, x, d, gap), allowed = kept_distance(closest(kind, x).distance, gap);
+            for (double t = 0; t <= 1; t += 0.05) {
+                Corners moved = x;
+                for (int k = 0; k < 4; ++k)
+                    moved[k] += t * share * d[k];
+                EXPECT_GE(closest(kind, moved).distance, allowed - 1e-12);
+            }
+        }
+}
+
+TEST(Proximity, CommonMotionIsFree)
+{
+    Corners x { Vec3(0, 1e-7, 0), Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(0, 0, 1) };
+    EXPECT_EQ(
+        free_share(PairKind::vertex_face, x, { Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1) }, 1e-4),
+        1);
+    EXPECT_EQ(free_share(PairKind::vertex_face, x, { Vec3(0, 1, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero() }, 1e-4),
+              1);
+}
+
+TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
+{
+    const GarmentMesh cloth = tube(0.15);
+    const TriangleMesh obstacle = ball(0.1);
+    const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
+    Contact contact(cloth.triangles, n, obstacle.triangles);
+    Positions x(n + m, 3);
+    x << cloth.positions, obstacle.positions;
+    std::srand(3);
+    for (int step = 0; step < 30; ++step) {
+        Positions push = 0.02 * Positions::Random(n + m, 3);
+        push.topRows(n) -= 0.1 * x.topRows(n);  // the cloth is crushed onto the ball and itself
+        contact.detect(x, push, { 1e-4, 1e-4 });
+        const std::vector<double> shares = contact.free_shares(x, push, 1e-4);
+        for (int v = 0; v < n + m; ++v)
+            x.row(v) += shares[v] * push.row(v);
+        const TriangleMesh now { x.topRows(n), cloth.triangles };
+        ASSERT_EQ(crossing_count(now, { x.bottomRows(m), obstacle.triangles }), 0) << "step " << step;
+        ASSERT_TRUE(self_crossings(now).empty()) << "step " << step;
+    }
+}
+
+TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
+{
+    const GarmentMesh cloth = tube(0.11);
+    const TriangleMesh obstacle = ball(0.1);
+    const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
+    Contact lasting(cloth.triangles, n, obstacle.triangles, { 5e-3, 8e-3 });
+    Positions x(n + m, 3);
+    x << cloth.positions, obstacle.positions;
+    const auto meeting = [](const Contact& contact) {
+        std::set<std::pair<PairKind, std::array<int, 4>>> result;
+        for (const ContactPair& pair : contact.pairs())
+            result.emplace(pair.kind, pair.vertices);
+        return result;
+    };
+    std::srand(4);
+    for (int step = 0; step < 30; ++step) {
+        Contact fresh(cloth.triangles, n, obstacle.triangles);
+        fresh.detect(x, Positions::Zero(n + m, 3), { 3e-3, 7e-3 });
+        lasting.detect(x, Positions::Zero(n + m, 3), { 3e-3, 7e-3 });
+        EXPECT_FALSE(fresh.pairs().empty());
+        EXPECT_EQ(meeting(lasting), meeting(fresh)) << "step " << step;
+        x += 5e-4 * Positions::Random(n + m, 3);
+    }
+}
+
+TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
+{
+    // two sheets that all but touch, pushed into each other and along +z; a third far off
+    const auto sheet = [](double y) {
+        Positions p(3, 3);
+        p << 0, y, 0, 1, y, 0, 0, y, 1;
+        return p;
+    };
+    Positions x(9, 3), push(9, 3);
+    x << sheet(0), sheet(1e-5), sheet(1);
+    push << Positions::Constant(3, 3, 0.02), Positions::Constant(3, 3, -0.02), Positions::Constant(3, 3, 0.01);
+    push.col(2).array() += 0.1;
+    Triangles triangles(3, 3);
+    triangles << 0, 1, 2, 3, 4, 5, 6, 7, 8;
+    Contact contact(triangles, 9, Triangles(0, 3));
+    contact.detect(x, push, { 1e-4, 1e-4 });
+    const Positions together = contact.joined(x, push, 1e-4);
+    for (int v = 0; v < 6; ++v)
+        EXPECT_LT((together.row(v) - Eigen::RowVector3d(0, 0, 0.1)).norm(), 1e-12) << v;
+    EXPECT_EQ(together.bottomRows(3), push.bottomRows(3));
+    EXPECT_EQ(contact.free_shares(x, together, 1e-4), std::vector<double>(9, 1.0));
+}
+
+TEST(Contact, WhatLocksToAnObstacleThatStandsStillStandsStill)
+{
+    Positions x(6, 3), push = Positions::Zero(6, 3);
+    x << 0, 1e-5, 0, 1, 1e-5, 0, 0, 1e-5, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+    push.topRows(3).col(1).setConstant(-0.02);
+    push.topRows(3).col(2).setConstant(0.1);
+    Triangles triangle(1, 3);
+    triangle << 0, 1, 2;
+    Contact contact(triangle, 3, triangle);
+    contact.detect(x, push, { 1e-4, 1e-4 });
+    EXPECT_TRUE(contact.joined(x, push, 1e-4).isZero(0));
+    push.row(5) << 0, 0, 0.01;  // an obstacle on its way is taken along
+    contact.detect(x, push, { 1e-4, 1e-4 });
+    EXPECT_FALSE(contact.joined(x, push, 1e-4).isZero(0));
+}
+
+TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
+{
+    std::srand(5);
+    std::vector<Box> boxes;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 p = Vec3::Random();
+        boxes.emplace_back(p, p + 0.2 * (Vec3::Random() + Vec3::Ones()));
+    }
+    const BoxTree tree(boxes), other(boxes);
+    const auto found = [&](const BoxTree& b) {
+        std::vector<std::vector<std::pair<int, int>>> parts(BoxTree::k_parts);
+        BoxTree::overlaps(tree, b, [&](int part, int i, int j) { parts[part].emplace_back(i, j); });
+        std::multiset<std::pair<int, int>> all;
+        for (const auto& part : parts)
+            all.insert(part.begin(), part.end());
+        return all;
+    };
+    std::multiset<std::pair<int, int>> crosswise, within;
+    for (int i = 0; i < 300; ++i)
+        for (int j = 0; j < 300; ++j)
+            if (boxes[i].intersects(boxes[j]))
+                crosswise.emplace(i, j);
+    for (const auto& [i, j] : found(tree))
+        within.insert(std::minmax(i, j));
+    EXPECT_EQ(found(other), crosswise);
+    for (int i = 0; i < 300; ++i)
+        crosswise.erase({ i, i });
+    for (auto pair = crosswise.begin(); pair != crosswise.end();)
+        pair = pair->first < pair->second ? std::next(pair) : crosswise.erase(pair);
+    EXPECT_EQ(within, crosswise);
+}
+
+// Springs between the neighbours of a net, n by m knots, each knot held a little.
+Eigen::SparseMatrix<double> net(int n, int m)
+{
+    Eigen::SparseMatrix<double> result(n * m, n * m);
+    const auto join = [&](int i, int j) {
+        result.coeffRef(i, i) += 1;
+        result.coeffRef(j, j) += 1;
+        result.coeffRef(i, j) -= 1;
+        result.coeffRef(j, i) -= 1;
+    };
+    for (int r = 0; r < m; ++r)
+        for (int c = 0; c < n; ++c) {
+            result.coeffRef(r * n + c, r * n + c) += 0.1;
+            if (c > 0)
+                join(r * n + c, r * n + c - 1);
+            if (r > 0)
+                join(r * n + c, r * n + c - n);
+        }
+    return result;
+}
+
+TEST(SinglePrecisionFactor, SolvesForThreeRightSidesToSingleDigits)
+{
+    std::srand(1);
+    for (const auto& system : { net(1, 1), net(40, 1), net(25, 30) }) {
+        const Positions wanted = Positions::Random(system.rows(), 3);
+        SinglePrecisionFactor factor;
+        ASSERT_TRUE(factor.compute(system));
+        EXPECT_LT((factor.solve(system * wanted) - wanted).cwiseAbs().maxCoeff(), 1e-4);
+        ASSERT_TRUE(factor.compute(2 * system));
+        EXPECT_LT((factor.solve(system * wanted) - 0.5 * wanted).cwiseAbs().maxCoeff(), 1e-4);
+        EXPECT_FALSE(factor.compute(-system));
+    }
+}
+
+TEST(ClothEnergy, AGarmentAtRestStays)
+{
+    const GarmentMesh cloth = tube(0.15);
+    ClothEnergy energy(cloth, {}, {});
+    energy.set_time_step(0.02);
+    Descent descent(energy, cloth.positions, cloth.positions);
+    descent.step();
+    EXPECT_LT((descent.positions() - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(ClothEnergy, FallsFreelyByHalfGTimesTimeSquared)
+{
+    const GarmentMesh cloth = tube(0.15);
+    const TriangleMesh far
+        = { (ball(0.1).positions.rowwise() + Eigen::RowVector3d(9, 0, 0)).eval(), ball(0.1).triangles };
+    ClothMotion motion(cloth, cloth.positions, far, {});
+    const Positions target = far.positions;
+    MotionStep step;
+    step.obstacle_target = &target;
+    step.gravity = k_gravity;
+    step.velocity_kept = 1;
+    step.time_step = 0.002;
+    step.largest_move = 0.01;
+    const int steps = 50;
+    for (int i = 0; i < steps; ++i)
+        motion.advance(step);
+    const double time = steps * step.time_step, fallen = cloth.positions.col(1).mean() - motion.cloth().col(1).mean();
+    EXPECT_NEAR(fallen, 0.5 * k_gravity * time * time, 0.03 * fallen);  // implicit Euler is g h t / 2 ahead
+    EXPECT_NEAR(motion.cloth().col(0).mean(), cloth.positions.col(0).mean(), 1e-9);
+}
+
+TEST(ClothEnergy, AStretchedGarmentGetsBackTowardsItsLengths)
+{
+    const GarmentMesh cloth = tube(0.15);
+    ClothEnergy energy(cloth, {}, {});
+    energy.set_time_step(0.02);
+    Positions x = 1.2 * cloth.positions;
+    double strain = strain_of(cloth, x).median;
+    for (int i = 0; i < 10; ++i) {
+        const Positions here = x;
+        Descent descent(energy, here, here);
+        for (int k = 0; k < 3; ++k)
+            descent.step();
+        x = descent.positions();
+        EXPECT_LT(strain_of(cloth, x).median, strain);
+        strain = strain_of(cloth, x).median;
+    }
+    EXPECT_LT(strain, 0.02);
+}
+
+TEST(ClothMotion, KeepsAGapAfterEveryStepWhileABallGrowsInsideATube)
+{
+    const GarmentMesh cloth = tube(0.15);
+    const TriangleMesh small = ball(0.05), unit = ball(1);
+    ClothMotion motion(cloth, cloth.positions, { 0.05 * unit.positions, unit.triangles }, {});
+    MotionStep step;
+    step.largest_move = step.largest_obstacle_move = 0.01;
+    for (double radius = 0.05; radius < 0.165; radius += 0.005) {
+        const Positions target = radius * unit.positions;
+        step.obstacle_target = &target;
+        motion.advance(step);
+        const Certificate certificate = certify({ motion.obstacle(), unit.triangles }, cloth, motion.cloth());
+        ASSERT_TRUE(certificate.clean()) << "radius " << radius;
+        ASSERT_GT(certificate.smallest_gap, 0);
+    }
+    EXPECT_GT(strain_of(cloth, motion.cloth()).max, 0.05);  // the tube was narrower than the ball
+}
+
+TEST(ClothMotion, MovesTheSameForAnyNumberOfThreads)
+{
+    const GarmentMesh cloth = tube(0.12, 24, 48);  // enough for several threads to get some
+    const TriangleMesh unit = ball(1);
+    const Positions target = 0.13 * unit.positions;
+    const auto run = [&](int threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return tbb::task_arena(threads).execute([&] {
+            ClothMotion motion(cloth, cloth.positions, { 0.1 * unit.positions, unit.triangles }, {});
+            MotionStep step;
+            step.obstacle_target = &target;
+            step.largest_move = step.largest_obstacle_move = 0.01;
+            for (int i = 0; i < 8; ++i)
+                motion.advance(step);
+            return motion.cloth();
+        });
+    };
+    const Positions one = run(1);
+    for (const int threads : { 2, 8, 8 })
+        EXPECT_EQ(run(threads), one) << threads << " threads";
+}
+
+TEST(Collapse, EveryVertexEndsOnTheSkeleton)
+{
+    const Person person = capsule_person();
+    const Skeleton& s = person.skeleton;
+    SkinWeights weights;
+    weights.bones = Eigen::MatrixXi::Zero(2, 4);
+    weights.weights = Eigen::MatrixXd::Zero(2, 4);
+    weights.bones.row(0) << thorax, lhumerus, 0, 0;
+    weights.weights.row(0) << 0.5, 0.5, 0, 0;
+    weights.bones.row(1) << lfemur, rfemur, 0, 0;
+    weights.weights.row(1) << 0.5, 0.5, 0, 0;
+    Positions points(2, 3);
+    points << 0.14, 1.3, 0, 0, 0.85, 0;
+    const Positions core = collapse(points, weights, s);
+    // the armpit goes to the way from spine to arm over the shoulder, the crotch to the root between the hips
+    EXPECT_GT(core(0, 1), 1.38);
+    EXPECT_LT((core.row(1).transpose() - s.root).norm(), 0.02);
+}
+
+}  // namespace

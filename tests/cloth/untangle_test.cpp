@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "untangle.h"
+
+#include <gtest/gtest.h>
+
+#include "garmentfit/certificate.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+/// 20 by 20 cm, vertices 1 cm apart.
+TriangleMesh sheet(const std::function<double(double, double)>& height) { return fixtures::sheet(21, 0.01, height); }
+
+/// A flat sheet, and one above it that dips through it by so much in the middle.
+TriangleMesh dipping(double depth)
+{
+    return joined(sheet([](double, double) { return 0; }), sheet([&](double x, double z) {
+                      const double off = std::hypot(x - 0.103, z - 0.097);
+                      return 0.004 - (0.004 + depth) * std::exp(-off * off / (2 * 0.02 * 0.02));
+                  }));
+}
+
+TEST(Untangle, LeavesClothThatDoesNotCrossItselfAsItIs)
+{
+    const TriangleMesh apart = dipping(-0.002);
+    ASSERT_TRUE(self_crossings(apart).empty());
+    EXPECT_EQ(untangled(apart).positions, apart.positions);
+}
+
+TEST(Untangle, PartsASheetThatDipsThroughAnother)
+{
+    const TriangleMesh tangled = dipping(0.006);
+    ASSERT_FALSE(self_crossings(tangled).empty());
+    EXPECT_TRUE(self_crossings({ untangled(tangled).positions, tangled.triangles }).empty());
+}
+
+TEST(Untangle, PartsACornerThatSticksThroughASheet)
+{
+    TriangleMesh corner = sheet([](double x, double z) { return 0.5 * (x + z) - 0.0111; });
+    corner.positions.col(0).array() += 0.0513;
+    corner.positions.col(2).array() += 0.0537;
+    const TriangleMesh tangled = joined(sheet([](double, double) { return 0; }), corner);
+    ASSERT_FALSE(self_crossings(tangled).empty());
+    EXPECT_TRUE(self_crossings({ untangled(tangled).positions, tangled.triangles }).empty());
+}
+
+TEST(Untangle, MovesNothingFarFromATangle)
+{
+    const TriangleMesh tangled = dipping(0.003);
+    const Positions result = untangled(tangled).positions;
+    for (Eigen::Index v = 0; v < result.rows(); ++v)
+        if (std::hypot(tangled.positions(v, 0) - 0.103, tangled.positions(v, 2) - 0.097) > 0.1) {
+            EXPECT_EQ(result.row(v), tangled.positions.row(v));
+        }
+    EXPECT_LT((result - tangled.positions).rowwise().norm().maxCoeff(), 0.01);
+}
+
+TEST(Untangle, LeavesWhatDoesNotComeApartAsGivenAndPartsTheRest)
+{
+    const TriangleMesh rings = joined(
+        polygonise([](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.1, p.z()) - 0.06; },
+                   Vec3::Constant(-0.2), Vec3::Constant(0.2), 0.055),
+        polygonise([](const Vec3& p) { return std::hypot(std::hypot(p.x() - 0.03, p.z()) - 0.1, p.y()) - 0.06; },
+                   Vec3::Constant(-0.25), Vec3::Constant(0.25), 0.055));  // linked, and too thick to lie side by side
+    TriangleMesh dip = dipping(0.004);
+    dip.positions.col(1).array() += 1;
+    const TriangleMesh both = joined(rings, dip);
+    const Positions result = untangled(both).positions;
+    const Eigen::Index first = rings.positions.rows();
+    EXPECT_EQ(result.topRows(first), rings.positions);
+    EXPECT_TRUE(self_crossings({ result.bottomRows(result.rows() - first), dip.triangles }).empty());
+}
+
+TEST(Untangle, GoesTheSameWayInAnyFrame)
+{
+    const TriangleMesh tangled = dipping(0.006);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Positions moved = tangled.positions * turn.transpose();
+    EXPECT_LT((untangled({ moved, tangled.triangles }).positions - untangled(tangled).positions * turn.transpose())
+                  .rowwise()
+                  .norm()
+                  .maxCoeff(),
+              1e-3);
+}
+
+}  // namespace

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/drape_garment.h"
+
+#include <gtest/gtest.h>
+
+#include "garmentfit/error.h"
+#include "garmentfit/fit_skeleton.h"
+#include "garmentfit/io.h"
+#include "garmentfit/recover_pose.h"
+#include "garmentfit/rig_body.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+constexpr double k_degree = M_PI / 180;
+
+struct Dressing {
+    BodyMesh body;
+    Rig rig;
+};
+
+// Legs raised forward by `hip_angle` degrees, arms out of the way.
+Dressing person(double hip_angle = 0)
+{
+    PersonOptions options;
+    options.arm_angle = 20;
+    options.hip_angle = hip_angle;
+    const TriangleMesh mesh = capsule_person(options).mesh;
+    Dressing result;
+    result.body = make_body(mesh.positions, mesh.triangles);
+    result.rig = rig_body(result.body);
+    return result;
+}
+
+// Round a standing person, `ease` metres off the skin.
+GarmentMesh trousers(double ease)
+{
+    const TriangleMesh mesh = garment_round(
+        person_skeleton({}), ease, [](const Vec3& p) { return p.y() > 0.2 && p.y() < 1.0 && std::abs(p.x()) < 0.26; });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+DrapeOptions short_settling()
+{
+    DrapeOptions options;
+    options.settling_steps = 10;
+    return options;
+}
+
+TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
+{
+    const Dressing d = person();
+    const GarmentMesh garment = trousers(0.02);
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), garment, short_settling());
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_TRUE(result.too_tight.empty());
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    ASSERT_EQ(result.garments.size(), 1u);
+    EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
+    EXPECT_EQ(result.garments[0].rest.positions, garment.positions);
+    EXPECT_LT(result.garments[0].certificate.strain.p95, 0.05);
+}
+
+TEST(DrapeGarment, SaysHowFarAGarmentSlipsThatIsTooWideToStay)
+{
+    const Dressing d = person();
+    const TriangleMesh wide = garment_round(
+        person_skeleton({}), 0.15, [](const Vec3& p) { return p.y() > 0.75 && p.y() < 1.0 && std::abs(p.x()) < 0.4; });
+    DrapeOptions options;
+    options.settling_steps = 30;
+    const DrapeResult result
+        = drape_garment(d.rig, d.body, Pose(), make_garment(wide.positions, wide.triangles), options);
+    EXPECT_GT(result.garments[0].slipped, 0.1);
+    EXPECT_LT(drape_garment(d.rig, d.body, Pose(), trousers(0.02), short_settling()).garments[0].slipped, 0.06);
+}
+
+TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
+{
+    const Dressing d = person();
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), trousers(-0.03), short_settling());
+    EXPECT_FALSE(result.certified);
+    EXPECT_LT(result.size_reached, 1);
+    ASSERT_FALSE(result.too_tight.empty());
+    // 3 cm all round are 19 cm of girth
+    EXPECT_NEAR(result.too_tight[0].missing_girth, 2 * M_PI * 0.03, 0.05);
+    EXPECT_TRUE(result.garments[0].certificate.clean());  // as far as it came, nothing crosses
+}
+
+TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
+{
+    const Dressing d = person();
+    const GarmentMesh small = trousers(-0.012);
+    DrapeOptions options = short_settling();
+    options.cloth.largest_enlargement = 1;
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), small, options);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.size_reached, 1);
+    ASSERT_EQ(result.garments.size(), 1u);
+    const double size = result.garments[0].size;
+    EXPECT_GT(size, 1.05);
+    EXPECT_LT(size, 1.5);
+    EXPECT_EQ(result.garments[0].rest.positions, size * small.positions);
+    options.cloth.largest_enlargement = 0.5 * (size - 1);
+    EXPECT_LT(drape_garment(d.rig, d.body, Pose(), small, options).size_reached, 1);
+}
+
+TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
+{
+    const Dressing d = person();
+    GarmentMesh aside = trousers(0.02);
+    aside.positions.col(0).array() += 0.12;
+    try {
+        drape_garment(d.rig, d.body, Pose(), aside);
+        FAIL() << "took a garment beside the body";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("bone"), std::string::npos) << error.what();
+    }
+}
+
+// With a patch of 2 cm beside the left shin, so far from its middle.
+GarmentMesh trousers_with_patch(const Skeleton& skeleton, double distance)
+{
+    GarmentMesh result = trousers(0.02);
+    const Vec3 middle = 0.5 * (skeleton.head(ltibia) + skeleton.tail(ltibia)), along = skeleton.direction(ltibia);
+    const Vec3 beside = Vec3::UnitX() - along.x() * along, across = along.cross(beside);
+    const int first = int(result.positions.rows());
+    result.positions.conservativeResize(first + 4, 3);
+    for (int corner = 0; corner < 4; ++corner)
+        result.positions.row(first + corner) = middle + distance * beside.normalized()
+            + 0.01 * ((corner % 2 ? 1 : -1) * along + (corner / 2 ? 1 : -1) * across.normalized());
+    result.triangles.conservativeResize(result.triangles.rows() + 2, 3);
+    result.triangles.bottomRows(2) << first, first + 1, first + 2, first + 1, first + 3, first + 2;
+    return result;
+}
+
+TEST(DrapeGarment, StartsThinnerWhereClothIsVeryNearToABone)
+{
+    const Dressing d = person();
+    const GarmentMesh garment = trousers_with_patch(d.rig.skeleton, 3e-4);
+    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), garment, short_settling());
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_THROW(drape_garment(d.rig, d.body, Pose(), trousers_with_patch(d.rig.skeleton, 0), short_settling()),
+                 InvalidInput);
+}
+
+TEST(DrapeGarment, PutsASecondGarmentOverTheFirst)
+{
+    const Dressing d = person();
+    const DrapeResult inner = drape_garment(d.rig, d.body, Pose(), trousers(0.012), short_settling());
+    ASSERT_TRUE(inner.certified);
+    const DrapeResult both = drape_garment(d.rig, d.body, Pose(), trousers(0.04), short_settling(), {}, inner.garments);
+    EXPECT_TRUE(both.certified);
+    ASSERT_EQ(both.garments.size(), 2u);
+    EXPECT_EQ(both.garments[1].certificate.layer_crossings, 0);
+    EXPECT_EQ(both.garments[0].positions, inner.garments[0].positions);
+}
+
+TEST(DrapeGarment, LeavesInnerGarmentsCleanWhereTheOuterOneIsTooSmall)
+{
+    const Dressing d = person();
+    const DrapeResult inner = drape_garment(d.rig, d.body, Pose(), trousers(0.012), short_settling());
+    const DrapeResult both
+        = drape_garment(d.rig, d.body, Pose(), trousers(-0.03), short_settling(), {}, inner.garments, inner.body);
+    EXPECT_FALSE(both.certified);
+    EXPECT_LT(both.size_reached, 1);
+    ASSERT_FALSE(both.too_tight.empty());
+    EXPECT_EQ(both.too_tight[0].garment, 1);
+    for (const WornGarment& garment : both.garments)
+        EXPECT_TRUE(garment.certificate.clean());
+    EXPECT_EQ(crossing_count({ both.garments[0].positions, both.garments[0].rest.triangles },
+                             { both.body, d.body.surface.triangles }),
+              0);
+}
+
+TEST(DrapeGarment, StopsWhenToldTo)
+{
+    const Dressing d = person();
+    const Progress stop([](double fraction, std::string_view) { return fraction < 0.2; });
+    EXPECT_THROW(drape_garment(d.rig, d.body, Pose(), trousers(0.02), {}, stop), Cancelled);
+}
+
+TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
+{
+    const Dressing d = person(35);
+    Pose standing;
+    for (const int thigh : { lfemur, rfemur })
+        standing.rotations[thigh] = Eigen::Quaterniond(Eigen::AngleAxisd(35 * k_degree, Vec3::UnitX()));
+    const DrapeResult draped = drape_garment(d.rig, d.body, standing, trousers(0.025), short_settling());
+    ASSERT_TRUE(draped.certified);
+    std::vector<double> fractions;
+    const Progress progress([&](double fraction, std::string_view) { return fractions.push_back(fraction), true; });
+    RecoverOptions options;
+    options.frames = 5;
+    const RecoverResult result = recover_pose(d.rig, d.body, standing, Pose(), draped.garments, options, progress);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.pose_reached, 1);
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
+    EXPECT_LT(result.garments[0].certificate.strain.p95, 0.15);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    ASSERT_EQ(result.frames.size(), 5u);
+    EXPECT_EQ(result.frames.front().garments[0], draped.garments[0].positions);
+    EXPECT_EQ(result.frames.back().garments[0], result.garments[0].positions);
+    EXPECT_EQ(result.frames.back().body, result.body);
+    for (const RecoverFrame& frame : result.frames)
+        EXPECT_EQ(crossing_count({ frame.garments[0], draped.garments[0].rest.triangles },
+                                 { frame.body, d.body.surface.triangles }),
+                  0);
+    // the thighs, and with them the cloth at the knees, came forward
+    EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
+}
+
+TEST(RecoverPose, HandsOutAsManyFramesAsAskedForAndOneIsTheEnd)
+{
+    const Dressing d = person();
+    const GarmentMesh rest = trousers(0.02);
+    RecoverOptions options;
+    options.settling_steps = 2;
+    for (const int frames : { 1, 12 }) {  // the body stands in the pose already: one step would do
+        options.frames = frames;
+        const RecoverResult result
+            = recover_pose(d.rig, d.body, Pose(), Pose(), { { rest, rest.positions, {} } }, options);
+        ASSERT_EQ(result.frames.size(), std::size_t(frames));
+        for (int i = 0; i < frames; ++i)
+            EXPECT_NEAR(result.frames[i].share, frames > 1 ? double(i) / (frames - 1) : 1, 1e-9);
+        EXPECT_EQ(result.frames.back().garments[0], result.garments[0].positions);
+    }
+}
+
+TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
+{
+    const Dressing d = person();
+    GarmentMesh rest = trousers(0.01);
+    const Positions worn = rest.positions;
+    rest.positions *= 0.75;
+    const RecoverResult result = recover_pose(d.rig, d.body, Pose(), Pose(), { { rest, worn, {} } });
+    EXPECT_FALSE(result.certified);
+    ASSERT_FALSE(result.too_tight.empty());
+    EXPECT_EQ(result.too_tight[0].garment, 0);
+    EXPECT_GT(result.too_tight[0].missing_girth, 0.02);
+    EXPECT_EQ(result.pose_reached, 1);
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    EXPECT_EQ(result.garments[0].certificate.body_crossings, 0);
+}
+
+TEST(RecoverPose, LetsPartsThatWereHeldBackCatchUp)
+{
+    const Dressing d = person();
+    const GarmentMesh loose = trousers(0.02);
+    const Positions& skin = d.body.surface.positions;
+    const Positions held_back = skin - 4e-3 * vertex_normals(skin, d.body.surface.triangles);
+    const RecoverResult result
+        = recover_pose(d.rig, d.body, Pose(), Pose(), { { loose, loose.positions, {} } }, {}, {}, held_back);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.body, skin);
+}
+
+TEST(RecoverPose, TurnsBackWhereThereIsNoRoomForClothOnTheWay)
+{
+    const Dressing d = person();
+    const GarmentMesh loose = trousers(0.02);
+    Pose crossed;
+    crossed.rotations[lfemur] = Eigen::Quaterniond(Eigen::AngleAxisd(-50 * k_degree, Vec3::UnitZ()));
+    crossed.rotations[rfemur] = crossed.rotations[lfemur].inverse();
+    const RecoverResult result = recover_pose(d.rig, d.body, Pose(), crossed, { { loose, loose.positions, {} } });
+    EXPECT_FALSE(result.certified);
+    EXPECT_LT(result.pose_reached, 1);
+    ASSERT_FALSE(result.held_back.empty());
+    EXPECT_GT(result.held_back[0].distance, 0.05);
+    EXPECT_TRUE(result.garments[0].certificate.clean());
+    EXPECT_LT(result.garments[0].certificate.strain.p95, 0.1) << "the cloth was torn";
+    const Pose last = slerp(Pose(), crossed, result.pose_reached);
+    const Positions posed = skin(d.body.surface.positions, d.rig.weights, bone_transforms(d.rig.skeleton, last));
+    EXPECT_LT((result.body - posed).rowwise().norm().maxCoeff(), 1e-3);
+}
+
+// Each was refused once, or stopped on the way.
+struct Wearing {
+    const char *name, *body, *garment;
+};
+
+class RealGarment : public testing::TestWithParam<Wearing> { };
+
+TEST_P(RealGarment, IsPutOnAndStaysOn)
+{
+    const MeshFile body_file = MeshFile::read(FIT_BODIES "/" + std::string(GetParam().body) + ".ply"),
+                   cloth = MeshFile::read(FIT_SAMPLES "/" + std::string(GetParam().garment) + ".ply");
+    const BodyMesh body = make_body(body_file.positions(), body_file.triangles());
+    const Rig rig = rig_body(body);
+    const GarmentMesh garment = make_garment(cloth.positions(), cloth.triangles());
+    const Pose fitted = fit_skeleton(rig, garment).pose;
+    const DrapeResult draped = drape_garment(rig, body, fitted, garment, short_settling());
+    ASSERT_EQ(draped.size_reached, 1);
+    RecoverOptions options;
+    options.settling_steps = 10;
+    EXPECT_TRUE(recover_pose(rig, body, fitted, Pose(), draped.garments, options, {}, draped.body).certified);
+}
+
+INSTANTIATE_TEST_SUITE_P(Known, RealGarment,
+                         testing::Values(Wearing { "HemNearAnElbow", "child_a_pose", "tshirt" },
+                                         Wearing { "NecklineNearAShoulder", "tall_man_fighting", "tshirt" },
+                                         Wearing { "FeetInTrouserLegs", "man_a_pose", "trousers" },
+                                         Wearing { "WaistInALap", "old_woman_sitting", "trousers" }),
+                         [](const auto& wearing) { return std::string(wearing.param.name); });
+
+TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
+{
+    const Dressing d = person();
+    const GarmentMesh tight = trousers(-0.01);
+    EXPECT_THROW(recover_pose(d.rig, d.body, Pose(), Pose(), { { tight, tight.positions, {} } }), InvalidInput);
+}
+
+TEST(RecoverPose, StopsWhenToldTo)
+{
+    const Dressing d = person();
+    const GarmentMesh loose = trousers(0.02);
+    const Progress stop([](double, std::string_view) { return false; });
+    EXPECT_THROW(recover_pose(d.rig, d.body, Pose(), Pose(), { { loose, loose.positions, {} } }, {}, stop), Cancelled);
+}
+
+}  // namespace

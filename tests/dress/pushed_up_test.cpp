@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pushed_up.h"
+
+#include <gtest/gtest.h>
+
+#include "nearest.h"
+#include "fixtures.h"
+
+namespace fit {
+namespace {
+
+using namespace fixtures;
+
+struct Sleeve : testing::Test {
+    const Person person = capsule_person();
+    const Skeleton& joints = person.skeleton;
+    const double wrist = joints.length(lradius);
+
+    double along(const Positions& positions, Eigen::Index v) const
+    {
+        return (positions.row(v).transpose() - joints.head(lradius)).dot(joints.direction(lradius));
+    }
+    double furthest(const Positions& positions) const
+    {
+        double result = 0;
+        for (Eigen::Index v = 0; v < positions.rows(); ++v)
+            result = std::max(result, along(positions, v));
+        return result;
+    }
+    GarmentMesh sleeve(double to, double radius = 0.06) const
+    {
+        return sleeve_round(joints, lradius, radius, 0.05, to);
+    }
+};
+
+// A square of 1 cm, so far from the forearm's line.
+GarmentMesh with_button(const GarmentMesh& sleeve, const Vec3& middle, const Vec3& u, const Vec3& v)
+{
+    GarmentMesh result = sleeve;
+    const Eigen::Index first = sleeve.positions.rows(), faces = sleeve.triangles.rows();
+    result.positions.conservativeResize(first + 4, 3);
+    for (int corner = 0; corner < 4; ++corner)
+        result.positions.row(first + corner) = middle + 0.005 * ((corner % 2 ? 1 : -1) * u + (corner / 2 ? 1 : -1) * v);
+    result.triangles.conservativeResize(faces + 2, 3);
+    result.triangles.bottomRows(2) << first, first + 1, first + 2, first + 1, first + 3, first + 2;
+    return result;
+}
+
+TEST_F(Sleeve, ThatReachesBeyondTheWristIsPushedUpBehindIt)
+{
+    const GarmentMesh given = sleeve(wrist + 0.1);
+    const PushedUp pushed(joints, given);
+    ASSERT_TRUE(pushed.any());
+    EXPECT_LT(furthest(pushed.positions()), 0.8 * wrist);
+    for (Eigen::Index v = 0; v < given.positions.rows(); ++v) {
+        const Vec3 moved = (pushed.positions().row(v) - given.positions.row(v)).transpose();
+        EXPECT_LT(moved.cross(joints.direction(lradius)).norm(), 1e-12) << "it goes along the bone";
+        EXPECT_GT(along(pushed.positions(), v), 0) << "it does not pass the elbow";
+    }
+}
+
+TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
+{
+    GarmentMesh given = sleeve(wrist + 0.15);
+    const Vec3 side = joints.direction(lradius).unitOrthogonal();
+    for (Eigen::Index v = 0; v < given.positions.rows(); ++v)
+        if (const double beyond = along(given.positions, v) - wrist; beyond > 0)
+            given.positions.row(v) += beyond * side;
+    const PushedUp pushed(joints, given);
+    ASSERT_TRUE(pushed.any());
+    const TriangleTree cloth({ pushed.positions(), given.triangles });
+    EXPECT_FALSE(cloth.is_met(joints.head(lradius), joints.tail(lradius)));
+}
+
+TEST_F(Sleeve, ThatEndsBeforeTheWristStays)
+{
+    const GarmentMesh given = sleeve(wrist - 0.02);
+    const PushedUp pushed(joints, given);
+    EXPECT_FALSE(pushed.any());
+    EXPECT_EQ(pushed.positions(), given.positions);
+}
+
+TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
+{
+    GarmentMesh panel = sleeve(wrist + 0.1);
+    panel.triangles.conservativeResize(panel.triangles.rows() / 2, 3);
+    std::vector<int> kept;  // half of each ring
+    for (Eigen::Index f = 0; f < panel.triangles.rows(); ++f)
+        if (panel.triangles(f, 0) % 24 < 12)
+            kept.push_back(int(f));
+    // vertices without a face are no cloth, but lie all round the arm
+    std::vector<int> half;
+    for (int v = 0; v < int(panel.positions.rows()); ++v)
+        if (v % 24 <= 12)
+            half.push_back(v);
+    GarmentMesh given { panel.positions(half, Eigen::all), Triangles(Eigen::Index(kept.size()), 3) };
+    for (std::size_t f = 0; f < kept.size(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int v = panel.triangles(kept[f], k);
+            given.triangles(Eigen::Index(f), k) = v / 24 * 13 + v % 24;
+        }
+    EXPECT_FALSE(PushedUp(joints, given).any());
+}
+
+TEST_F(Sleeve, TakesItsButtonsAlong)
+{
+    const GarmentMesh plain = sleeve(wrist + 0.1);
+    const Vec3 axis = joints.direction(lradius), side = axis.unitOrthogonal();
+    const Vec3 on_cuff = joints.head(lradius) + (wrist + 0.08) * axis + 0.064 * side;
+    const GarmentMesh given = with_button(plain, on_cuff, axis, axis.cross(side));
+    const PushedUp pushed(joints, given);
+    ASSERT_TRUE(pushed.any());
+    for (Eigen::Index v = plain.positions.rows(); v < given.positions.rows(); ++v)
+        EXPECT_LT(along(pushed.positions(), v), 0.8 * wrist);
+}
+
+TEST_F(Sleeve, SetsFreeTheHandThatItCovered)
+{
+    const PushedUp pushed(joints, sleeve(wrist + 0.1));
+    Positions points(4, 3);
+    points << joints.tips[lhand_tip].transpose(), joints.head(lradius).transpose(), joints.tips[rhand_tip].transpose(),
+        joints.tail(lradius).transpose();
+    SkinWeights weights = on_bone(lradius, 4);
+    weights.bones(2, 0) = rradius;
+    const std::vector<double> freed = pushed.freed(points, weights, joints);
+    EXPECT_EQ(freed[0], 1) << "fingertip";
+    EXPECT_EQ(freed[1], 0) << "elbow";
+    EXPECT_EQ(freed[2], 0) << "the other hand";
+    EXPECT_NEAR(freed[3], 0.5, 1e-9) << "wrist";
+}
+
+}  // namespace
+}  // namespace fit

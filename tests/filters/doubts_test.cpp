@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/filters/doubts.h"
+
+#include <gtest/gtest.h>
+
+namespace fit {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+std::string set(std::string_view parameter) { return "set " + std::string(parameter); }
+
+/// Two garments worn, nothing doubtful about either.
+Scene worn_scene()
+{
+    Scene scene;
+    scene.rig.emplace().side_margin = 1;
+    scene.fits.resize(2);
+    for (FitResult& fit : scene.fits)
+        fit.type_margin = 1;
+    scene.draped.emplace().garments.resize(2);
+    for (WornGarment& garment : scene.draped->garments)
+        garment.positions.setZero(3, 3);
+    return scene;
+}
+
+Lines doubts_about(const Scene& scene) { return doubts_about_scene(scene, { "skirt", "coat" }, set); }
+
+TEST(Doubts, AreNoneWhereEverythingIsSure)
+{
+    EXPECT_EQ(doubts_about(worn_scene()), Lines());
+    EXPECT_EQ(doubts_about_frame("man", { {}, 1, 1, "" }, "", set), Lines());
+}
+
+TEST(Doubts, SayWhichParameterSettlesThem)
+{
+    Scene scene = worn_scene();
+    scene.rig->side_margin = 0.1;
+    scene.fits[1].type = GarmentType::coat;
+    scene.fits[1].type_margin = 0.1;
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "left and right of the body are hardly more than a guess; look, and set swap_sides",
+                       "the type of coat is hardly more than a guess, coat; set type" }));
+    EXPECT_EQ(doubts_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
+              (Lines { "the unit of coat is hardly more than a guess (it is wide); set garment_unit",
+                       "the up axis of coat is hardly more than a guess (it is wide); set garment_up" }));
+}
+
+TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
+{
+    Scene scene = worn_scene();
+    scene.draped->speed = 1.5;
+    scene.draped->garments.pop_back();
+    scene.draped->garments[0].size = 1.08;
+    scene.draped->garments[0].slipped = 0.214;
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "the cloth is not at rest yet (1500 mm/s); give more settling steps", "skirt was made 8% larger",
+                       "skirt slipped 21 cm down: it is too wide for this body to stay where it is worn",
+                       "coat was not put on, for what is under it was not certified" }));
+}
+
+TEST(Doubts, SayThatAGarmentTooSmallIsLeftOut)
+{
+    Scene scene = worn_scene();
+    scene.draped->garments.pop_back();
+    scene.draped->too_tight = { { 1, "hips", 0.1, 0.2 } };
+    EXPECT_EQ(doubts_about(scene), (Lines { "coat is left out of the result: it does not go over what is under it" }));
+}
+
+TEST(Doubts, SayWhereClothIsOverstretched)
+{
+    Scene scene = worn_scene();
+    scene.draped->overstretches = { { 0, 0.49, "" }, { 3, 17.6, "left forearm" } };
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "coat is overstretched: 3 edges by more than 50%, the most by 1760%, at left forearm" }));
+}
+
+TEST(Doubts, SayThatFramesAreMissing)
+{
+    Scene scene = worn_scene();
+    scene.draped->frames_asked = 3;
+    scene.draped->frames.resize(3);
+    EXPECT_EQ(doubts_about(scene), Lines());
+    scene.draped->frames.pop_back();
+    EXPECT_EQ(doubts_about(scene), (Lines { "of 3 frames there are 2: those that cannot be certified are left out" }));
+}
+
+TEST(Doubts, SayThatCrossingsAsGivenAreStillThere)
+{
+    Scene scene = worn_scene();
+    scene.draped->garments[1].certificate.input_self_crossings = 9;
+    EXPECT_EQ(doubts_about(scene), Lines()) << "all of them came apart";
+    scene.draped->garments[1].certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
+    EXPECT_EQ(doubts_about(scene),
+              (Lines { "coat was given with crossings of itself that did not come apart: 2 of 9 are still there" }));
+}
+
+}  // namespace
+}  // namespace fit

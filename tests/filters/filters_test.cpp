@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/filters/filters.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+
+struct CountNames {
+    std::multiset<std::string> names;
+    template <class Value>
+    void operator()(const Value&, const About& about)
+    {
+        names.insert(std::string(about.name));
+    }
+};
+
+template <class Options>
+std::size_t count_of(const Options& options)
+{
+    CountNames count;
+    describe(options, count);
+    return count.names.size();
+}
+
+// A new field makes the binding fail to compile: add it to schema.h, then here.
+TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
+{
+    // front and joints are places in the body's own axes: a host reads them where it reads the body
+    [[maybe_unused]] const auto [proxy_vertices, swap_sides, front, joints] = RigOptions();
+    EXPECT_EQ(count_of(RigOptions()), 2u);
+    [[maybe_unused]] const auto [type, method, iterations, nearest] = FitOptions();
+    EXPECT_EQ(count_of(FitOptions()), 4u);
+    [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, enlargement]
+        = ClothOptions();
+    EXPECT_EQ(count_of(ClothOptions()), 9u);
+    [[maybe_unused]] const auto [drape_cloth, inflation, settling] = DrapeOptions();
+    EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
+    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, frames] = RecoverOptions();
+    EXPECT_EQ(count_of(RecoverOptions()), 8u + 4u);  // all of the cloth but how much larger it may be made
+}
+
+TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)
+{
+    for (const Filter& filter : filters()) {
+        CountNames count;
+        const Parameters parameters;
+        describe(filter, parameters, count);
+        for (const std::string& name : count.names)
+            EXPECT_EQ(count.names.count(name), 1u) << name << " in " << filter.name;
+        describe(filter, parameters, [](const auto&, const About& about) {
+            EXPECT_FALSE(about.label.empty()) << about.name;
+            EXPECT_FALSE(about.help.empty()) << about.name;
+        });
+    }
+}
+
+TEST(Schema, DefaultsLieInTheirRanges)
+{
+    const Parameters defaults;
+    for (const Filter& filter : filters())
+        EXPECT_NO_THROW(describe(filter, defaults, CheckRanges()));
+}
+
+TEST(Schema, AFilterShowsNoParameterThatItDoesNotHeed)
+{
+    const auto shows = [](const char* filter, const char* name) {
+        CountNames count;
+        const Parameters parameters;
+        describe(filter_of(filter), parameters, count);
+        return count.names.count(name) == 1;
+    };
+    EXPECT_TRUE(shows("dress", "enlarge") && shows("drape", "enlarge"));
+    EXPECT_FALSE(shows("recover", "enlarge"));
+    EXPECT_TRUE(shows("dress", "frames") && shows("recover", "frames"));
+    EXPECT_FALSE(shows("drape", "frames"));
+}
+
+TEST(Schema, DressingShowsTheParametersOfAllFourSteps)
+{
+    CountNames four, dress;
+    const Parameters parameters;
+    for (const Filter& filter : filters())
+        describe(filter, parameters, filter.name == "dress" ? dress : four);
+    for (const std::string& name : four.names)
+        EXPECT_EQ(dress.names.count(name), 1u) << name;
+}
+
+TEST(SetByName, SetsOneParameterFromText)
+{
+    Parameters parameters;
+    SetByName set { "contact_distance", "0.004" };
+    describe(filter_of("drape"), parameters, set);
+    EXPECT_TRUE(set.found);
+    EXPECT_EQ(parameters.drape.cloth.contact_distance, 0.004);
+
+    SetByName set_type { "type", "coat" };
+    describe(filter_of("fit"), parameters, set_type);
+    EXPECT_EQ(parameters.fit.type, GarmentType::coat);
+}
+
+TEST(SetByName, RefusesTextThatIsNoValue)
+{
+    Parameters parameters;
+    for (const auto& [name, text] : { std::pair { "contact_distance", "thick" },
+                                      { "contact_distance", "0.002m" },
+                                      { "type", "umbrella" },
+                                      { "swap_sides", "maybe" },
+                                      { "iterations", "2.5" } })
+        EXPECT_THROW(describe(filter_of("dress"), parameters, SetByName { name, text }), InvalidInput)
+            << name << ' ' << text;
+}
+
+TEST(CheckRanges, NamesParameterValueAndRange)
+{
+    Parameters parameters;
+    parameters.drape.cloth.density = -1;
+    try {
+        describe(filter_of("drape"), parameters, CheckRanges());
+        FAIL() << "a negative density passed";
+    } catch (const InvalidInput& error) {
+        const std::string message = error.what();
+        for (const char* part : { "density", "-1", "0.01..5 kg/m^2" })
+            EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
+    }
+}
+
+TEST(CheckRanges, RefusesNotANumber)
+{
+    Parameters parameters;
+    parameters.drape.cloth.friction = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(describe(filter_of("drape"), parameters, CheckRanges()), InvalidInput);
+}
+
+TEST(Filter, SaysWhichInputIsMissing)
+{
+    Scene empty;
+    for (const Filter& filter : filters())
+        EXPECT_THROW(filter.run(empty, {}), InvalidInput) << filter.name;
+    EXPECT_THROW(filter_of("iron"), InvalidInput);
+}
+
+TEST(Filter, ChecksRangesBeforeItWorks)
+{
+    Scene scene;
+    scene.body.emplace();  // rigging it would fail with another message
+    Parameters parameters;
+    parameters.rig.proxy_vertices = 1;
+    try {
+        filter_of("rig").run(scene, parameters);
+        FAIL() << "one proxy vertex passed";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("proxy_vertices"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Filter, NamesTheGarmentThatIsOfAbsurdSizeBeforeItWorks)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    scene.rig = fixtures::simple_rig(person);
+    const TriangleMesh shirt
+        = fixtures::garment_round(person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 0.9 && p.y() < 1.4; });
+    scene.garments = { { make_garment(shirt.positions, shirt.triangles), GarmentType::vest, "vest.obj" },
+                       { make_garment(1000 * shirt.positions, shirt.triangles), GarmentType::vest, "huge.obj" } };
+    scene.fits.resize(2);
+    fixtures::expect_invalid([&] { filter_of("drape").run(scene, {}); }, "huge.obj: the garment would be");
+    EXPECT_FALSE(scene.draped);
+    scene.garments[1].name = "";
+    fixtures::expect_invalid([&] { filter_of("fit").run(scene, {}); }, "garment 2: the garment would be");
+    EXPECT_TRUE(scene.fits.empty());
+}
+
+// ---- the tables in the documentation --------------------------------------------------------------------------------
+
+std::string read_text(const std::string& path)
+{
+    std::ifstream file(path);
+    return { std::istreambuf_iterator<char>(file), {} };
+}
+
+/// Replaces what stands between "<!-- parameters: NAME -->" and "<!-- end -->".
+std::string with_table(std::string page, std::string_view name, const std::string& table)
+{
+    const std::string opening = "<!-- parameters: " + std::string(name) + " -->\n", closing = "<!-- end -->";
+    const auto found = page.find(opening);
+    if (found == std::string::npos)
+        return page + "\nmissing: " + opening;
+    const auto from = found + opening.size(), to = page.find(closing, from);
+    return page.replace(from, to - from, table);
+}
+
+TEST(Documentation, ParameterTablesAreCurrent)
+{
+    const std::string path = FIT_DOCS "/command-line.md";
+    const std::string page = read_text(path);
+    std::string current = page;
+    const Parameters parameters;
+    for (const Filter& filter : filters()) {
+        if (filter.name == "dress")
+            continue;  // the four together
+        std::ostringstream table;
+        describe(filter, parameters, MarkdownTable(table));
+        current = with_table(current, filter.name, table.str());
+    }
+    if (std::getenv("FIT_WRITE_DOCS"))
+        std::ofstream(path) << current;
+    else
+        EXPECT_EQ(page, current) << "run this test with FIT_WRITE_DOCS=1 to write the tables anew";
+}
+
+}  // namespace

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/filters/outcome.h"
+
+#include <gtest/gtest.h>
+
+namespace fit {
+namespace {
+
+WornGarment clean_garment() { return { {}, {}, {} }; }
+
+/// One garment draped, clean and in place.
+Scene draped_scene()
+{
+    Scene scene;
+    scene.draped.emplace();
+    scene.draped->garments = { clean_garment() };
+    scene.draped->certified = true;
+    return scene;
+}
+
+TEST(DressingOutcome, NamesThePartsAtWhichAGarmentIsTooSmall)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->size_reached = 0.876;
+    scene.draped->too_tight = { { 0, "chest", 0.031, 0.034 } };
+    EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::too_small);
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              "coat is too small at chest by 31 mm; the body fits in at 87% of its size; a garment 4% larger would lie "
+              "there unstretched");
+}
+
+TEST(DressingOutcome, NamesTheGarmentThatIsTightestAndItsOwnParts)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->too_tight = { { 1, "chest", 0.031, 0.034 }, { 0, "waist", 0.02, 0.5 }, { 1, "waist", 0.01, 0.04 } };
+    EXPECT_EQ(
+        explain(*final_dressing(scene), { "coat", "shirt" }),
+        "shirt is too small at chest by 31 mm, waist by 10 mm for the body's own pose; a garment 4% larger would lie "
+        "there unstretched");
+}
+
+TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->garments[0].certificate.body_crossings = 3;
+    EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::not_certified);
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }).substr(0, 51),
+              "coat could not be certified: 3 crossings with the b");
+}
+
+TEST(DressingOutcome, ComesFromThePoseReachedLast)
+{
+    Scene scene = draped_scene();
+    scene.recovered = scene.draped;
+    scene.recovered->certified = false;
+    scene.recovered->pose_reached = 0.999;
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              "coat could not be certified: stopped at 99% of the way between two poses");
+}
+
+TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoRoom)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->held_back = { { "chest", 0.028 } };
+    scene.draped->overlaps = { { "chest", "left upper arm", 0.027 }, { "chest", "right upper arm", 0.026 } };
+    EXPECT_EQ(
+        explain(*final_dressing(scene), { "coat" }),
+        "coat could not be certified: the body is not in its place everywhere; no room for cloth at chest (held "
+        "back by 28 mm); the body enters itself, and no cloth fits between chest and left upper arm (27 mm deep), "
+        "chest and right upper arm (26 mm deep)");
+}
+
+TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)
+{
+    WornGarment garment = clean_garment();
+    garment.certificate.smallest_gap = 1e-3;
+    EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
+              "coat (coat): 0 crossings, smallest gap 1 mm, strain 0% at the 95th percentile");
+    garment.certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
+    EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
+              "coat (coat): 0 new crossings, 2 with itself kept as given, smallest gap 1 mm, strain 0% at the 95th "
+              "percentile");
+}
+
+TEST(DressingOutcome, IsOfPositionsAsTheyAreKept)
+{
+    Dressing dressing;
+    const Positions triangle = (Positions(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0).finished();
+    const Triangles face = (Triangles(1, 3) << 0, 1, 2).finished();
+    dressing.body = triangle;
+    dressing.garments = { { { triangle, face }, triangle.rowwise() + Eigen::RowVector3d(0, 0, 0.1), {} } };
+    dressing.certified = true;
+    Positions kept = triangle.rowwise() + Eigen::RowVector3d(0.1, 0.1, 0.1);
+    kept(2, 2) = -0.1;
+    certify_as_kept(dressing, face, { kept });
+    EXPECT_EQ(dressing.garments[0].positions, kept);
+    EXPECT_GT(dressing.garments[0].certificate.body_crossings, 0);
+    EXPECT_FALSE(dressing.certified);
+}
+
+}  // namespace
+}  // namespace fit

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/filters/own_rig.h"
+
+#include "fixtures.h"
+
+namespace fit {
+namespace {
+
+using namespace fixtures;
+
+struct OwnRig : testing::Test {
+    const Person person = capsule_person();
+    const Positions own = person.mesh.positions;
+    const Rig rig = rig_on(simple_rig(person), own);
+};
+
+TEST_F(OwnRig, HasItsRadiiMeasured)
+{
+    EXPECT_EQ(rig.radii, bone_radii(rig.skeleton, rig.weights, own));
+    EXPECT_GT(rig.radii[lfemur], 0.02);
+}
+
+TEST_F(OwnRig, IsKnownAgainOnABodyThatWasKeptAsFloats)
+{
+    const Positions kept = own.cast<float>().cast<double>();
+    EXPECT_EQ(rig_on(rig, kept).skeleton.tails, rig.skeleton.tails);
+}
+
+TEST_F(OwnRig, IsNotThatOfABodyOfOtherVertices)
+{
+    expect_invalid([&] { rig_on(rig, own.topRows(9), "man.rig.json"); }, "man.rig.json belongs to a body of");
+}
+
+TEST_F(OwnRig, IsNotThatOfAnotherBodyWithAsManyVertices)
+{
+    expect_invalid([&] { rig_on(rig, 1.06 * own); }, "belongs to another body");
+}
+
+TEST_F(OwnRig, IsNotThatOfABodyThatWasMovedSince)
+{
+    expect_invalid([&] { rig_on(rig, own.rowwise() + Vec3(0.05, 0, 0).transpose()); }, "was moved since");
+}
+
+TEST_F(OwnRig, IsNotOneWhoseDirectionsOrWeightsWereSpoilt)
+{
+    Rig spoilt = rig;
+    spoilt.up = spoilt.front = Vec3::Zero();
+    expect_invalid([&] { rig_on(spoilt, own); }, "up and front of the rig");
+    spoilt = rig;
+    spoilt.front = spoilt.up;
+    expect_invalid([&] { rig_on(spoilt, own); }, "at right angles");
+    spoilt = rig;
+    spoilt.weights.weights.row(5).setZero();
+    expect_invalid([&] { rig_on(spoilt, own); }, "vertex 5 sum to 0");
+}
+
+}  // namespace
+}  // namespace fit

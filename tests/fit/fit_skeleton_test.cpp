@@ -1,0 +1,624 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/fit_skeleton.h"
+#include "garmentfit/io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "garmentfit/error.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+constexpr double k_degree = std::numbers::pi / 180;
+
+Rig rig_of(const PersonOptions& options)
+{
+    Rig rig;
+    rig.skeleton = person_skeleton(options);
+    return rig;
+}
+
+double along(const Vec3& p, const Vec3& from, const Vec3& to)
+{
+    return (p - from).dot(to - from) / (to - from).squaredNorm();
+}
+
+// Cut off at neck, wrists and ankles.
+GarmentMesh jumpsuit(const PersonOptions& options, double ease = 0.02)
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, ease, [&](const Vec3& p) {
+        for (const int arm : { lradius, rradius })
+            if (along(p, s.head(arm), s.tail(arm)) > 0.85 && std::abs(p.x()) > 0.3)
+                return false;
+        return p.y() > 0.15 && p.y() < 1.45;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+GarmentMesh trousers(const PersonOptions& options = {})
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh
+        = garment_round(s, 0.02, [](const Vec3& p) { return p.y() > 0.15 && p.y() < 1.0 && std::abs(p.x()) < 0.26; });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+// Sleeves end at `sleeve` of the way from the shoulder (0) over the elbow (1) to the wrist (2).
+GarmentMesh shirt(const PersonOptions& options, double sleeve, double ease = 0.02)
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, ease, [&](const Vec3& p) {
+        const bool arm = std::abs(p.x()) > 0.24;
+        const double upper
+            = std::max(along(p, s.head(lhumerus), s.tail(lhumerus)), along(p, s.head(rhumerus), s.tail(rhumerus)));
+        const double lower
+            = std::max(along(p, s.head(lradius), s.tail(lradius)), along(p, s.head(rradius), s.tail(rradius)));
+        if (arm)
+            return sleeve > 1 ? lower < sleeve - 1 : upper < sleeve;
+        return p.y() > 0.85 && p.y() < 1.46;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+GarmentMesh cut(const GarmentMesh& garment, const std::function<bool(const Vec3&)>& keep)
+{
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < garment.triangles.rows(); ++f)
+        if (keep(garment.positions(garment.triangles.row(f), Eigen::all).colwise().mean().transpose()))
+            rows.push_back(f);
+    return make_garment(garment.positions, garment.triangles(rows, Eigen::all));
+}
+
+GarmentMesh with_left_sleeve_only(const GarmentMesh& shirt)
+{
+    return cut(shirt, [](const Vec3& p) { return p.x() > -0.3; });  // beyond the shoulder
+}
+
+// Its hood is up: the face looks out.
+GarmentMesh hoodie(const PersonOptions& options)
+{
+    const Skeleton s = person_skeleton(options);
+    const TriangleMesh mesh = garment_round(s, 0.02, [&](const Vec3& p) {
+        const bool arm = std::abs(p.x()) > 0.24, face = p.z() > 0.04 && p.y() > 1.5;
+        const double lower
+            = std::max(along(p, s.head(lradius), s.tail(lradius)), along(p, s.head(rradius), s.tail(rradius)));
+        return arm ? lower < 0.9 : p.y() > 0.85 && !face;
+    });
+    return make_garment(mesh.positions, mesh.triangles);
+}
+
+GarmentMesh with_open_front(const GarmentMesh& shirt)
+{
+    return cut(shirt, [](const Vec3& p) { return std::abs(p.x()) > 0.05 || p.z() < 0; });
+}
+
+// 24 facets, rings 2 cm apart; along y.
+GarmentMesh skirt(double waist, double hips, double hem, double length)
+{
+    constexpr int facets = 24;
+    const int rings = int(length / 0.02) + 1;
+    Positions positions(facets * rings, 3);
+    Triangles triangles(2 * facets * (rings - 1), 3);
+    for (int r = 0; r < rings; ++r) {
+        const double t = double(r) / (rings - 1);  // of the way down
+        const double radius = t < 0.3 ? waist + t / 0.3 * (hips - waist) : hips + (t - 0.3) / 0.7 * (hem - hips);
+        for (int k = 0; k < facets; ++k) {
+            const double a = 2 * std::numbers::pi * k / facets;
+            positions.row(r * facets + k) << radius * std::cos(a), 1 - t * length, 0.7 * radius * std::sin(a);
+        }
+    }
+    for (int r = 0, f = 0; r + 1 < rings; ++r)
+        for (int k = 0; k < facets; ++k, f += 2) {
+            const int a = r * facets + k, b = r * facets + (k + 1) % facets;
+            triangles.row(f) << a, b, a + facets;
+            triangles.row(f + 1) << b, b + facets, a + facets;
+        }
+    return make_garment(positions, triangles);
+}
+
+// Two sheets, sewn together along every edge: closed all round.
+GarmentMesh with_thickness(const GarmentMesh& garment, double thickness)
+{
+    const Eigen::Index n = garment.positions.rows(), m = garment.triangles.rows();
+    Positions normals = Positions::Zero(n, 3);
+    std::map<std::pair<int, int>, int> edges;
+    for (Eigen::Index f = 0; f < m; ++f) {
+        const auto corner = [&](int k) { return Vec3(garment.positions.row(garment.triangles(f, k % 3))); };
+        const Vec3 area = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        for (int k = 0; k < 3; ++k) {
+            normals.row(garment.triangles(f, k)) += area;
+            ++edges[{ garment.triangles(f, k), garment.triangles(f, (k + 1) % 3) }];
+        }
+    }
+    for (Eigen::Index v = 0; v < n; ++v)
+        normals.row(v).stableNormalize();  // those of no face stay where they are
+    Positions positions(2 * n, 3);
+    positions << garment.positions, garment.positions - thickness * normals;
+    std::vector<Eigen::RowVector3i> faces;
+    for (Eigen::Index f = 0; f < m; ++f) {
+        const Eigen::RowVector3i t = garment.triangles.row(f), inner = t.array() + int(n);
+        faces.insert(faces.end(), { t, { inner[0], inner[2], inner[1] } });
+    }
+    for (const auto& [edge, count] : edges) {
+        const auto [a, b] = edge;
+        if (!edges.count({ b, a }))
+            faces.insert(faces.end(), { { b, a, a + int(n) }, { b, a + int(n), b + int(n) } });
+    }
+    Triangles triangles(faces.size(), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        triangles.row(f) = faces[f];
+    return make_garment(positions, triangles);
+}
+
+GarmentMesh turned(GarmentMesh garment, const Eigen::Quaterniond& turn)
+{
+    garment.positions = (garment.positions * turn.toRotationMatrix().transpose()).eval();
+    return garment;
+}
+
+bool meets(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    const auto side
+        = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) { return (q - p).cross(r - p).dot(s - p); };
+    if (side(a, b, c, from) * side(a, b, c, to) > 0)
+        return false;
+    const double u = side(from, to, a, b), v = side(from, to, b, c), w = side(from, to, c, a);
+    return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+void expect_clear(const Skeleton& joints, const GarmentMesh& garment)
+{
+    const auto expect = [&](const std::string& name, const Vec3& from, const Vec3& to) {
+        int count = 0;
+        for (Eigen::Index f = 0; f < garment.triangles.rows(); ++f) {
+            const auto corner = [&](int k) { return Vec3(garment.positions.row(garment.triangles(f, k))); };
+            count += meets(from, to, corner(0), corner(1), corner(2));
+        }
+        EXPECT_EQ(count, 0) << name << " passes through the garment";
+    };
+    for (int b = 0; b < bone_count; ++b)
+        expect(std::string(bone_name(b)), joints.head(b), joints.tail(b));
+    for (int e = 0; e < extremity_count; ++e)
+        expect("extremity " + std::to_string(e), joints.tail(bone_before(Extremity(e))), joints.tips[e]);
+}
+
+double angle(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / k_degree; }
+
+void expect_directions(const Skeleton& joints, const Skeleton& wanted, const std::vector<Bone>& bones, double degrees)
+{
+    for (const Bone b : bones)
+        EXPECT_LT(angle(joints.direction(b), wanted.direction(b)), degrees) << bone_name(b);
+}
+
+double largest_difference(const Skeleton& a, const Skeleton& b)
+{
+    double largest = (a.root - b.root).norm();
+    for (int j = 0; j < bone_count; ++j)
+        largest = std::max(largest, (a.tails[j] - b.tails[j]).norm());
+    return largest;
+}
+
+TEST(FitSkeleton, ABodyOffsetAsGarmentGivesTheRestPose)
+{
+    const PersonOptions own { .arm_angle = 45 };
+    const Rig rig = rig_of(own);
+    const FitResult result = fit_skeleton(rig, jumpsuit(own, 0.01), { .type = GarmentType::jumpsuit });
+    EXPECT_LT(largest_difference(posed(rig.skeleton, result.pose), rig.skeleton), 0.05);
+    EXPECT_GT(result.score_after, result.score_before);
+}
+
+TEST(FitSkeleton, ArmsGoIntoTheSleevesAndHandsOutOfTheCuffs)
+{
+    const PersonOptions own { .arm_angle = 80 }, made_on { .arm_angle = 10 };
+    const Rig rig = rig_of(own);
+    const GarmentMesh garment = shirt(made_on, 1.9);
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::longsleeve });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, person_skeleton(made_on), { lhumerus, lradius, rhumerus, rradius }, 12);
+    EXPECT_GT(joints.tail(lradius).x(), 0.5) << "the left arm is in the left sleeve";
+    expect_clear(joints, garment);
+}
+
+TEST(FitSkeleton, ASittingBodyStandsUpInTrousers)
+{
+    const Rig rig = rig_of({ .arm_angle = 60, .knee_angle = 85, .hip_angle = 85 });
+    const GarmentMesh garment = trousers();
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::trousers });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, person_skeleton({}), { lfemur, ltibia, rfemur, rtibia }, 12);
+    expect_clear(joints, garment);
+}
+
+TEST(FitSkeleton, ThighsOfASittingBodyLeaveAShirtThroughItsHem)
+{
+    const Rig rig = rig_of({ .arm_angle = 60, .knee_angle = 85, .hip_angle = 85 });
+    const GarmentMesh garment = shirt({ .arm_angle = 45 }, 0.6);
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::tshirt });
+    expect_clear(posed(rig.skeleton, result.pose), garment);
+}
+
+TEST(FitSkeleton, BareForearmsStayAsTheBodyHeldThem)
+{
+    const PersonOptions own { .arm_angle = 45, .elbow_angle = 60 };
+    const Rig rig = rig_of(own);
+    const FitResult result = fit_skeleton(rig, shirt(own, 0.6), { .type = GarmentType::tshirt });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    for (const int b : { lradius, rradius })
+        EXPECT_NEAR(angle(joints.direction(b), joints.direction(parent_of(b))), 60, 10);
+    EXPECT_EQ(std::count(result.covered.begin(), result.covered.end(), lradius), 0);
+}
+
+TEST(FitSkeleton, TheGarmentMayBeAnywhere)
+{
+    const PersonOptions own { .arm_angle = 45 };
+    const Rig rig = rig_of(own);
+    GarmentMesh garment = jumpsuit(own);
+    garment.positions.rowwise() += Vec3(3, -2, 5).transpose();
+    Skeleton wanted = rig.skeleton;
+    const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::jumpsuit });
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    EXPECT_LT((joints.root - wanted.root - Vec3(3, -2, 5)).norm(), 0.05);
+}
+
+TEST(FitSkeleton, FlippedNormalsAndShuffledVerticesChangeNothing)
+{
+    const PersonOptions own { .arm_angle = 70 };
+    const Rig rig = rig_of(own);
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 1.9);
+    const FitOptions options { .type = GarmentType::longsleeve };
+    const Skeleton expected = posed(rig.skeleton, fit_skeleton(rig, garment, options).pose);
+
+    GarmentMesh mixed = garment;
+    mixed.triangles.col(1).swap(mixed.triangles.col(2));
+    for (Eigen::Index f = 0; f < mixed.triangles.rows(); f += 3)
+        std::swap(mixed.triangles(f, 1), mixed.triangles(f, 2));
+    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, mixed, options).pose), expected), 0.01);
+
+    GarmentMesh reversed = garment;
+    const int last = int(garment.positions.rows()) - 1;
+    reversed.positions = garment.positions.colwise().reverse();
+    reversed.triangles = garment.triangles.unaryExpr([&](int v) { return last - v; });
+    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, reversed, options).pose), expected), 0.01);
+}
+
+TEST(FitSkeleton, TheSameInputGivesTheSameBits)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 0.6);
+    const FitOptions options {};
+    const Pose a = fit_skeleton(rig, garment, options).pose, b = fit_skeleton(rig, garment, options).pose;
+    EXPECT_EQ(a.root_translation, b.root_translation);
+    for (int j = 0; j < bone_count; ++j)
+        EXPECT_EQ(a.rotations[j].coeffs(), b.rotations[j].coeffs());
+}
+
+TEST(FitSkeleton, ABodyThatFacesAwayTurnsToTheGarmentsFront)
+{
+    const PersonOptions made_on { .arm_angle = 40, .elbow_angle = 40 };  // sleeves bend forwards: there is the front
+    Rig rig = rig_of({ .arm_angle = 70 });
+    const auto turned = [](const Vec3& p) { return Vec3(-p.x(), p.y(), -p.z()); };
+    rig.skeleton.root = turned(rig.skeleton.root);
+    std::transform(rig.skeleton.tails.begin(), rig.skeleton.tails.end(), rig.skeleton.tails.begin(), turned);
+    std::transform(rig.skeleton.tips.begin(), rig.skeleton.tips.end(), rig.skeleton.tips.begin(), turned);
+    rig.front = -rig.front;
+    const FitResult result = fit_skeleton(rig, shirt(made_on, 1.9), { .type = GarmentType::longsleeve });
+    EXPECT_GT((result.pose.root_rotation * rig.front).z(), 0.8);
+    EXPECT_GT(posed(rig.skeleton, result.pose).tail(lradius).x(), 0.3) << "the left arm is in the left sleeve";
+}
+
+TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
+{
+    const PersonOptions own { .arm_angle = 45 };
+    const Rig rig = rig_of(own);
+    const GarmentMesh upright = shirt({ .arm_angle = 30 }, 1.9);
+    const FitResult expected = fit_skeleton(rig, upright);
+    EXPECT_EQ(expected.up, Vec3::UnitY());
+    for (const double half_or_quarter : { std::numbers::pi, std::numbers::pi / 2 }) {
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(half_or_quarter, Vec3::UnitX()));
+        GarmentMesh garment = upright;
+        garment.positions = garment.positions * turn.toRotationMatrix().transpose();
+        const FitResult result = fit_skeleton(rig, garment);
+        EXPECT_EQ(result.type, GarmentType::longsleeve);
+        EXPECT_LT((result.up - turn * Vec3::UnitY()).norm(), 1e-6);
+        const Skeleton joints = posed(rig.skeleton, result.pose), wanted = posed(rig.skeleton, expected.pose);
+        for (const int b : { thorax, lhumerus, rhumerus, lradius, rradius })
+            EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 10) << bone_name(b);
+    }
+}
+
+TEST(FitSkeleton, AGarmentHeldAskewIsFound)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(30 * k_degree, Vec3(1, 0.4, 1).normalized()));
+    for (const GarmentMesh& garment : { shirt(made_on, 1.9), trousers(made_on), jumpsuit(made_on) }) {
+        const FitResult expected = fit_skeleton(rig, garment), result = fit_skeleton(rig, turned(garment, turn));
+        EXPECT_EQ(result.type, expected.type);
+        EXPECT_LT(angle(result.up, turn * Vec3::UnitY()), 8) << name_of(expected.type);
+        EXPECT_GT(result.up_margin, 0.5);
+        const Skeleton joints = posed(rig.skeleton, result.pose), wanted = posed(rig.skeleton, expected.pose);
+        for (const Bone b : expected.covered)
+            EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 25)
+                << bone_name(b) << " in " << name_of(expected.type);
+    }
+}
+
+TEST(FitSkeleton, ASkirtsWaistIsUp)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const GarmentMesh garment = skirt(0.15, 0.2, 0.2, 0.5);
+    const FitResult upright = fit_skeleton(rig, garment);
+    EXPECT_EQ(upright.type, GarmentType::skirt);
+    EXPECT_EQ(upright.up, Vec3::UnitY());
+    const Eigen::Quaterniond over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+    EXPECT_LT(angle(fit_skeleton(rig, turned(garment, over)).up, -Vec3::UnitY()), 1);
+}
+
+TEST(FitSkeleton, OneSleeveHoldsOneArm)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = with_left_sleeve_only(shirt(made_on, 1.9));
+    const FitResult result = fit_skeleton(rig, garment);
+    EXPECT_EQ(result.type, GarmentType::longsleeve);
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, person_skeleton(made_on), { lhumerus, lradius }, 12);
+    expect_clear(joints, garment);
+    const auto covers = [&](Bone b) { return std::count(result.covered.begin(), result.covered.end(), b) > 0; };
+    EXPECT_TRUE(covers(lhumerus) && covers(lradius));
+    EXPECT_FALSE(covers(rradius));
+}
+
+TEST(FitSkeleton, ClosedClothWithThicknessIsWornLikeItsOuterSheet)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh thin = skirt(0.15, 0.2, 0.2, 0.5), thick = with_thickness(thin, 0.004);
+    const FitResult expected = fit_skeleton(rig, thin), result = fit_skeleton(rig, thick);
+    EXPECT_EQ(result.type, GarmentType::skirt);
+    EXPECT_EQ(result.covered, expected.covered);
+    expect_clear(posed(rig.skeleton, result.pose), thick);
+}
+
+// Its wrinkles are sharper than 3 mm: there, the sheets pass through each other.
+TEST(FitSkeleton, AThickTShirtIsWornLikeItsOuterSheet)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const MeshFile file = MeshFile::read(FIT_DOCS "/samples/tshirt.ply");
+    const GarmentMesh thin = make_garment(1.15 * file.positions(), file.triangles()),
+                      thick = with_thickness(thin, 0.003);
+    const FitResult expected = fit_skeleton(rig, thin), result = fit_skeleton(rig, thick);
+    EXPECT_EQ(result.type, GarmentType::tshirt);
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    expect_directions(joints, posed(rig.skeleton, expected.pose), { thorax, lhumerus, rhumerus }, 35);
+    expect_clear(joints, thick);
+}
+
+TEST(FitSkeleton, ASmallBodyDoesNotSlideIntoOneTrouserLeg)
+{
+    const Rig rig = rig_of({ .arm_angle = 60 });
+    GarmentMesh garment = trousers();
+    garment.positions *= 1.5;
+    const FitResult result = fit_skeleton(rig, garment);
+    const Skeleton joints = posed(rig.skeleton, result.pose);
+    for (const int b : { ltibia, rtibia })
+        EXPECT_GT(joints.head(b).x() * (b == ltibia ? 1 : -1), 0.02) << bone_name(b);
+    expect_clear(joints, garment);
+}
+
+TEST(FitSkeleton, TipsAreDrawnBackToWhereTheyAreClear)
+{
+    const Skeleton joints = person_skeleton({});
+    const GarmentMesh wall = make_garment((Positions(3, 3) << -1, -1, 0.1, 1, -1, 0.1, 0, 3, 0.1).finished(),
+                                          (Triangles(1, 3) << 0, 1, 2).finished());
+    const Skeleton clear = with_clear_tips(joints, wall);
+    EXPECT_LT(clear.tips[lfoot_tip].z(), 0.1);
+    EXPECT_GT(clear.tips[lfoot_tip].z(), joints.tail(ltibia).z());
+    EXPECT_EQ(clear.tips[head_top], joints.tips[head_top]);
+}
+
+TEST(FitSkeleton, TypesAreReadOffTheOpenings)
+{
+    const PersonOptions a_pose { .arm_angle = 40 };
+    EXPECT_EQ(guess_garment_type(shirt(a_pose, 0.6)).type, GarmentType::tshirt);
+    EXPECT_EQ(guess_garment_type(shirt(a_pose, 1.9)).type, GarmentType::longsleeve);
+    EXPECT_EQ(guess_garment_type(trousers(a_pose)).type, GarmentType::trousers);
+    EXPECT_EQ(guess_garment_type(jumpsuit(a_pose)).type, GarmentType::jumpsuit);
+    EXPECT_EQ(guess_garment_type(hoodie(a_pose)).type, GarmentType::hoodie);
+    EXPECT_EQ(guess_garment_type(with_open_front(shirt(a_pose, 1.9))).type, GarmentType::jacket);
+    EXPECT_EQ(guess_garment_type(with_open_front(shirt(a_pose, 0.95))).type, GarmentType::jacket);
+    EXPECT_EQ(guess_garment_type(shirt(a_pose, 0.1)).type, GarmentType::vest);
+    EXPECT_EQ(guess_garment_type(skirt(0.15, 0.2, 0.2, 0.5)).type, GarmentType::skirt);
+    EXPECT_EQ(guess_garment_type(with_left_sleeve_only(shirt(a_pose, 1.9))).type, GarmentType::longsleeve);
+}
+
+TEST(FitSkeleton, TypeNamesGoThereAndBack)
+{
+    for (const auto name : garment_type_names())
+        EXPECT_EQ(name_of(garment_type_of(name)), name);
+    try {
+        garment_type_of("toga");
+        FAIL();
+    } catch (const InvalidInput& e) {
+        EXPECT_NE(std::string(e.what()).find("toga"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("trousers"), std::string::npos);
+    }
+}
+
+TEST(FitSkeleton, WhatNobodyFitsIntoIsRefused)
+{
+    const Rig rig = rig_of({});
+    const TriangleMesh sphere
+        = polygonise([](const Vec3& p) { return p.norm() - 0.4; }, Vec3::Constant(-0.5), Vec3::Constant(0.5), 0.05);
+    const GarmentMesh closed = make_garment(sphere.positions, sphere.triangles);
+    EXPECT_THROW(fit_skeleton(rig, closed), InvalidInput);
+    EXPECT_THROW(fit_skeleton(rig, closed, { .type = GarmentType::tshirt }), InvalidInput);
+
+    GarmentMesh plate = closed;
+    plate.positions.col(2).setZero();
+    EXPECT_THROW(fit_skeleton(rig, plate), InvalidInput);
+
+    GarmentMesh tiny = shirt({ .arm_angle = 40 }, 0.6);
+    tiny.positions *= 0.05;
+    try {
+        fit_skeleton(rig, tiny, { .type = GarmentType::tshirt });
+        FAIL();
+    } catch (const InvalidInput& e) {
+        EXPECT_NE(std::string(e.what()).find("cm"), std::string::npos) << e.what();
+    }
+}
+
+TEST(FitSkeleton, WhatWasReadInAWrongUnitIsRefusedAtOnce)
+{
+    const Rig rig = rig_of({});
+    GarmentMesh garment = trousers();
+    for (const double unit : { 1000.0, 30.0, 0.01 }) {
+        GarmentMesh scaled = garment;
+        scaled.positions *= unit;
+        for (const FitMethod method : { FitMethod::fast, FitMethod::paper })
+            expect_invalid([&] { fit_skeleton(rig, scaled, { .method = method }); }, "garment_unit");
+    }
+    garment.positions.conservativeResize(garment.positions.rows() + 1, 3);
+    garment.positions.bottomRows(1) << 0, 1e6, 0;  // in no face
+    EXPECT_NO_THROW(require_wearable_size(rig, garment));
+}
+
+TEST(FitSkeleton, ScrapsAreRefusedInWords)
+{
+    const Rig rig = rig_of({});
+    const auto expect_refused = [&](const TriangleMesh& mesh, const std::string& what, const std::string& word = "") {
+        try {
+            fit_skeleton(rig, make_garment(mesh.positions, mesh.triangles));
+            ADD_FAILURE() << what << " is worn";
+        } catch (const InvalidInput& e) {
+            EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << what;
+            EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+        }
+    };
+    const Vec3 low(-0.3, 0.8, -0.1), high(0.3, 1.4, 0.5);
+    const TriangleMesh slab
+        = polygonise([](const Vec3& p) { return (p - Vec3(0, 1.1, 0.2)).norm() - 0.25; }, low, high, 0.05);
+    TriangleMesh square = slab;
+    square.positions.col(2).setZero();
+    expect_refused(square, "a square of cloth");
+
+    const TriangleMesh tube = polygonise(
+        [](const Vec3& p) { return Vec3(p.x(), 0.2 * (p.y() - 1.1), p.z() - 0.2).norm() - 0.045; }, low, high, 0.02);
+    TriangleMesh sock = tube;
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < tube.triangles.rows(); ++f)
+        if (tube.positions(tube.triangles(f, 0), 1) < 1.3)
+            rows.push_back(f);
+    sock.triangles = tube.triangles(rows, Eigen::all);
+    expect_refused(sock, "a sock");
+
+    TriangleMesh ten { Positions(30, 3), Triangles(10, 3) }, buttons { Positions(3000, 3), Triangles(1000, 3) };
+    for (int i = 0; i < 30; ++i)
+        ten.positions.row(i) << std::sin(7.0 * i), 1 + std::sin(11.0 * i), std::sin(13.0 * i);
+    for (int i = 0; i < 3000; ++i)
+        buttons.positions.row(i) << std::sin(7.0 * (i / 3)) + 0.01 * (i % 3),
+            1 + std::sin(11.0 * (i / 3)) + 0.01 * (i % 2), std::sin(13.0 * (i / 3));
+    for (TriangleMesh* scraps : { &ten, &buttons })
+        for (Eigen::Index f = 0; f < scraps->triangles.rows(); ++f)
+            scraps->triangles.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+    expect_refused(ten, "ten triangles");
+    expect_refused(buttons, "a thousand loose buttons", "1000 loose pieces");
+}
+
+CommonFit fit_together(const Rig& rig, const std::vector<GarmentMesh>& garments)
+{
+    std::vector<FitResult> fits;
+    for (const GarmentMesh& garment : garments)
+        fits.push_back(fit_skeleton(rig, garment));
+    return common_fit(rig, garments, fits);
+}
+
+void expect_bones_turned_alike(const Pose& a, const Pose& b)
+{
+    for (int j = 0; j < bone_count; ++j)
+        EXPECT_EQ(a.rotations[j].coeffs(), b.rotations[j].coeffs()) << bone_name(j);
+}
+
+TEST(CommonFit, OnePoseServesAShirtAndTrousers)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 75, .knee_angle = 70, .hip_angle = 70 });
+    const std::vector<GarmentMesh> garments { shirt(made_on, 1.9), trousers(made_on) };
+    const CommonFit common = fit_together(rig, garments);
+    ASSERT_TRUE(common.one_pose);
+    EXPECT_TRUE(common.conflicts.empty());
+    expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
+    for (std::size_t i = 0; i < garments.size(); ++i) {
+        const Skeleton joints = posed(rig.skeleton, common.fits[i].pose);
+        expect_directions(joints, person_skeleton(made_on),
+                          { lhumerus, lradius, rhumerus, rradius, lfemur, ltibia, rfemur, rtibia }, 15);
+        expect_clear(joints, garments[i]);
+    }
+}
+
+TEST(CommonFit, AGarmentThatLiesElsewhereIsOnlyMoved)
+{
+    const PersonOptions made_on { .arm_angle = 40 };
+    const Rig rig = rig_of({ .arm_angle = 75 });
+    std::vector<GarmentMesh> garments { shirt(made_on, 1.9), trousers(made_on) };
+    garments[1].positions.rowwise() += Vec3(2, 0.5, -1).transpose();
+    const CommonFit common = fit_together(rig, garments);
+    ASSERT_TRUE(common.one_pose);
+    expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
+    const Vec3 apart = common.fits[1].pose.root_translation - common.fits[0].pose.root_translation;
+    EXPECT_LT((apart - Vec3(2, 0.5, -1)).norm(), 0.15);
+    for (std::size_t i = 0; i < garments.size(); ++i)
+        expect_clear(posed(rig.skeleton, common.fits[i].pose), garments[i]);
+}
+
+TEST(CommonFit, SleevesTooFarApartAreReportedAndEachGarmentKeepsItsFit)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const std::vector<GarmentMesh> garments { shirt({ .arm_angle = 5 }, 1.9), trousers(),
+                                              shirt({ .arm_angle = 65 }, 1.9) };
+    const CommonFit common = fit_together(rig, garments);
+    EXPECT_FALSE(common.one_pose);
+    ASSERT_FALSE(common.conflicts.empty());
+    const FitConflict& widest = common.conflicts.front();
+    EXPECT_TRUE(is_arm(widest.bone)) << bone_name(widest.bone);
+    EXPECT_EQ(widest.garments[0] + widest.garments[1], 0 + 2) << "the trousers have nothing to do with it";
+    EXPECT_NEAR(widest.angle / k_degree, 60, 15);
+    for (std::size_t i = 0; i < garments.size(); ++i)
+        expect_bones_turned_alike(common.fits[i].pose, fit_skeleton(rig, garments[i]).pose);
+}
+
+TEST(CommonFit, OneGarmentIsLeftAsItIs)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const std::vector<GarmentMesh> garments { trousers() };
+    const FitResult own = fit_skeleton(rig, garments[0]);
+    const CommonFit common = common_fit(rig, garments, { own });
+    EXPECT_TRUE(common.one_pose);
+    expect_bones_turned_alike(common.fits[0].pose, own.pose);
+    EXPECT_EQ(common.fits[0].pose.root_translation, own.pose.root_translation);
+    EXPECT_THROW(common_fit(rig, garments, {}), InvalidInput);
+}
+
+TEST(FitSkeleton, StopsWhenTold)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 0.6);
+    int reports = 0;
+    const Progress stop([&](double, std::string_view) { return ++reports < 3; });
+    EXPECT_THROW(fit_skeleton(rig, garment, {}, stop), Cancelled);
+    EXPECT_EQ(reports, 3);
+}
+
+}  // namespace

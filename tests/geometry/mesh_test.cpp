@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/mesh.h"
+
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "garmentfit/error.h"
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+
+TriangleMesh ball(const Vec3& centre, double radius, double spacing)
+{
+    const Vec3 corner = Vec3::Constant(radius + 2 * spacing);
+    return fixtures::polygonise([&](const Vec3& p) { return (p - centre).norm() - radius; }, centre - corner,
+                                centre + corner, spacing);
+}
+
+/// Every directed edge once, and its opposite too.
+bool is_closed(const TriangleMesh& mesh)
+{
+    std::set<std::pair<int, int>> edges;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (!edges.insert({ mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3) }).second)
+                return false;
+    for (const auto& [a, b] : edges)
+        if (edges.count({ b, a }) == 0)
+            return false;
+    return true;
+}
+
+double volume(const TriangleMesh& mesh)
+{
+    double sum = 0;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
+                   c = mesh.positions.row(mesh.triangles(f, 2));
+        sum += a.dot(b.cross(c)) / 6;
+    }
+    return sum;
+}
+
+TriangleMesh without_first_faces(const TriangleMesh& mesh, int count)
+{
+    return { mesh.positions, mesh.triangles.bottomRows(mesh.triangles.rows() - count) };
+}
+
+TriangleMesh soup_of(const TriangleMesh& mesh)
+{
+    TriangleMesh soup;
+    soup.positions.resize(3 * mesh.triangles.rows(), 3);
+    soup.triangles.resize(mesh.triangles.rows(), 3);
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            soup.positions.row(3 * f + k) = mesh.positions.row(mesh.triangles(f, k));
+            soup.triangles(f, k) = int(3 * f + k);
+        }
+    return soup;
+}
+
+BodyMesh body_of(const TriangleMesh& mesh) { return make_body(mesh.positions, mesh.triangles); }
+
+TEST(MakeBody, KeepsAClosedSurfaceBitForBit)
+{
+    const TriangleMesh mesh = ball(Vec3(0, 1, 0), 0.5, 0.1);
+    const BodyMesh body = body_of(mesh);
+    EXPECT_FALSE(body.repaired);
+    EXPECT_EQ(body.closed.positions, mesh.positions);
+    EXPECT_EQ(body.closed.triangles, mesh.triangles);
+}
+
+TEST(MakeBody, TurnsASurfaceThatIsInsideOut)
+{
+    TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    mesh.triangles.col(0).swap(mesh.triangles.col(1));
+    const BodyMesh body = body_of(mesh);
+    EXPECT_TRUE(body.repaired);
+    EXPECT_GT(volume(body.closed), 0);
+    EXPECT_EQ(body.surface.triangles, mesh.triangles);
+}
+
+TEST(MakeBody, FillsAHole)
+{
+    const TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    const BodyMesh body = body_of(without_first_faces(mesh, 20));
+    EXPECT_TRUE(body.repaired);
+    EXPECT_TRUE(is_closed(body.closed));
+    EXPECT_NEAR(volume(body.closed), volume(mesh), 0.03 * volume(mesh));
+}
+
+TEST(MakeBody, WeldsATriangleSoup)
+{
+    const TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    const BodyMesh body = body_of(soup_of(mesh));
+    EXPECT_TRUE(is_closed(body.closed));
+    EXPECT_EQ(body.closed.positions.rows(), mesh.positions.rows());
+    EXPECT_NEAR(volume(body.closed), volume(mesh), 1e-6);
+    EXPECT_EQ(body.surface.positions.rows(), 3 * mesh.triangles.rows());
+}
+
+TEST(MakeBody, WeldsASoupWhoseCornersWereShaken)
+{
+    const TriangleMesh whole = ball(Vec3::Zero(), 0.5, 0.1);
+    TriangleMesh soup { Positions(3 * whole.triangles.rows(), 3), Triangles(whole.triangles.rows(), 3) };
+    for (int f = 0; f < int(whole.triangles.rows()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            soup.triangles(f, k) = 3 * f + k;
+            soup.positions.row(3 * f + k) = whole.positions.row(whole.triangles(f, k)) + 2e-5 * Vec3(f % 3 - 1, k - 1, f % 2).transpose();
+        }
+    const BodyMesh body = make_body(soup.positions, soup.triangles);
+    EXPECT_TRUE(is_closed(body.closed));
+    EXPECT_EQ(body.closed.positions.rows(), whole.positions.rows());
+}
+
+TEST(MakeBody, TakesTheFullPieceForTheBodyNotTheFloor)
+{
+    const TriangleMesh whole = ball(Vec3(0, 0.5, 0), 0.5, 0.1);
+    TriangleMesh floor { Positions(4, 3), Triangles(2, 3) };
+    floor.positions << -3, -0.01, -3, 3, -0.01, -3, 3, -0.01, 3, -3, -0.01, 3;
+    floor.triangles << 0, 2, 1, 0, 3, 2;
+    const TriangleMesh both = fixtures::joined(whole, floor);
+    EXPECT_EQ(make_body(both.positions, both.triangles).closed.positions.rows(), whole.positions.rows());
+}
+
+TEST(MakeBody, LeavesIslandsOutOfTheClosedSurfaceAndKeepsThemInTheUsersOwn)
+{
+    const TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1), eye = ball(Vec3(0.2, 0, 0), 0.05, 0.03);
+    const TriangleMesh both = fixtures::joined(mesh, eye);
+    const BodyMesh body = body_of(both);
+    EXPECT_EQ(body.closed.positions.rows(), mesh.positions.rows());
+    EXPECT_EQ(body.surface.positions, both.positions);
+}
+
+TEST(MakeBody, OrientsFacesThatDisagree)
+{
+    TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    const double before = volume(mesh);
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); f += 3)
+        std::swap(mesh.triangles(f, 0), mesh.triangles(f, 1));
+    const BodyMesh body = body_of(mesh);
+    EXPECT_TRUE(is_closed(body.closed));
+    EXPECT_NEAR(volume(body.closed), before, 1e-9);
+}
+
+TEST(MakeBody, WrapsABodyThatComesInParts)
+{
+    const TriangleMesh lower = ball(Vec3(0, 0, 0), 0.3, 0.08), upper = ball(Vec3(0, 0.5, 0), 0.3, 0.08),
+                       top = ball(Vec3(0, 1, 0), 0.3, 0.08);
+    const BodyMesh body = body_of(fixtures::joined(fixtures::joined(lower, upper), top));
+    EXPECT_TRUE(is_closed(body.closed));
+    EXPECT_GT(body.closed.positions.col(1).maxCoeff(), 1.25);
+    EXPECT_LT(body.closed.positions.col(1).minCoeff(), -0.25);
+}
+
+TEST(MakeBody, SurvivesAFlatSheetAndAFoldedOne)
+{
+    TriangleMesh sheet;
+    sheet.positions.resize(4, 3);
+    sheet.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+    sheet.triangles.resize(2, 3);
+    sheet.triangles << 0, 1, 2, 0, 2, 3;
+    try {
+        EXPECT_TRUE(is_closed(body_of(sheet).closed));
+    } catch (const InvalidInput&) {
+    }
+}
+
+TEST(MakeBody, RefusesWhatHasNoAreaOrIsBroken)
+{
+    TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.2);
+    EXPECT_THROW(make_body(mesh.positions, Triangles(0, 3)), InvalidInput);
+    EXPECT_THROW(make_body(0 * mesh.positions, mesh.triangles), InvalidInput);
+    TriangleMesh far_index = mesh;
+    far_index.triangles(3, 1) = 99999;
+    EXPECT_THROW(body_of(far_index), InvalidInput);
+    mesh.positions(7, 2) = std::numeric_limits<double>::quiet_NaN();
+    try {
+        body_of(mesh);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("vertex 7"), std::string::npos);
+    }
+}
+
+TEST(MakeGarment, KeepsOpenSurfacesAndRefusesDegenerateOnes)
+{
+    const TriangleMesh open = without_first_faces(ball(Vec3::Zero(), 0.5, 0.1), 20);
+    EXPECT_EQ(make_garment(open.positions, open.triangles).triangles, open.triangles);
+    EXPECT_THROW(make_garment(0 * open.positions, open.triangles), InvalidInput);
+}
+
+TEST(VertexNormals, PointOutOfABall)
+{
+    const TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    const Positions normals = vertex_normals(mesh.positions, mesh.triangles);
+    for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+        EXPECT_NEAR(normals.row(v).norm(), 1, 1e-12);
+        EXPECT_GT(normals.row(v).dot(mesh.positions.row(v).normalized()), 0.8);
+    }
+}
+
+TEST(EdgesOf, GivesEachEdgeOnceInOrder)
+{
+    Triangles two(2, 3);
+    two << 0, 1, 2, 2, 1, 3;
+    Eigen::Matrix<int, 5, 2, Eigen::RowMajor> edges;
+    edges << 0, 1, 0, 2, 1, 2, 1, 3, 2, 3;
+    EXPECT_EQ(edges_of(two), edges);
+}
+
+}  // namespace

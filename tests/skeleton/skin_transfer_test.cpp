@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "skin_transfer.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace fit;
+using namespace fit::fixtures;
+
+constexpr int k_side = 21;  // vertices
+
+/// 20 by 20 cm, with a bump in the middle.
+TriangleMesh skin_with_bump(double base, double height)
+{
+    return sheet(k_side, 0.01,
+                 [=](double x, double z) { return base + (std::hypot(x - 0.1, z - 0.1) < 0.035 ? height : 0); });
+}
+
+/// Two sheets of skin 3 cm apart that face the same way, each on one bone.
+struct TwoSheets {
+    TriangleMesh mesh = joined(skin_with_bump(0, 0), skin_with_bump(0.03, 0));
+    Eigen::MatrixXd weights;
+
+    TwoSheets(int lower, int upper) : weights(Eigen::MatrixXd::Zero(mesh.positions.rows(), bone_count))
+    {
+        weights.topRows(k_side * k_side).col(lower).setOnes();
+        weights.bottomRows(k_side * k_side).col(upper).setOnes();
+    }
+};
+
+SkinWeights carried_to(const TriangleMesh& surface, const TwoSheets& from)
+{
+    return transferred(from.mesh, from.weights, { surface, surface, false });
+}
+
+TEST(SkinTransfer, SkinThatReachesOtherSkinHangsOnTheBoneOfItsNeighbours)
+{
+    const SkinWeights carried = carried_to(skin_with_bump(0, 0.028), TwoSheets(lradius, rradius));
+    for (Eigen::Index v = 0; v < carried.bones.rows(); ++v) {
+        EXPECT_EQ(carried.bones(v, 0), lradius);
+        EXPECT_NEAR(carried.weights(v, 0), 1, 1e-12);
+    }
+}
+
+TEST(SkinTransfer, SkinThatReachesTheNextBoneHangsOnIt)
+{
+    const SkinWeights carried = carried_to(skin_with_bump(0, 0.028), TwoSheets(lradius, lhumerus));
+    EXPECT_EQ(carried.bones(k_side * k_side / 2, 0), lhumerus);
+    EXPECT_EQ(carried.bones(0, 0), lradius);
+}
+
+TEST(SkinTransfer, WeightsOfAVertexAreItsOwnAtItsOwnPlace)
+{
+    const TwoSheets from(lfemur, rfemur);
+    const SkinWeights carried = carried_to(from.mesh, from);
+    for (Eigen::Index v = 0; v < carried.bones.rows(); ++v)
+        EXPECT_EQ(carried.bones(v, 0), v < k_side * k_side ? lfemur : rfemur) << v;
+}
+
+TEST(SkinTransfer, APatchOfFarBonesIsStrayAndNamesTheBonesAroundIt)
+{
+    const TriangleMesh skin = skin_with_bump(0, 0.01);
+    std::vector<int> bones(skin.positions.rows(), lradius);
+    int raised = 0;
+    for (Eigen::Index v = 0; v < skin.positions.rows(); ++v)
+        if (skin.positions(v, 1) > 0.005) {
+            bones[v] = thorax;
+            ++raised;
+        }
+    const std::vector<StrayPatch> patches = stray_patches(skin.triangles, bones);
+    ASSERT_EQ(patches.size(), 1u);
+    EXPECT_EQ(int(patches[0].vertices.size()), raised);
+    for (int bone = 0; bone < bone_count; ++bone)
+        EXPECT_EQ(patches[0].near_bones[bone], bone == lradius || bone == lhumerus) << bone_name(bone);
+}
+
+TEST(SkinTransfer, NothingIsStrayWhereBonesFollowEachOther)
+{
+    const TriangleMesh skin = skin_with_bump(0, 0);
+    std::vector<int> bones(skin.positions.rows());
+    for (Eigen::Index v = 0; v < skin.positions.rows(); ++v)
+        bones[v] = skin.positions(v, 0) < 0.07 ? lradius : skin.positions(v, 0) < 0.13 ? lhumerus : lclavicle;
+    EXPECT_TRUE(stray_patches(skin.triangles, bones).empty());
+}
+
+}  // namespace
