@@ -10,17 +10,17 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
-set(FIT_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
+set(GARMENTFIT_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
 
 function(fit_target name)
     target_compile_options(${name} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi
                            # exact predicates and equal bits on every machine need plain IEEE arithmetic
                            -ffp-contract=off)
-    if(FIT_WERROR)
+    if(GARMENTFIT_WERROR)
         target_compile_options(${name} PRIVATE -Werror)
     endif()
-    if(FIT_SANITIZE)
-        target_compile_options(${name} PRIVATE -fsanitize=${FIT_SANITIZE} -fno-omit-frame-pointer)
-        target_link_options(${name} PRIVATE -fsanitize=${FIT_SANITIZE})
+    if(GARMENTFIT_SANITIZE)
+        target_compile_options(${name} PRIVATE -fsanitize=${GARMENTFIT_SANITIZE} -fno-omit-frame-pointer)
+        target_link_options(${name} PRIVATE -fsanitize=${GARMENTFIT_SANITIZE})
     endif()
 endfunction()

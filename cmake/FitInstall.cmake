@@ -1,14 +1,14 @@
 # Install tree, build tree and the package file that find_package(GarmentFit) reads.
 include(CMakePackageConfigHelpers)
 
-set(FIT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/GarmentFit)
+set(GARMENTFIT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/GarmentFit)
 
-install(EXPORT GarmentFit NAMESPACE GarmentFit:: FILE GarmentFitTargets.cmake DESTINATION ${FIT_PACKAGE_DIR})
+install(EXPORT GarmentFit NAMESPACE GarmentFit:: FILE GarmentFitTargets.cmake DESTINATION ${GARMENTFIT_PACKAGE_DIR})
 export(EXPORT GarmentFit NAMESPACE GarmentFit:: FILE ${PROJECT_BINARY_DIR}/GarmentFitTargets.cmake)
 
 configure_package_config_file(cmake/GarmentFitConfig.cmake.in ${PROJECT_BINARY_DIR}/GarmentFitConfig.cmake
-                              INSTALL_DESTINATION ${FIT_PACKAGE_DIR})
+                              INSTALL_DESTINATION ${GARMENTFIT_PACKAGE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/GarmentFitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/GarmentFitConfig.cmake ${PROJECT_BINARY_DIR}/GarmentFitConfigVersion.cmake
-        DESTINATION ${FIT_PACKAGE_DIR})
+        DESTINATION ${GARMENTFIT_PACKAGE_DIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/garmentfit RENAME copyright)  # where Debian's packages have it

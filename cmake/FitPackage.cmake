@@ -8,7 +8,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-if(FIT_MESHLAB)  # the plugin is made for this MeshLab and no other
+if(GARMENTFIT_MESHLAB)  # the plugin is made for this MeshLab and no other
     set(CPACK_DEBIAN_PACKAGE_DEPENDS "meshlab (>= 2020.09), meshlab (<< 2020.10)")
     get_filename_component(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${MESHLAB_COMMON_LIB} DIRECTORY)
 endif()

@@ -6,7 +6,7 @@
 
 #include "garmentfit/filters/outcome.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a line
@@ -118,4 +118,4 @@ std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vecto
     return doubts;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/stopwatch.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // ---- what each stage does to the scene -------------------------------------------------------------------------
@@ -395,4 +395,4 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
     }
 }
 
-}  // namespace fit
+}  // namespace garmentfit

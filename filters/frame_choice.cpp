@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/filters/frame_choice.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 FrameGuess chosen(FrameGuess guess, const FrameChoice& choice)
@@ -42,4 +42,4 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
     return chosen(guess_garment_frame(positions, triangles, body), choice);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr std::string_view k_joint_names[bone_count]
@@ -33,4 +33,4 @@ std::optional<Vec3>& joint_of(GivenJoints& joints, std::string_view name)
     return joints.root;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_rounding = 1e-6;  // of the body's diagonal
@@ -99,4 +99,4 @@ Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& le
     return dressing;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

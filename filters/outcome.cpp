@@ -10,7 +10,7 @@
 
 #include "garmentfit/units.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr std::size_t k_named = 3;  // parts of the body, in one line
@@ -163,4 +163,4 @@ std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, cons
 
 int percent(double share) { return static_cast<int>(std::floor(100 * share)); }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Files may keep fewer digits than the rig was found with, but people of one size are further apart than that.
@@ -72,4 +72,4 @@ Rig rig_on(Rig rig, const Positions& own, const std::string& called)
     return rig;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

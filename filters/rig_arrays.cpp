@@ -6,7 +6,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_tips_from = 1 + int(bone_count);
@@ -92,4 +92,4 @@ SkinWeights weights_of(const Rows& bones, const Rows& weights)
     return { bones.cast<int>(), weights };
 }
 
-}  // namespace fit
+}  // namespace garmentfit

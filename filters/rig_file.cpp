@@ -11,7 +11,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/io.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -357,4 +357,4 @@ RigFile read_whole_rig(const std::filesystem::path& path)
     return contents;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

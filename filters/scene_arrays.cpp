@@ -10,7 +10,7 @@
 #include "garmentfit/filters/own_rig.h"
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // ---- writing ---------------------------------------------------------------------------------------------------------
@@ -283,4 +283,4 @@ std::optional<Frame> garment_frame_from(const FindArray& find)
     return frame_from(required(find, "GarmentFrame", 1, 4, "connect what the filter before made"), "GarmentFrame");
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -19,7 +19,7 @@
 #include "garmentfit/skeleton.h"
 #include "garmentfit/types.h"
 
-namespace fit::fixtures {
+namespace garmentfit::fixtures {
 
 /// What `run` is refused with, in the user's words; empty, and a failed test, where it is not.
 inline std::string refusal(const std::function<void()>& run)
@@ -338,4 +338,4 @@ inline TriangleMesh garment_round(const Skeleton& skeleton, double ease, const s
     return { whole.positions, whole.triangles(rows, Eigen::all) };
 }
 
-}  // namespace fit::fixtures
+}  // namespace garmentfit::fixtures

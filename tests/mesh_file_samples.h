@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace fit::samples {
+namespace garmentfit::samples {
 
 template <class Number>
 std::string raw(Number value, bool big_endian = false)
@@ -137,4 +137,4 @@ inline std::vector<File> all()
              { "a.glb", glb() } };
 }
 
-}  // namespace fit::samples
+}  // namespace garmentfit::samples

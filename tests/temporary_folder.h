@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-namespace fit::fixtures {
+namespace garmentfit::fixtures {
 
 /// A test with a folder of its own, gone afterwards.
 class TemporaryFolder : public testing::Test {
@@ -38,4 +38,4 @@ protected:
     std::filesystem::path folder;
 };
 
-}  // namespace fit::fixtures
+}  // namespace garmentfit::fixtures

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace fit {
+namespace garmentfit {
 
 /// Items grouped by a key in [0, keys), in their order: a map from key to items in two arrays. Cost O(items + keys).
 class Buckets {
@@ -29,4 +29,4 @@ private:
     std::vector<int> begin_, items_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-namespace fit {
+namespace garmentfit {
 
 /// Which vertices hang together: disjoint sets.
 class JoinedVertices {
@@ -30,4 +30,4 @@ private:
     std::vector<int> parent_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include <new>
 #include <vector>
 
-namespace fit {
+namespace garmentfit {
 
 /// While it lives, OrderedAllocator of this thread draws from it; falls back on plain memory when it is full.
 class OrderedMemory {
@@ -77,4 +77,4 @@ struct OrderedAllocator {
     friend bool operator==(const OrderedAllocator&, const OrderedAllocator&) { return true; }
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -18,7 +18,7 @@
 #include <tbb/parallel_for.h>
 #endif
 
-namespace fit {
+namespace garmentfit {
 
 /// Calls turn(i) for each i in [0, count). `grain`: as many turns as are worth handing to another thread.
 /// An exception of a turn ends the loop and is passed on.
@@ -80,4 +80,4 @@ std::vector<T> parallel_collect(std::size_t count, const Turn& turn)
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

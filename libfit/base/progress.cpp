@@ -5,7 +5,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 
 Progress::Progress(Report report) : report_(std::move(report)) { }
 
@@ -25,4 +25,4 @@ void Progress::at(double fraction) const
         throw Cancelled();
 }
 
-}  // namespace fit
+}  // namespace garmentfit

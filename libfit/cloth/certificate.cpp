@@ -11,7 +11,7 @@
 #include "stretch.h"
 #include "winding_number.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // At one place is one vertex: seams of UV charts have two.
@@ -170,4 +170,4 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

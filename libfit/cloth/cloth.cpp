@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/cloth.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 struct Figures {
@@ -43,4 +43,4 @@ ClothOptions made_of_fabric(ClothOptions options)
     return options;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "parallel.h"
 #include "surface_measures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Slivers have cotangents without bound; past this they only say "this angle is small".
@@ -310,4 +310,4 @@ void Descent::step()
     residual_ = residual;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

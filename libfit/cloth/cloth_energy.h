@@ -19,7 +19,7 @@
 #include "garmentfit/mesh.h"
 #include "single_precision_factor.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A wish of contact for a weighted sum s of up to four vertices: be at `target`, energy 1/2 (s - target)^T K (s - target)
 /// with the stiffness K = normal_stiffness along the normal and tangent_stiffness across it, N/m.
@@ -104,4 +104,4 @@ private:
     double square_ = 0;  // of that residual, in the preconditioner's measure
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 #include "loose_parts.h"
 #include "untangle.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Once nothing is held back any more, contact as stiff as the cloth will do: a tight garment still presses less than a
@@ -317,4 +317,4 @@ Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_r
     return { lag == 0, motion.speed() };
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -14,7 +14,7 @@
 #include "garmentfit/progress.h"
 #include "weld.h"
 
-namespace fit {
+namespace garmentfit {
 
 constexpr double k_gravity = 9.81;  ///< m/s^2
 
@@ -99,4 +99,4 @@ struct Settled {
 /// @param to_rest  time steps more, at most, until no vertex is faster than k_at_rest
 Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -11,7 +11,7 @@
 #include "parallel.h"
 #include "segment.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 std::uint64_t key(int i, int j) { return (std::uint64_t(std::uint32_t(i)) << 32) | std::uint32_t(j); }
@@ -284,4 +284,4 @@ Positions Contact::joined(const Positions& x, const Positions& displacements, do
     return common;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -15,7 +15,7 @@
 #include "box_tree.h"
 #include "proximity.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct ContactPair {
     PairKind kind;
@@ -90,4 +90,4 @@ private:
     std::vector<ContactPair> pairs_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

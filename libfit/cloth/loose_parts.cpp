@@ -7,7 +7,7 @@
 #include "joined_vertices.h"
 #include "nearest.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_longest = 0.25;  // m, the diagonal of a part's box
@@ -73,4 +73,4 @@ std::vector<std::pair<int, int>> ties_of_loose_parts(const GarmentMesh& rest)
     return ties;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

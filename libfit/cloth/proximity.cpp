@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Where on the segment ab the point p projects to, in [0, 1]; 0 for a segment of no length.
@@ -115,4 +115,4 @@ double free_share(PairKind kind, Corners x, Corners d, double gap)
     return t;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 enum class PairKind : unsigned char { vertex_face, edge_edge };
 
@@ -39,4 +39,4 @@ double kept_distance(double distance, double gap);
 /// advancement: additive CCD, Li et al. 2021 (C-IPC), algorithm 1.
 double free_share(PairKind kind, Corners x, Corners displacements, double gap);
 
-}  // namespace fit
+}  // namespace garmentfit

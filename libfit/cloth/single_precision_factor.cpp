@@ -7,7 +7,7 @@
 
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_branches = 8;  // whatever the number of threads, so that sums have one order
@@ -185,4 +185,4 @@ Positions SinglePrecisionFactor::solve(const Positions& right) const
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -15,7 +15,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 class SinglePrecisionFactor {
 public:
@@ -47,4 +47,4 @@ private:
     std::vector<float> below_, inverse_diagonal_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace fit {
+namespace garmentfit {
 
 std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions)
 {
@@ -27,4 +27,4 @@ double quantile(std::vector<double> values, double share)
     return *nth;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/mesh.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// l / l0 - 1 of every edge of the garment that has a length at rest. O(n).
 std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions);
@@ -15,4 +15,4 @@ std::vector<double> stretches(const GarmentMesh& rest, const Positions& position
 /// The value that this share of them does not exceed; 0 of none. O(n).
 double quantile(std::vector<double> values, double share);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "joined_vertices.h"
 #include "nearest.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_rounds = 300;
@@ -212,4 +212,4 @@ Untangled untangled(const TriangleMesh& cloth)
     return { result.positions, left };
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 
 #include "garmentfit/certificate.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct Untangled {
     Positions positions;  ///< n x 3
@@ -21,4 +21,4 @@ struct Untangled {
 /// Cost O(n log n) to find the tangles, and some hundred times their own size to part them.
 Untangled untangled(const TriangleMesh& cloth);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_segments = int(bone_count) + int(extremity_count);  // bones, then what lies beyond the last joints
@@ -130,4 +130,4 @@ Positions collapse(const Positions& positions, const SkinWeights& weights, const
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 #include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// For each point (n x 3, in the pose of `skeleton`) the point of the skeleton that it collapses to: the mean, along the
 /// skeleton's tree, of the nearest points on the bones that it hangs on and on what lies beyond the last joints, weighted by
@@ -14,4 +14,4 @@ namespace fit {
 /// an armpit goes to the shoulder, not across from rib to arm. O(n).
 Positions collapse(const Positions& positions, const SkinWeights& weights, const Skeleton& skeleton);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -12,7 +12,7 @@
 #include "parallel.h"
 #include "surface_measures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Of the ball that needs room above the skin, in square roots of the body's area, which no pose changes: 1 cm for an adult. Larger
@@ -181,4 +181,4 @@ std::vector<char> near_cloth(const Positions& body, const Positions& cloth)
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

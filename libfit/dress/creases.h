@@ -10,7 +10,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 class Creases {
 public:
@@ -34,4 +34,4 @@ private:
 /// Whether cloth (m x 3) is so near to each point of a body (n x 3, as it wears it) that it may get into creases there. O((n + m) log m).
 std::vector<char> near_cloth(const Positions& body, const Positions& cloth);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -22,7 +22,7 @@
 #include "untangle.h"
 #include "weld.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // The shares of its thickness that the body may start with. The first is under two millimetres for a limb; the others are for bones that
@@ -318,4 +318,4 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -17,7 +17,7 @@
 #include "skin_weights.h"
 #include "weld.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Cloth within this many contact distances of the skin leans on it.
@@ -211,4 +211,4 @@ std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, 
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

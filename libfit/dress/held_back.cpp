@@ -7,7 +7,7 @@
 #include "body_parts.h"
 #include "skin_weights.h"
 
-namespace fit {
+namespace garmentfit {
 
 std::vector<HeldBack> held_back(const Positions& reached, const Positions& target, const SkinWeights& weights)
 {
@@ -24,4 +24,4 @@ std::vector<HeldBack> held_back(const Positions& reached, const Positions& targe
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

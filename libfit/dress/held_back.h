@@ -5,9 +5,9 @@
 
 #include "garmentfit/drape_garment.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Parts that are not yet in their places, worst first.
 std::vector<HeldBack> held_back(const Positions& reached, const Positions& target, const SkinWeights& weights);
 
-}  // namespace fit
+}  // namespace garmentfit

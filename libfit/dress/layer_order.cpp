@@ -7,7 +7,7 @@
 #include "body_parts.h"
 #include "tightness.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Of the girth of the body. What is wider by less may as well lie inside: folds, a body that is not quite in the middle.
@@ -80,4 +80,4 @@ std::vector<int> found_layers(const Rig& rig, const Positions& body, const std::
     return layers;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace fit {
+namespace garmentfit {
 
 void put_positions(std::vector<WornGarment>& garments, const Positions& positions)
 {
@@ -27,4 +27,4 @@ void add_slips(std::vector<WornGarment>& garments, const Positions& along)
     }
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/drape_garment.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Puts the rows of `positions`, garment after garment, back into the garments.
 void put_positions(std::vector<WornGarment>& garments, const Positions& positions);
@@ -15,4 +15,4 @@ void put_positions(std::vector<WornGarment>& garments, const Positions& position
 /// Adds how far each garment sank from where it would be, its vertices garment after garment, had it gone along with the body.
 void add_slips(std::vector<WornGarment>& garments, const Positions& along);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "nearest.h"
 #include "skin_weights.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Metres; shallower than that is how creases of skin are modelled.
@@ -77,4 +77,4 @@ std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weigh
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

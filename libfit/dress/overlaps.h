@@ -7,11 +7,11 @@
 
 #include "garmentfit/recover_pose.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Parts of a body that enter each other, deepest first. O(n log n).
 /// @param near_cloth  of each vertex; what is far from cloth does not matter
 std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weights,
                               const std::vector<char>& near_cloth);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -11,7 +11,7 @@
 #include "nearest.h"
 #include "segment.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr std::array<Extremity, 4> k_ends { lhand_tip, rhand_tip, lfoot_tip, rfoot_tip };
@@ -179,4 +179,4 @@ std::vector<double> PushedUp::freed(const Positions& skin, const SkinWeights& we
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 class PushedUp {
 public:
@@ -29,4 +29,4 @@ private:
     Positions positions_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -17,7 +17,7 @@
 #include "straight_hands.h"
 #include "tightness.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Passes over the edges that even out how the cloth hangs on the bones: what lies between two limbs follows both.
@@ -285,4 +285,4 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

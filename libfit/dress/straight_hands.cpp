@@ -6,7 +6,7 @@
 
 #include "garmentfit/fit_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr std::array<Extremity, 2> k_tips { lhand_tip, rhand_tip };
@@ -35,7 +35,7 @@ StraightHands::Stretch StraightHands::clear_of(const GarmentMesh& garment, const
     Stretch result { 0, 0 };
     std::array<bool, 2> found { false, false };
     for (const double stretch : k_stretches) {
-        const Skeleton wished = fit::posed(skeleton({ stretch, stretch }), pose),
+        const Skeleton wished = garmentfit::posed(skeleton({ stretch, stretch }), pose),
                        clear = with_clear_tips(wished, garment);
         for (int side = 0; side < 2; ++side)
             if (!found[side] && clear.tips[k_tips[side]] == wished.tips[k_tips[side]]) {
@@ -102,4 +102,4 @@ Positions StraightHands::posed(const Stretch& stretch, const Pose& pose) const
     return skin(stretched(stretch), rig_.weights, bone_transforms(rig_.skeleton, pose));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 class StraightHands {
 public:
@@ -44,4 +44,4 @@ private:
     std::array<Hand, 2> hands_;  // a stump has no skin to turn
 };
 
-}  // namespace fit
+}  // namespace garmentfit

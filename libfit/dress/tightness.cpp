@@ -8,7 +8,7 @@
 #include "skin_weights.h"
 #include "stretch.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Edges within 30 degrees of "across the bone" run round it.
@@ -144,4 +144,4 @@ PerPart growth_left(const Positions& cloth, const Positions& body, const Positio
     return wider_than(body, cloth, weights, skeleton, [&](int, int under) { return Vec3(full.row(under)); });
 }
 
-}  // namespace fit
+}  // namespace garmentfit

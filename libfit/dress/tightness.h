@@ -9,7 +9,7 @@
 #include "body_parts.h"
 #include "garmentfit/drape_garment.h"
 
-namespace fit {
+namespace garmentfit {
 
 using PerPart = std::array<double, k_body_parts>;
 
@@ -57,4 +57,4 @@ PerPart slack(const Positions& cloth, const Positions& body, const SkinWeights& 
 PerPart growth_left(const Positions& cloth, const Positions& body, const Positions& full, const SkinWeights& weights,
                     const Skeleton& skeleton);
 
-}  // namespace fit
+}  // namespace garmentfit

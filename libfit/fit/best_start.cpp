@@ -12,7 +12,7 @@
 #include "climb.h"
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_place_spacing = 0.05;  // m
@@ -267,4 +267,4 @@ Posture refined(const SkeletonSearch& search, const Posture& start)
     return polished(search, freed(search, limbs_reconsidered(search, start)), k_fine);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

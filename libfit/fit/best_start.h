@@ -6,7 +6,7 @@
 #include "garmentfit/progress.h"
 #include "skeleton_search.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct BestStart {
     Posture posture;
@@ -21,4 +21,4 @@ BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progres
 /// The start settled: every limb reconsidered and freed from the cloth, then all degrees of freedom polished.
 Posture refined(const SkeletonSearch& search, const Posture& start);
 
-}  // namespace fit
+}  // namespace garmentfit

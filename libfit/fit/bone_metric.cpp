@@ -7,7 +7,7 @@
 #include "room_search.h"
 #include "segment.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_bare = 2;  // weight of the room that a bare limb lacks
@@ -104,4 +104,4 @@ int BoneMetric::samples_inside(const Vec3& head, const Vec3& tail) const
     return count;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

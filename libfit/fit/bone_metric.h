@@ -10,7 +10,7 @@
 #include "error_metric.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Who takes part, and how thick the limbs are.
 struct Figure {
@@ -60,4 +60,4 @@ private:
     Figure figure_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include "search_grids.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
@@ -293,4 +293,4 @@ Posture raised_alone(const SkeletonSearch& search, const Posture& start, PaperCl
     return present;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

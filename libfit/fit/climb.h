@@ -7,7 +7,7 @@
 #include "paper_climb.h"
 #include "skeleton_search.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct Steps {
     double first, last;  // radians
@@ -27,4 +27,4 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
 /// By the paper's E alone from what `paper` knows, where cloth is wide: no bone loses room that it needs, and no joint goes far.
 Posture raised_alone(const SkeletonSearch& search, const Posture& start, PaperClimb& paper, const Steps& steps);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_patch = 0.015;  // m; a third of the narrowest cuff's radius
@@ -102,4 +102,4 @@ Room ClothRoom::at(const Vec3& point) const
     return { value.x() + beyond, beyond > 0 ? 0.0 : double(value.y()) };
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "crossing_tree.h"
 #include "room.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Answers from a grid whose blocks are worked out when they are first asked for, whoever asks: some tens of nanoseconds.
 /// Error of the distance within the garment's box: at most the diagonal of a patch, and of a cell of the grid.
@@ -59,4 +59,4 @@ private:
     mutable std::vector<Eigen::Vector2f> nodes_;  // distance, and how surely inside
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_leaf_size = 4;
@@ -287,4 +287,4 @@ ClothTree::Block ClothTree::block(const Vec3& first_node, double spacing) const
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Cloth in one small cell.
 struct ClothPatch {
@@ -61,4 +61,4 @@ private:
     std::vector<Ball> balls_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

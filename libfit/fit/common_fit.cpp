@@ -9,7 +9,7 @@
 #include "garmentfit/fit_skeleton.h"
 #include "outward_cloth.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_room_kept = 0.75;  // share of the room it has in a garment's own fit that a bone keeps
@@ -221,4 +221,4 @@ CommonFit common_fit(const Rig& rig, const std::vector<GarmentMesh>& garments, c
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

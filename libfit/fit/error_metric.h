@@ -5,7 +5,7 @@
 
 #include "posture.h"
 
-namespace fit {
+namespace garmentfit {
 
 inline constexpr int k_samples = 5;  // a bone [wu_2018_garment_fitting]
 
@@ -26,4 +26,4 @@ public:
     virtual double of_bone(int bone, const PlacedBones& bones) const = 0;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

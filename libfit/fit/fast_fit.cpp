@@ -20,7 +20,7 @@
 #include "parallel.h"
 #include "way_up.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_shortest_tip = 0.02;  // of an extremity; below, it ends at its joint
@@ -339,4 +339,4 @@ FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,9 +3,9 @@
 
 #include "garmentfit/fit_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The fast method, told in docs/fit.md.
 FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -17,7 +17,7 @@
 #include "baselines/relaxation.h"
 #include "baselines/surface_metric.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr Eigen::Index k_fewest_triangles = 24;  // two prisms of six sides, one above the other
@@ -146,4 +146,4 @@ FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOpti
     return fit_skeleton(rig, {}, garment, options, progress);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

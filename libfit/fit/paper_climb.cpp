@@ -8,7 +8,7 @@
 #include "garmentfit/mesh.h"
 #include "baselines/paper_metric.h"
 
-namespace fit {
+namespace garmentfit {
 
 PaperClimb::PaperClimb(const TriangleMesh& outward, const std::array<bool, bone_count>& covered) :
     positions_(outward.positions), normals_(vertex_normals(outward.positions, outward.triangles)),
@@ -72,4 +72,4 @@ bool PaperClimb::is_above(const Skeleton& joints, double gain)
     return next_.total > least;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

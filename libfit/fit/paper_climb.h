@@ -9,7 +9,7 @@
 #include "error_metric.h"
 #include "vertex_tree.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Equations (1) to (4) of [wu_2018_garment_fitting]. Every sample remembers vertices that were nearest to it before; the cloth is no
 /// further from it than those, so that most poses are known to be worse without a search. Not for several threads.
@@ -49,4 +49,4 @@ private:
     State present_, next_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

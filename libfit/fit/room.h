@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace fit {
+namespace garmentfit {
 
 /// What a garment offers to a point: how far the cloth is, and how surely the point is inside.
 struct Room {
@@ -39,4 +39,4 @@ inline double room_value(const Room& room, double radius)
 /// No room is worth more.
 inline double most_room_value(double radius) { return (1 + k_surplus) * radius; }
 
-}  // namespace fit
+}  // namespace garmentfit

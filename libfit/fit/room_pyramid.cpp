@@ -5,7 +5,7 @@
 
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_spacing = 0.05;  // m; less than half of what the slimmest trunk needs
@@ -106,4 +106,4 @@ RoomRange RoomPyramid::within(const Vec3& centre, const Vec3& half_size) const
     return range;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

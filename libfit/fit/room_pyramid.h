@@ -9,7 +9,7 @@
 #include "cloth_tree.h"
 #include "room.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// What a garment offers to all points of a box.
 struct RoomRange {
@@ -46,4 +46,4 @@ private:
     std::vector<Level> levels_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

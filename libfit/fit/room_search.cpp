@@ -5,7 +5,7 @@
 #include <cmath>
 #include <queue>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_first_cell = 0.4;  // m
@@ -91,4 +91,4 @@ std::vector<Place> RoomSearch::best(const Vec3& low, const Vec3& high, double sp
     return places;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 
 #include "room_pyramid.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A point that moves with the rest, and the radius of its limb.
 struct RoomSample {
@@ -56,4 +56,4 @@ private:
     Slab slab_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

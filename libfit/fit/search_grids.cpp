@@ -8,7 +8,7 @@
 
 #include "posture.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 bool by_norm(const Vec3& a, const Vec3& b)
@@ -54,4 +54,4 @@ Eigen::Quaterniond turned_by(const Vec3& rotation_vector)
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

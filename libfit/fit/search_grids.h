@@ -7,7 +7,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Offsets of a cubic grid within `extent` along each axis, nearest first. Metres or radians.
 std::vector<Vec3> grid_offsets(const Vec3& extent, double spacing);
@@ -22,4 +22,4 @@ std::vector<Vec3> directions_about(const Vec3& axis, double extent, double spaci
 /// The rotation about a vector by its length, radians.
 Eigen::Quaterniond turned_by(const Vec3& rotation_vector);
 
-}  // namespace fit
+}  // namespace garmentfit

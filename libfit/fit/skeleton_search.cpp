@@ -9,7 +9,7 @@
 #include "error_metric.h"
 #include "search_grids.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_crossing = 10;  // m; more than any room can repay
@@ -466,4 +466,4 @@ Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, con
     return moved;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

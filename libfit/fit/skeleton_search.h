@@ -13,7 +13,7 @@
 #include "posture.h"
 #include "room_search.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Two bones that are searched as one chain, and what lies beyond them.
 struct Limb {
@@ -124,4 +124,4 @@ private:
     bool hangs_from_shoulders_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

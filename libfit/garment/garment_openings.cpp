@@ -15,7 +15,7 @@
 #include "joined_vertices.h"
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_smallest_girth = 0.07;  // of the garment's diagonal: a cuff has 0.12, a buttonhole 0.03
@@ -334,4 +334,4 @@ Pieces pieces_in(const TriangleMesh& outward)
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct Opening {
     Vec3 centre = Vec3::Zero();
@@ -44,4 +44,4 @@ struct Pieces {
 };
 Pieces pieces_in(const TriangleMesh& outward);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -13,7 +13,7 @@
 #include "nearest.h"
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_backing = 3;  // thicknesses; along a rim it is further to the next cloth
@@ -181,4 +181,4 @@ std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& 
     return without_crumbs(outer, opposite, areas);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Those of the faces that belong to the outer sheet. A face is of the same sheet as its neighbours, and of another one than the face close
 /// behind it; the surest of these statements come first, and those that contradict them are left out: where folds pass through each other by the
@@ -20,4 +20,4 @@ namespace fit {
 std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<int>& opposite,
                              double thickness);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -18,7 +18,7 @@
 #include "parallel.h"
 #include "winding_number.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_weld_fraction = 1e-6;  // of the diagonal: what file formats round away, far below a stitch
@@ -309,4 +309,4 @@ TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn)
     return cloth;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include "garmentfit/mesh.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The garment as the fit looks at it: equal vertices welded, equal faces dropped, and every patch turned outwards whatever
 /// way its faces were given. Cost O(n log n).
@@ -11,4 +11,4 @@ TriangleMesh outward_cloth(const GarmentMesh& garment);
 
 TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn);
 
-}  // namespace fit
+}  // namespace garmentfit

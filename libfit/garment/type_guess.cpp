@@ -13,7 +13,7 @@
 #include "garmentfit/error.h"
 #include "outward_cloth.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 const std::vector<Bone> k_trunk { lowerback, upperback, thorax, lclavicle, rclavicle };
@@ -430,4 +430,4 @@ GarmentCues cues_of(const std::vector<Opening>& openings)
     return cues;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

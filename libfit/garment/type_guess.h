@@ -6,7 +6,7 @@
 #include "garmentfit/garment_type.h"
 #include "garment_openings.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// As guess_garment_type, from its openings.
 TypeGuess guess_type(const std::vector<Opening>& openings);
@@ -28,4 +28,4 @@ struct GarmentCues {
 };
 GarmentCues cues_of(const std::vector<Opening>& openings);
 
-}  // namespace fit
+}  // namespace garmentfit

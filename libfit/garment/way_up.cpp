@@ -13,7 +13,7 @@
 #include "outward_cloth.h"
 #include "posture.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_nearly_along = 0.26;  // rad, 15 degrees: so far a worn garment's axes lean from the vertical
@@ -184,4 +184,4 @@ std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Openin
     return ways;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garment_openings.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct WayUp {
     Eigen::Quaterniond turn;  ///< makes the garment upright
@@ -19,4 +19,4 @@ struct WayUp {
 /// @param outward  from outward_cloth. Cost O(n).
 std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Opening>& openings);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "append_mesh.h"
 
-namespace fit {
+namespace garmentfit {
 
 void append(TriangleMesh& mesh, const TriangleMesh& more)
 {
@@ -12,4 +12,4 @@ void append(TriangleMesh& mesh, const TriangleMesh& more)
     mesh.triangles.bottomRows(more.triangles.rows()) = (more.triangles.array() + int(vertices)).matrix();
 }
 
-}  // namespace fit
+}  // namespace garmentfit

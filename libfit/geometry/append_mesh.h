@@ -3,9 +3,9 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Appends `more` to `mesh`, its triangles renumbered.
 void append(TriangleMesh& mesh, const TriangleMesh& more);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fit {
+namespace garmentfit {
 
 BoxHierarchy::BoxHierarchy(const std::vector<Box>& boxes, int leaf_size)
 {
@@ -59,4 +59,4 @@ BoxHierarchy::Box box_about(const Vec3& low, const Vec3& high)
     return box;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 class BoxHierarchy {
 public:
@@ -42,4 +42,4 @@ private:
 /// The smallest box in single precision that certainly holds both, as corners of a box.
 BoxHierarchy::Box box_about(const Vec3& low, const Vec3& high);
 
-}  // namespace fit
+}  // namespace garmentfit

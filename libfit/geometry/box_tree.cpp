@@ -7,7 +7,7 @@
 
 #include "parallel.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_leaf_size = 4;
@@ -163,4 +163,4 @@ void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
     });
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 using Box = Eigen::AlignedBox3d;
 
@@ -56,4 +56,4 @@ private:
     std::vector<Bounds> boxes_;  // in the order of order_
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalMesh = CGAL::Surface_mesh<CgalKernel::Point_3>;
@@ -48,4 +48,4 @@ inline TriangleMesh from_cgal(const CgalMesh& mesh)
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -26,7 +26,7 @@
 #include "winding_number.h"
 #include "wrapped_surface.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -355,4 +355,4 @@ TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
                        + " faces cannot be closed to a solid; close the mesh or remesh it as one surface");
 }
 
-}  // namespace fit
+}  // namespace garmentfit

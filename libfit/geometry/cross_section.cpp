@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using EdgeKey = std::uint64_t;
@@ -112,4 +112,4 @@ std::optional<CrossSection> Slicer::cut(const Vec3& point, const Vec3& normal) c
     return best;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

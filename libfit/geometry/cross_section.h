@@ -6,7 +6,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// One closed outline where a plane cuts a closed surface.
 struct CrossSection {
@@ -29,4 +29,4 @@ private:
     const TriangleMesh& mesh_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

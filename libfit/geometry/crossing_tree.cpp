@@ -6,7 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -87,4 +87,4 @@ bool CrossingTree::is_met(const Vec3& from, const Vec3& to) const
     return false;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

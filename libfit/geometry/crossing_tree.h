@@ -9,7 +9,7 @@
 
 #include "box_hierarchy.h"
 
-namespace fit {
+namespace garmentfit {
 
 class CrossingTree {
 public:
@@ -24,4 +24,4 @@ private:
     BoxHierarchy boxes_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

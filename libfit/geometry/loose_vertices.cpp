@@ -7,7 +7,7 @@
 
 #include "nearest.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Of the diagonal. A head, a hand or a foot reaches that far from its stump.
@@ -85,4 +85,4 @@ Positions brought_to_stumps(const BodyMesh& body)
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

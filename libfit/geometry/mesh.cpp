@@ -10,7 +10,7 @@
 #include "garmentfit/error.h"
 #include "named_vertices.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 void check(const char* what, const Positions& positions, const Triangles& triangles)
@@ -84,4 +84,4 @@ Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const Triangles&
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 
 void require_named_vertices(std::string_view what, Eigen::Index vertices, const Triangles& triangles)
 {
@@ -15,4 +15,4 @@ void require_named_vertices(std::string_view what, Eigen::Index vertices, const 
                                + std::to_string(vertices - 1) + "; repair the file");
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,9 +5,9 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// @throws InvalidInput naming the first triangle that names a vertex which `what` does not have.
 void require_named_vertices(std::string_view what, Eigen::Index vertices, const Triangles& triangles);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -13,7 +13,7 @@
 
 #include <flann/flann.hpp>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -173,4 +173,4 @@ std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const
                  tree_->index[hit->second - tree_->triangles.cbegin()] };
 }
 
-}  // namespace fit
+}  // namespace garmentfit

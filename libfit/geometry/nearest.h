@@ -12,7 +12,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Nearest of a set of points: FLANN, one KD-tree, exact. Of points equally near, the first.
 class NearestPoint {
@@ -66,4 +66,4 @@ private:
     std::shared_ptr<const Tree> tree_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

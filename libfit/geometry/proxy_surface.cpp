@@ -10,7 +10,7 @@
 #include "cgal_mesh.h"
 #include "short_edges.h"
 
-namespace fit {
+namespace garmentfit {
 
 namespace {
 
@@ -71,4 +71,4 @@ TriangleMesh proxy_surface(const TriangleMesh& closed, int vertices)
     return proxy;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

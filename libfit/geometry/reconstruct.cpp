@@ -19,7 +19,7 @@
 #include "cgal_mesh.h"
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_fewest_points = 500;  // fewer cannot show hands and feet
@@ -96,4 +96,4 @@ Triangles reconstruct_surface(const Positions& points, const Progress& progress)
     return triangles;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

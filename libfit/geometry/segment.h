@@ -6,7 +6,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A segment may have no length: it is a point then.
 inline Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
@@ -25,4 +25,4 @@ inline double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)
     return std::sqrt(squared_distance_to_segment(p, a, b));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "surface_measures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Of the edge that an even mesh of the wanted size would have: the first sweep takes edges shorter than this, each
@@ -148,4 +148,4 @@ TriangleMesh without_short_edges(const TriangleMesh& closed, int vertices)
     return collapser.result();
 }
 
-}  // namespace fit
+}  // namespace garmentfit

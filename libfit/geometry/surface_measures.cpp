@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace fit {
+namespace garmentfit {
 
 double area(const TriangleMesh& mesh)
 {
@@ -28,4 +28,4 @@ double volume(const TriangleMesh& closed)
     return sum;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// m^2. O(n).
 double area(const TriangleMesh& mesh);
@@ -11,4 +11,4 @@ double area(const TriangleMesh& mesh);
 /// Enclosed by a closed surface, negative where its triangles are turned inwards; m^3. O(n).
 double volume(const TriangleMesh& closed);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_leaf_size = 8;
@@ -67,4 +67,4 @@ int VertexTree::index(const Vec3& query, double known) const
     return found;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

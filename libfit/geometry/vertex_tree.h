@@ -6,7 +6,7 @@
 
 #include "box_hierarchy.h"
 
-namespace fit {
+namespace garmentfit {
 
 class VertexTree {
 public:
@@ -22,4 +22,4 @@ private:
     Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> in_order_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

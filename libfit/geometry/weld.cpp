@@ -8,7 +8,7 @@
 
 #include "vertex_tree.h"
 
-namespace fit {
+namespace garmentfit {
 
 Weld::Weld(const GarmentMesh& garment) : cloth_vertex_(garment.positions.rows())
 {
@@ -62,4 +62,4 @@ Positions Weld::placed(const Positions& cloth) const
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

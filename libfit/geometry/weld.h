@@ -5,7 +5,7 @@
 
 #include "garmentfit/mesh.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Vertices of a garment at exactly one place are one vertex of its cloth: seams of UV charts are no cuts. Stray vertices, of no face, are
 /// no cloth; they go with the nearest vertex that is.
@@ -30,4 +30,4 @@ private:
     std::vector<Stray> strays_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_leaf_size = 8;
@@ -113,4 +113,4 @@ double winding_number(const TriangleMesh& surface, const Vec3& query)
     return angle / (4 * std::numbers::pi);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 class WindingNumber {
 public:
@@ -35,4 +35,4 @@ private:
 /// The same at one query or a few: all solid angles, exact; no cost beforehand.
 double winding_number(const TriangleMesh& surface, const Vec3& query);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "cgal_mesh.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_alpha = 0.012;   // of the diagonal: holes narrower than this are wrapped over
@@ -31,4 +31,4 @@ TriangleMesh wrapped_surface(const TriangleMesh& surface)
     return from_cgal(mesh);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 #include "garmentfit/mesh.h"
 #include "glb_buffer.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using nlohmann::ordered_json;
@@ -100,4 +100,4 @@ void write_animated_glb(const std::filesystem::path& path, const std::vector<Mov
     write_file(path, std::move(buffer).file(json));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 
 void FileBytes::fail(const std::string& what) const
 {
@@ -62,4 +62,4 @@ std::string Rewriter::finish()
     return std::move(result_);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace fit {
+namespace garmentfit {
 
 /// Bytes [begin, end) of a file.
 struct Span {
@@ -42,4 +42,4 @@ private:
     std::size_t copied_ = 0;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "garmentfit/types.h"
 #include "gltf_container.h"
 
-namespace fit {
+namespace garmentfit {
 
 namespace gltf {
 constexpr std::uint32_t k_binary_chunk = 0x004E4942;
@@ -74,4 +74,4 @@ private:
     nlohmann::ordered_json views_ = nlohmann::ordered_json::array(), accessors_ = views_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

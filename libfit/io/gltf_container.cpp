@@ -8,7 +8,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using nlohmann::ordered_json;
@@ -169,4 +169,4 @@ void embed_pictures(ordered_json& json, const std::filesystem::path& folder)
     }
 }
 
-}  // namespace fit
+}  // namespace garmentfit

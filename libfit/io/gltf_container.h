@@ -12,7 +12,7 @@
 
 #include "file_bytes.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct GltfChunk {
     std::uint32_t type = 0;
@@ -39,4 +39,4 @@ std::string data_uri(std::string_view mime_type, std::string_view bytes);
 /// Puts pictures that lie beside the file into it, so that it can be written anywhere.
 void embed_pictures(nlohmann::ordered_json& json, const std::filesystem::path& folder);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -13,7 +13,7 @@
 #include "mesh_content.h"
 #include "turned_normals.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using nlohmann::ordered_json;
@@ -349,4 +349,4 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
     return content;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

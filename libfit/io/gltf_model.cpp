@@ -5,7 +5,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using nlohmann::ordered_json;
@@ -117,4 +117,4 @@ Column vector_column(const FileBytes& file, const tinygltf::Model& model, int in
     return column;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -15,7 +15,7 @@
 #include "garmentfit/types.h"
 #include "gltf_container.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// For messages.
 std::string first_line(const std::string& text);
@@ -45,4 +45,4 @@ Column column_of(const FileBytes& file, const tinygltf::Model& model, int index,
 /// The same, and made of three floats.
 Column vector_column(const FileBytes& file, const tinygltf::Model& model, int index, const char* what);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "known_units.h"
 #include "named_vertices.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr std::array<std::string_view, 6> k_axes { "+y", "+z", "-y", "-z", "+x", "-x" };
@@ -243,4 +243,4 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
     return guess;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

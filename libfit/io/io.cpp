@@ -7,7 +7,7 @@
 #include "garmentfit/error.h"
 #include "mesh_content.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 std::string extension_of(const std::filesystem::path& path)
@@ -62,4 +62,4 @@ void MeshFile::write(const std::filesystem::path& path, const Positions& positio
     write_file(path, content_->bytes_with(positions));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace fit {
+namespace garmentfit {
 
 struct KnownUnit {
     std::string_view name;
@@ -15,4 +15,4 @@ struct KnownUnit {
 constexpr std::array<KnownUnit, 6> k_known_units { { { "m", 1, 0 }, { "dm", 0.1, 0.5 }, { "cm", 0.01, 0.2 },
                                                      { "mm", 0.001, 0.2 }, { "in", 0.0254, 2.2 }, { "ft", 0.3048, 3 } } };
 
-}  // namespace fit
+}  // namespace garmentfit

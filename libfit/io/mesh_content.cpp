@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_content.h"
 
-namespace fit {
+namespace garmentfit {
 
 void FanBuilder::add(const std::vector<int>& corners)
 {
@@ -17,4 +17,4 @@ Triangles FanBuilder::triangles(int column) const
     return Eigen::Map<const Triangles>(fans_[column].data(), static_cast<Eigen::Index>(fans_[column].size() / 3), 3);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "file_bytes.h"
 #include "garmentfit/io.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct MeshFile::Content {
     Positions positions;
@@ -47,4 +47,4 @@ private:
     std::vector<std::vector<int>> fans_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

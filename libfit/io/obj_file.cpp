@@ -3,7 +3,7 @@
 
 #include <climits>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// Vertices and normals; faces may name vertices further down, so they are read afterwards.
@@ -109,4 +109,4 @@ ContentPtr read_obj(FileBytes file)
     return content;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

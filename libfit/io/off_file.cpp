@@ -4,7 +4,7 @@
 #include <climits>
 #include <optional>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// Goes through the lines that hold more than blanks and comments.
@@ -137,4 +137,4 @@ ContentPtr read_off(FileBytes file)
     return content;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -11,7 +11,7 @@
 #include "turned_normals.h"
 #include "words.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -460,4 +460,4 @@ void write_ply(const std::filesystem::path& path, const Positions& positions, co
     write_file(path, bytes);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 #include "garmentfit/skinned_gltf.h"
 #include "glb_buffer.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using nlohmann::ordered_json;
@@ -95,4 +95,4 @@ void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& su
     write_file(path, std::move(buffer).file(json));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -12,7 +12,7 @@
 #include "gltf_model.h"
 #include "joint_names.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_pelvis = -1;
@@ -286,4 +286,4 @@ ForeignRig read_skinned_gltf(const std::filesystem::path& path)
     return Translation(file, skin).rig();
 }
 
-}  // namespace fit
+}  // namespace garmentfit

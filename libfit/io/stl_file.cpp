@@ -12,7 +12,7 @@
 
 #include "turned_normals.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// STL repeats a vertex in every facet; equal ones become one again.
@@ -195,4 +195,4 @@ ContentPtr read_stl(FileBytes file)
     return read_binary(std::move(file));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

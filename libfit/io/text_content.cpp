@@ -3,7 +3,7 @@
 
 #include "turned_normals.h"
 
-namespace fit {
+namespace garmentfit {
 
 std::string TextContent::bytes_with(const Positions& moved) const
 {
@@ -18,4 +18,4 @@ std::string TextContent::bytes_with(const Positions& moved) const
     return rewriter.finish();
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 #include "mesh_content.h"
 #include "words.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A mesh in a text whose vertices and normals are three numbers in a row each; all other text is kept verbatim.
 struct TextContent : MeshFile::Content {
@@ -35,4 +35,4 @@ private:
     std::vector<double> values_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

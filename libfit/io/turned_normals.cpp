@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "turned_normals.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 Positions area_normals(Eigen::Index count, const Triangles& corners, const Triangles& triangles, const Positions& positions)
@@ -33,4 +33,4 @@ Positions turned_normals(const Positions& normals, const Triangles& corners, con
     return turned;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

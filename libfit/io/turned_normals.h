@@ -3,7 +3,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Turns a file's normals along with its surface: each by the rotation that takes the mean normal of the faces that use it,
 /// before, to that after. Hard edges stay hard, and a normal whose faces did not turn comes back bit for bit.
@@ -12,4 +12,4 @@ namespace fit {
 Positions turned_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
                          const Positions& before, const Positions& after);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 #include "garmentfit/error.h"
 #include "known_units.h"
 
-namespace fit {
+namespace garmentfit {
 Eigen::Matrix3d Frame::rotation() const
 {
     // up along x turns about z; all others turn about x, so that left stays left
@@ -49,4 +49,4 @@ Vec3 axis_of(std::string_view name)
     return (name[0] == '-' ? -1.0 : 1.0) * Vec3::Unit(letter[0] - 'x');
 }
 
-}  // namespace fit
+}  // namespace garmentfit

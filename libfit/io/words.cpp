@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 bool is_blank(char c)
@@ -127,4 +127,4 @@ std::string text_of(const Vec3& values)
     return text_of(values.x()) + ' ' + text_of(values.y()) + ' ' + text_of(values.z());
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include "file_bytes.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Goes through the words of a stretch of text. A backslash before the end of a line is a blank, as in OBJ.
 class Words {
@@ -58,4 +58,4 @@ Triple next_triple(Words& words, const FileBytes& file);
 Triple next_finite_triple(Words& words, const FileBytes& file);
 std::string text_of(const Vec3& values);
 
-}  // namespace fit
+}  // namespace garmentfit

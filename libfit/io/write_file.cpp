@@ -6,7 +6,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/io.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 bool write_all(const std::filesystem::path& path, std::string_view bytes)
@@ -35,4 +35,4 @@ void write_file(const std::filesystem::path& path, std::string_view bytes)
     }
 }
 
-}  // namespace fit
+}  // namespace garmentfit

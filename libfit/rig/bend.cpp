@@ -9,7 +9,7 @@
 
 #include "segment.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // How far people stray from the usual ratio, and cuts from straight limbs.
@@ -89,4 +89,4 @@ Vec3 bend(const Centreline& line, int from, int to, const Vec3& root, double usu
     return line.points[row] + share * (corner - line.points[row]);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "centreline.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The joint between two bones. A line through flesh cuts the corner of a bent limb: there the bones' own axes are made to
 /// meet, read off well away from the bend.
@@ -15,4 +15,4 @@ namespace fit {
 /// @param size  stature, m
 Vec3 bend(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size);
 
-}  // namespace fit
+}  // namespace garmentfit

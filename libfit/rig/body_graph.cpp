@@ -12,7 +12,7 @@
 #include "curve_loops.h"
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr int k_ends = 5;  // one less where the head is missing
@@ -302,4 +302,4 @@ BodyGraph body_graph(const CurveSkeleton& skeleton)
     return graph;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

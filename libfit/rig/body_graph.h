@@ -6,7 +6,7 @@
 
 #include "curve_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// What the curve skeleton of a human says: which of its curves is which part of the body, sides still open.
 struct BodyGraph {
@@ -33,4 +33,4 @@ struct BodyGraph {
 /// @throws InvalidInput where it does not have the five ends of a human, or not a human's proportions.
 BodyGraph body_graph(const CurveSkeleton& skeleton);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
@@ -134,4 +134,4 @@ Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, doub
     return line;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 #include "cross_section.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The line through the middle of a limb or of the trunk, from where it leaves the body outwards, with the girths along it.
 struct Centreline {
@@ -39,4 +39,4 @@ bool is_free(const CrossSection& section, const IsForeign& is_foreign);
 /// @param spacing  m between cuts
 Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, const IsForeign& is_foreign);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_short_loop = 0.15;  // of the diagonal: two fingers that touch, not an arm and the trunk
@@ -141,4 +141,4 @@ std::vector<CurveSkeleton> opened(const CurveSkeleton& skeleton)
     return ways;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

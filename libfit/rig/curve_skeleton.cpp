@@ -8,7 +8,7 @@
 // The flow collapses edges in the order of a std::set of handles, which compares addresses: its mesh gets ordered memory.
 #include <CGAL/memory.h>
 #undef CGAL_ALLOCATOR
-#define CGAL_ALLOCATOR(T) fit::OrderedAllocator<T>
+#define CGAL_ALLOCATOR(T) garmentfit::OrderedAllocator<T>
 #include <CGAL/Polyhedron_3_fwd.h>
 #undef CGAL_ALLOCATOR
 #define CGAL_ALLOCATOR(T) std::allocator<T>
@@ -20,7 +20,7 @@
 #include "cgal_mesh.h"
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using Flow = CGAL::Mean_curvature_flow_skeletonization<CgalMesh>;
@@ -78,4 +78,4 @@ CurveSkeleton curve_skeleton(const TriangleMesh& closed, const Progress& progres
     }
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 #include "garmentfit/progress.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A graph of curves that runs through the middle of a closed surface.
 struct CurveSkeleton {
@@ -20,4 +20,4 @@ struct CurveSkeleton {
 /// @pre `closed` is one closed triangulated 2-manifold. @throws InvalidInput when the flow breaks down, Cancelled.
 CurveSkeleton curve_skeleton(const TriangleMesh& closed, const Progress& progress);
 
-}  // namespace fit
+}  // namespace garmentfit

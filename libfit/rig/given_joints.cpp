@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// What lies beyond the last joint, as a share of the bone before it [drillis_1966_segments]: head, hands; feet go forward.
@@ -76,4 +76,4 @@ Skeleton skeleton_of(const GivenJoints& given)
     return s;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "garmentfit/error.h"
 #include "limb_end.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // Shares of stature between joint centres [deleva_1996_segments], heights and widths [drillis_1966_segments].
@@ -381,4 +381,4 @@ BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     return joints;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

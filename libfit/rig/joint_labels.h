@@ -8,7 +8,7 @@
 #include "centreline.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Root, middle and end joint of an arm (shoulder, elbow, wrist) or a leg (hip, knee, ankle), and the tip beyond.
 struct LimbJoints {
@@ -30,4 +30,4 @@ struct BodyJoints {
 /// @throws InvalidInput when a limb has no outline of its own.
 BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_girth_spread = 0.10;  // relative
@@ -92,4 +92,4 @@ bool has_foot(const Centreline& line, double size)
     return end_girth(line) < k_thin_foot * size || widening(line, k_instep * size, size) > k_wider_end;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "centreline.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct Reach {
     double least, usual, most, spread;  ///< m, straight to the limb's tip
@@ -24,4 +24,4 @@ Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
 bool has_hand(const Centreline& line, double size);
 bool has_foot(const Centreline& line, double size);
 
-}  // namespace fit
+}  // namespace garmentfit

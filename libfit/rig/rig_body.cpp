@@ -14,7 +14,7 @@
 #include "side_vote.h"
 #include "skin_transfer.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 struct LimbBones {
@@ -205,4 +205,4 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     return rig;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "surface_measures.h"
 #include "winding_number.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
@@ -90,4 +90,4 @@ void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)
     check_inside(closed, skeleton);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

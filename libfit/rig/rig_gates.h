@@ -4,7 +4,7 @@
 #include "garmentfit/skeleton.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Refuses blocks and balls before any work is done on them. O(n). @throws InvalidInput with the number.
 void check_shape(const TriangleMesh& closed);
@@ -13,4 +13,4 @@ void check_shape(const TriangleMesh& closed);
 /// proportions. O(samples * triangles). @throws InvalidInput naming the gate, with numbers.
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
 
-}  // namespace fit
+}  // namespace garmentfit

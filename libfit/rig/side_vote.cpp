@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_stump
@@ -98,4 +98,4 @@ Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front
     return sides;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "joint_labels.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Which way a body faces and which of its limbs are left.
 struct Sides {
@@ -19,4 +19,4 @@ struct Sides {
 /// @param known_front  ends the vote: the sides are those that face it best, the margin says how well
 Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front = {});
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 struct Part {
@@ -45,4 +45,4 @@ int part_of(int bone)
 
 const char* part_name(int part) { return parts()[part].name; }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 constexpr int k_body_parts = 14;
 
@@ -13,4 +13,4 @@ constexpr int k_body_parts = 14;
 int part_of(int bone);
 const char* part_name(int part);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The weight of a vertex on a bone.
 inline double weight_of(const SkinWeights& weights, Eigen::Index v, int bone)
@@ -43,4 +43,4 @@ struct ExtremityBend {
     }
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -10,7 +10,7 @@
 #include "garmentfit/error.h"
 #include "segment.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive definite on obtuse triangles
@@ -107,4 +107,4 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     return weights;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

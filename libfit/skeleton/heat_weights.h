@@ -8,7 +8,7 @@
 #include "garmentfit/skeleton.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Which bones each vertex may hang on. Keeps a limb's weights off another limb that it touches.
 using VisibleBones = std::vector<std::array<bool, bone_count>>;
@@ -17,4 +17,4 @@ using VisibleBones = std::vector<std::array<bool, bone_count>>;
 /// @param closed  a closed surface
 Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleton, const VisibleBones& visible);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "posture.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double operator""_deg(long double degrees) { return double(degrees) * std::numbers::pi / 180; }
@@ -132,4 +132,4 @@ double JointLimits::excess(int bone, const Eigen::Quaterniond& parent_turn, cons
                       std::max({ 0.0, range.across_min - across, across - range.across_max }));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

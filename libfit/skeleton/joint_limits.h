@@ -10,7 +10,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 class JointLimits {
 public:
@@ -33,4 +33,4 @@ private:
 /// [wu_2018_garment_fitting]: a forearm keeps within a right angle of its clavicle, or it would fold into the chest.
 inline bool folds_into_chest(const Vec3& clavicle, const Vec3& forearm) { return clavicle.dot(forearm) < 0; }
 
-}  // namespace fit
+}  // namespace garmentfit

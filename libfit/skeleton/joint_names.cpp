@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string_view>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 struct Word {
@@ -95,4 +95,4 @@ std::vector<std::optional<NamedJoint>> named_joints(const std::vector<std::strin
     return joints;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace fit {
+namespace garmentfit {
 
 /// What a joint of a rig is, whatever its maker called it.
 enum class JointKind { pelvis, spine, neck, head, clavicle, shoulder, elbow, wrist, hip, knee, ankle };
@@ -19,4 +19,4 @@ struct NamedJoint {
 /// All names of a rig at once: "LeftShoulder" is a clavicle where there is a "LeftArm", else a shoulder.
 std::vector<std::optional<NamedJoint>> named_joints(const std::vector<std::string>& names);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fit {
+namespace garmentfit {
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); }
 
@@ -91,4 +91,4 @@ Posture turned(Posture posture, const Eigen::Quaterniond& turn)
     return posture;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

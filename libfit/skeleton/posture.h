@@ -7,7 +7,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Directions say all: every bone turns from its own direction by the shortest arc, relative to its parent, so that the
 /// skin is never wrung.
@@ -47,4 +47,4 @@ Posture posture_of(const Skeleton& own, const Pose& pose);
 /// About the origin, the whole body.
 Posture turned(Posture posture, const Eigen::Quaterniond& turn);
 
-}  // namespace fit
+}  // namespace garmentfit

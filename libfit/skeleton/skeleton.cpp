@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 struct BoneRow {
@@ -179,4 +179,4 @@ std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights
     return radii;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

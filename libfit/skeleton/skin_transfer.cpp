@@ -12,7 +12,7 @@
 #include "parallel.h"
 #include "skin_weights.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
@@ -210,4 +210,4 @@ SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights
     return strongest_four(std::move(carried));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 #include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Carries weights (n x 17) to the body's own vertices by the nearest points that face the same way, and keeps the four largest of each row.
 /// Where fingers touch other skin the nearest point may belong to that: skin which hangs on a bone far along the skeleton from what its
@@ -24,4 +24,4 @@ struct StrayPatch {
 /// Patches of vertices cut off from the largest part of their surface by edges whose ends hang on bones more than two steps apart. O(n).
 std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vector<int>& bone_of_vertex);
 
-}  // namespace fit
+}  // namespace garmentfit

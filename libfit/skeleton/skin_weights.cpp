@@ -3,7 +3,7 @@
 
 #include "nearest.h"
 
-namespace fit {
+namespace garmentfit {
 
 void append(SkinWeights& weights, const SkinWeights& more)
 {
@@ -54,4 +54,4 @@ SkinWeights strongest_four(Eigen::MatrixXd dense)
     return result;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Appends the rows of `more`.
 void append(SkinWeights& weights, const SkinWeights& more);
@@ -21,4 +21,4 @@ SkinWeights weights_of_nearest(const Positions& points, const Positions& body, c
 /// The four largest of each row of a dense table of weights, n x bone_count, made to sum to 1.
 SkinWeights strongest_four(Eigen::MatrixXd dense);
 
-}  // namespace fit
+}  // namespace garmentfit

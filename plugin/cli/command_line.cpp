@@ -7,8 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include "garmentfit/error.h"
+#include "garmentfit/version.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 struct CommandText {
@@ -149,7 +150,7 @@ std::optional<Call> parse(int argc, char** argv)
 {
     auto call = std::make_unique<Call>();  // flags point into it
     CLI::App app("Dresses a 3D body of any shape and pose in garments made for somebody else", "garmentfit");
-    app.set_version_flag("--version", "garmentfit " FIT_VERSION);
+    app.set_version_flag("--version", "garmentfit " GARMENTFIT_VERSION);
     app.require_subcommand(1);
     app.footer("Each command has its own help: garmentfit dress --help\n"
                "Exit codes: 0 dressed and certified, 2 wrong input, 3 too small, 4 not certified, 130 stopped\n\n"
@@ -168,4 +169,4 @@ std::optional<Call> parse(int argc, char** argv)
     return *call;
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -11,7 +11,7 @@
 #include "garmentfit/filters/filters.h"
 #include "session.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 struct Call {
     const Filter* filter = nullptr;
@@ -31,4 +31,4 @@ struct Call {
 /// @throws InvalidInput.
 std::optional<Call> parse(int argc, char** argv);
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

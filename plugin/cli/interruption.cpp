@@ -5,7 +5,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
@@ -31,4 +31,4 @@ void stop_if_interrupted()
         throw Cancelled();
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -3,7 +3,7 @@
 
 // Ctrl-C, told to libfit through its Progress.
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 /// The first SIGINT or SIGTERM only raises a flag; a second one ends the program at once, as ever.
 void watch_interruption();
@@ -11,4 +11,4 @@ bool interrupted();
 /// @throws Cancelled when interrupted.
 void stop_if_interrupted();
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

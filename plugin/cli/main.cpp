@@ -4,4 +4,4 @@
 
 #include "program.h"
 
-int main(int argc, char** argv) { return fit::cli::run_program(argc, argv); }
+int main(int argc, char** argv) { return garmentfit::cli::run_program(argc, argv); }

@@ -8,7 +8,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ void OutputFolder::publish(const std::vector<std::string>& outdated)
         fs::remove_all(path);
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

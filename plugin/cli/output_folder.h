@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 class OutputFolder {
 public:
@@ -31,4 +31,4 @@ private:
     std::vector<std::filesystem::path> made_parents_;  ///< outermost first
 };
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -24,7 +24,7 @@
 #include "results.h"
 #include "session.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
@@ -158,4 +158,4 @@ int run_program(int argc, char** argv)
     }
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

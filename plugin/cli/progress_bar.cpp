@@ -5,7 +5,7 @@
 
 #include "interruption.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 constexpr int k_cells = 30;
@@ -46,4 +46,4 @@ void ProgressBar::draw(double fraction, std::string_view stage)
     drawn_ = std::move(line);
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -8,7 +8,7 @@
 
 #include "garmentfit/progress.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 class ProgressBar {
 public:
@@ -27,4 +27,4 @@ private:
     std::string drawn_;  ///< what stands on the terminal now
 };
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -12,7 +12,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/units.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -272,4 +272,4 @@ std::string summary(const Call& call, const Session& session)
     return text.str();
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -8,10 +8,10 @@
 #include "command_line.h"
 #include "session.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 /// Lengths in the body's units.
 std::string report_json(const Call& call, const Session& session);
 std::string summary(const Call& call, const Session& session);
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

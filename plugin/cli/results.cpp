@@ -15,7 +15,7 @@
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -259,4 +259,4 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_last_state(session, *scene.draped, folder);
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -10,7 +10,7 @@
 
 #include "session.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 /// Warns of guesses that were nearly a toss-up, and of garments that were not put on.
 void add_doubts(Session& session);
@@ -23,4 +23,4 @@ void write_results(Session& session, std::string_view command, const std::filesy
 std::vector<std::string> outdated_results(const Session& session, std::string_view command,
                                           const std::filesystem::path& folder);
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -11,7 +11,7 @@
 #include "garmentfit/skinned_gltf.h"
 #include "garmentfit/stopwatch.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ void read_draped(Session& session, const fs::path& folder)
                                          read_left(session, folder / "body.ply"), worn, session.garment_names());
 }
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -12,7 +12,7 @@
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/io.h"
 
-namespace fit::cli {
+namespace garmentfit::cli {
 
 struct BodyFile {
     std::filesystem::path path;
@@ -51,4 +51,4 @@ void read_fitted(Session& session, const std::filesystem::path& folder);
 /// All that `drape` wrote, for recovering the pose.
 void read_draped(Session& session, const std::filesystem::path& folder);
 
-}  // namespace fit::cli
+}  // namespace garmentfit::cli

@@ -9,7 +9,7 @@
 #include "fitting.h"
 #include "layers.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 /// The number that a user typed, and that the command line would read: all MeshLabs hand parameters on as floats, also
@@ -156,4 +156,4 @@ void put_lengths_in_metres(const MenuEntry& entry, Parameters& parameters, doubl
     describe_entry(entry, parameters, LengthsInMetres { metres_per_unit });
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -12,7 +12,7 @@
 #include "host_api.h"
 #include "menu.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// What becomes quality and colour of a dressed garment.
 enum class ShownMap { ease, strain, pressure, none };
@@ -37,4 +37,4 @@ Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDo
 /// Lengths from the body's unit to metres; a default is again what it is on the command line, digit by digit.
 void put_lengths_in_metres(const MenuEntry& entry, Parameters& parameters, double metres_per_unit);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -9,7 +9,7 @@
 #include "fitting.h"
 #include "layers.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 QStringList list_of(const std::vector<std::string_view>& words)
@@ -196,4 +196,4 @@ RichParameterList dialog_for(const MenuEntry& entry, ShownDocument& document)
     return list;
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -6,9 +6,9 @@
 #include "host_api.h"
 #include "menu.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// Nothing where the document has no layer.
 RichParameterList dialog_for(const MenuEntry& entry, ShownDocument& document);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

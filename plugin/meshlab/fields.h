@@ -10,7 +10,7 @@
 #include "host_api.h"
 #include "menu.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit = "unit", k_up = "up", k_front = "front",
                      k_garment_unit = "garment_unit", k_garment_up = "garment_up", k_bone = "shown_bone",
@@ -35,4 +35,4 @@ void describe_entry(const MenuEntry& entry, AnyParameters& parameters, const Vis
         describe_cloth(parameters.drape.cloth, visit);
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

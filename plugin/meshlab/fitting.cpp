@@ -6,7 +6,7 @@
 
 #include "garmentfit/filters/own_rig.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 bool is_same(const TriangleMesh& kept, const TriangleMesh& given, const Frame& frame)
@@ -132,4 +132,4 @@ RigFile rig_file_of(const Fitting& fitting)
     return contents;
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

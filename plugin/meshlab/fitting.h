@@ -15,7 +15,7 @@
 #include "garmentfit/units.h"
 #include "host_api.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// A scene, and how it came from layers.
 struct Fitting {
@@ -50,4 +50,4 @@ Fitting fitting_from_file(const std::filesystem::path& path, const std::string& 
 /// The same the other way.
 RigFile rig_file_of(const Fitting& fitting);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

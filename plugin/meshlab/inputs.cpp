@@ -5,7 +5,7 @@
 #include "garmentfit/filters/frame_choice.h"
 #include "layers.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 Fitting new_fitting(const Choice& choice, Report& report)
@@ -107,4 +107,4 @@ Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocume
     return fitting;
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

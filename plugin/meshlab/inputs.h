@@ -7,10 +7,10 @@
 #include "fitting.h"
 #include "report.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// The chosen body and garments, and what filters before found out about them: in the document, else in the file beside
 /// the body's. @throws InvalidInput: no such thing, no rig yet, or a layer was changed since.
 Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocument& document, Report& report);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -10,7 +10,7 @@
 
 #include "garmentfit/filters/scene_arrays.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 using Allocator = vcg::tri::Allocator<CMeshO>;
@@ -127,4 +127,4 @@ void show_quality(MeshModel& layer, const Eigen::VectorXd& values, double red, d
     }
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -12,7 +12,7 @@
 #include "garmentfit/types.h"
 #include "host_api.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// Vertices and faces that are not deleted, in their order.
 TriangleMesh mesh_of(const MeshModel& layer);
@@ -49,4 +49,4 @@ void add_attribute(MeshModel& layer, const std::string& name, const Eigen::Vecto
 /// Values as quality, and as colours from red at `red` to blue at `blue`.
 void show_quality(MeshModel& layer, const Eigen::VectorXd& values, double red, double blue);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "menu.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 const char* const k_citation
@@ -83,4 +83,4 @@ const std::vector<MenuEntry>& menu()
     return entries;
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -9,7 +9,7 @@
 
 #include "garmentfit/filters/filters.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 constexpr std::string_view k_title = "Garment Fitting: ";  ///< what the name of every entry begins with
 
@@ -32,4 +32,4 @@ struct MenuEntry {
 /// The five filters of the common table and three that only MeshLab has, in the order of the menu.
 const std::vector<MenuEntry>& menu();
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -7,7 +7,7 @@
 #include "garmentfit/filters/doubts.h"
 #include "garmentfit/filters/outcome.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 void Report::warn(const std::vector<std::string>& doubts)
 {
@@ -49,4 +49,4 @@ void report_girths(Report& report, const std::vector<Girth>& girths, double metr
     }
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

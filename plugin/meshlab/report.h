@@ -11,7 +11,7 @@
 #include "garmentfit/fit_map.h"
 #include "fitting.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 struct Report {
     std::vector<std::string> lines, warnings;
@@ -28,4 +28,4 @@ void report_scene(Report& report, const Fitting& fitting);
 
 void report_girths(Report& report, const std::vector<Girth>& girths, double metres_per_unit);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -5,7 +5,7 @@
 #include "garmentfit/filters/rig_arrays.h"
 #include "layers.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 // The ends of the colour ramps, as the dialog says.
@@ -148,4 +148,4 @@ void add_measured(MeshDocument& document, const Choice& choice, Fitting fitting,
     NewLayers(document, choice, std::move(fitting)).add_worn_copy(*choice.worn, map);
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

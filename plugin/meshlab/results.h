@@ -9,7 +9,7 @@
 #include "garmentfit/fit_map.h"
 #include "fitting.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// Layers for each of the outputs; all but those of the last one are hidden.
 void add_results(MeshDocument& document, const Choice& choice, Fitting fitting, const std::vector<Data>& outputs);
@@ -17,4 +17,4 @@ void add_results(MeshDocument& document, const Choice& choice, Fitting fitting, 
 /// A copy of the worn garment with its map as attributes, quality and colours.
 void add_measured(MeshDocument& document, const Choice& choice, Fitting fitting, const FitMap& map);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -12,7 +12,7 @@
 #include "layers.h"
 #include "results.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 namespace {
 
 constexpr auto k_between_reports = std::chrono::milliseconds(100);
@@ -134,4 +134,4 @@ Progress progress_to(vcg::CallBackPos* callback)
     });
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -8,7 +8,7 @@
 #include "menu.h"
 #include "report.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// Everything that can go wrong goes wrong before the document changes; layers are only added, and the current one stays.
 /// @throws InvalidInput, SolverFailure, Cancelled.
@@ -18,4 +18,4 @@ Report run_entry(const MenuEntry& entry, const RichParameterList& list, MeshDocu
 /// Reports to MeshLab ten times a second at most; stops when told to.
 Progress progress_to(vcg::CallBackPos* callback);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

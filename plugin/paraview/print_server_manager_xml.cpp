@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 std::string escaped(std::string_view text)
 {

@@ -15,7 +15,7 @@
 #include "garmentfit/skeleton.h"
 #include "garmentfit/units.h"
 
-namespace fit::picture {
+namespace garmentfit::picture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ DressedFolder read_dressed_folder(const fs::path& folder)
     return read;
 }
 
-}  // namespace fit::picture
+}  // namespace garmentfit::picture

@@ -10,7 +10,7 @@
 
 #include "garmentfit/types.h"
 
-namespace fit::picture {
+namespace garmentfit::picture {
 
 struct ShownBone {
     Vec3 head, tail;
@@ -67,4 +67,4 @@ State read_map(const std::filesystem::path& folder, const std::string& map);
 /// @throws InvalidInput.
 DressedFolder read_dressed_folder(const std::filesystem::path& folder);
 
-}  // namespace fit::picture
+}  // namespace garmentfit::picture

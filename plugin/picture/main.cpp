@@ -11,11 +11,12 @@
 
 #include "dressed_folder.h"
 #include "garmentfit/error.h"
+#include "garmentfit/version.h"
 #include "panels.h"
 
 namespace {
 
-using namespace fit::picture;
+using namespace garmentfit::picture;
 
 constexpr double k_half_turn = 3.14159;
 constexpr double k_part_turn = 0.7;  // radians; shows a sleeve and the front at once
@@ -84,7 +85,7 @@ int main(int argc, char** argv)
                  "garmentfit fit wrote: bones in the garment, coloured by how central they run; or what "
                  "garmentfit rig wrote: bones and weights",
                  "garmentfit-picture");
-    app.set_version_flag("--version", "garmentfit-picture " FIT_VERSION);
+    app.set_version_flag("--version", "garmentfit-picture " GARMENTFIT_VERSION);
     app.add_option("DIR", folder, "Folder that garmentfit dress, fit or rig wrote")->required();
     app.add_option("-o,--output", output, "PNG file")->required();
     app.add_option("--map", map, "Colours the garments by ease, strain or pressure instead, with a legend")
@@ -98,7 +99,7 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     try {
         if (!std::getenv("DISPLAY"))  // VTK would end the process without a word on what to do
-            throw fit::InvalidInput("no display; run it under xvfb-run -a");
+            throw garmentfit::InvalidInput("no display; run it under xvfb-run -a");
         draw_folder(folder, map, height, output);
     } catch (const std::exception& error) {
         std::cerr << "garmentfit-picture: " << error.what() << '\n';

@@ -31,7 +31,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-namespace fit::picture {
+namespace garmentfit::picture {
 namespace {
 
 using Colour = std::array<double, 3>;
@@ -366,4 +366,4 @@ void draw(const std::vector<Panel>& panels, const std::string& headline, int hei
     write_png(window, png);
 }
 
-}  // namespace fit::picture
+}  // namespace garmentfit::picture

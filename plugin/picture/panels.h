@@ -9,7 +9,7 @@
 
 #include "dressed_folder.h"
 
-namespace fit::picture {
+namespace garmentfit::picture {
 
 struct Panel {
     const State* state = nullptr;
@@ -19,4 +19,4 @@ struct Panel {
 
 void draw(const std::vector<Panel>& panels, const std::string& headline, int height, const std::filesystem::path& png);
 
-}  // namespace fit::picture
+}  // namespace garmentfit::picture

@@ -18,6 +18,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/reconstruct.h"
+#include "garmentfit/version.h"
 #include "plugin/cli/program.h"
 #include "python_results.h"
 #include "python_scene.h"
@@ -25,7 +26,7 @@
 namespace nb = nanobind;
 using namespace nb::literals;
 
-namespace fit::python {
+namespace garmentfit::python {
 namespace {
 
 std::vector<std::string> type_names() { return { garment_type_names().begin(), garment_type_names().end() }; }
@@ -131,14 +132,14 @@ void bind_scene(nb::module_& m)
 }
 
 }  // namespace
-}  // namespace fit::python
+}  // namespace garmentfit::python
 
 NB_MODULE(_core, m)
 {
-    using namespace fit;
-    using namespace fit::python;
+    using namespace garmentfit;
+    using namespace garmentfit::python;
     nb::set_leak_warnings(false);  // VTK's Python filters are cycles that Python does not collect at its end
-    m.attr("__version__") = FIT_VERSION;
+    m.attr("__version__") = GARMENTFIT_VERSION;
     nb::exception<InvalidInput>(m, "InvalidInput", PyExc_ValueError);
     nb::exception<SolverFailure>(m, "SolverFailure", PyExc_RuntimeError);
     nb::exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);

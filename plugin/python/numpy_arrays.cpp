@@ -8,7 +8,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit::python {
+namespace garmentfit::python {
 namespace {
 
 nb::object object_of(const NamedArray& array)
@@ -69,4 +69,4 @@ FindArray find_with(const nb::object& find)
     };
 }
 
-}  // namespace fit::python
+}  // namespace garmentfit::python

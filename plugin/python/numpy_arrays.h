@@ -13,7 +13,7 @@
 #include "garmentfit/filters/scene_arrays.h"
 #include "garmentfit/types.h"
 
-namespace fit::python {
+namespace garmentfit::python {
 
 namespace nb = nanobind;
 
@@ -46,4 +46,4 @@ nb::dict dict_of(const MeshArrays& arrays);
 /// outlive the function.
 FindArray find_with(const nb::object& find);
 
-}  // namespace fit::python
+}  // namespace garmentfit::python

@@ -6,7 +6,7 @@
 #include "garmentfit/filters/doubts.h"
 #include "garmentfit/filters/outcome.h"
 
-namespace fit::python {
+namespace garmentfit::python {
 namespace {
 
 nb::object in_body_units(const PythonScene& s, const Positions& metres)
@@ -175,4 +175,4 @@ nb::list frames_of(const PythonScene& s)
     return made;
 }
 
-}  // namespace fit::python
+}  // namespace garmentfit::python

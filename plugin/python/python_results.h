@@ -8,7 +8,7 @@
 #include "garmentfit/filters/moment.h"
 #include "python_scene.h"
 
-namespace fit::python {
+namespace garmentfit::python {
 
 /// A scene at one time of its way back to the body's own pose, and its arrays as all hosts call them.
 class PythonMoment {
@@ -41,4 +41,4 @@ nb::dict verdict_of(const PythonScene& scene);
 /// [(share of the way, body, [garment, ...]), ...]
 nb::list frames_of(const PythonScene& scene);
 
-}  // namespace fit::python
+}  // namespace garmentfit::python

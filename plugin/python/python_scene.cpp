@@ -9,7 +9,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/error.h"
 
-namespace fit::python {
+namespace garmentfit::python {
 namespace {
 
 std::string text_of(const nb::handle& value)
@@ -45,7 +45,7 @@ template <class Value>
 nb::object object_of(const Value& value, const About& about)
 {
     if constexpr (std::is_enum_v<Value>)
-        return nb::str(fit::text_of(value, about).c_str());
+        return nb::str(garmentfit::text_of(value, about).c_str());
     else
         return nb::cast(value);
 }
@@ -186,4 +186,4 @@ nb::list parameters_of(const std::string& name)
     return list;
 }
 
-}  // namespace fit::python
+}  // namespace garmentfit::python

@@ -13,7 +13,7 @@
 #include "garmentfit/units.h"
 #include "numpy_arrays.h"
 
-namespace fit::python {
+namespace garmentfit::python {
 
 struct PythonScene {
     Scene scene;
@@ -50,4 +50,4 @@ PythonScene run(const PythonScene& given, const std::string& name, const nb::dic
 /// [(name, default, type, range, help), ...] of a filter.
 nb::list parameters_of(const std::string& filter);
 
-}  // namespace fit::python
+}  // namespace garmentfit::python

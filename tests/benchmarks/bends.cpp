@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 struct Range {
     const char* joint;
@@ -45,7 +45,7 @@ Pose bent(const Rig& rig, const Range& range, double degrees)
 
 void write_bends(const std::string& folder)
 {
-    const MeshFile file = MeshFile::read(FIT_BODIES "/woman_t_pose.ply");
+    const MeshFile file = MeshFile::read(GARMENTFIT_BODIES "/woman_t_pose.ply");
     const Rig rig = rig_body(make_body(file.positions(), file.triangles()));
     for (const Range& range : k_ranges)
         for (const double degrees : range.degrees) {

@@ -16,7 +16,7 @@
 #include "cgal_mesh.h"
 #include "garmentfit/mesh.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Cuts triangles at the middles of their longest edges until there are so many vertices; no edge twice in a round.
 class Refinement {
@@ -110,4 +110,4 @@ inline TriangleMesh resampled(const TriangleMesh& mesh, std::size_t vertices)
     return vertices < std::size_t(mesh.positions.rows()) ? coarsened(mesh, vertices) : refined(mesh, vertices);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

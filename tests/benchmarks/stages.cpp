@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 TriangleMesh read(const char* path)
 {
@@ -34,7 +34,7 @@ TriangleMesh at_level(const char* path, int level)
 
 BodyMesh body(int level = 0)
 {
-    const TriangleMesh mesh = at_level(FIT_SAMPLES "/walking_woman.ply", level);
+    const TriangleMesh mesh = at_level(GARMENTFIT_SAMPLES "/walking_woman.ply", level);
     return make_body(mesh.positions, mesh.triangles);
 }
 
@@ -60,7 +60,7 @@ void count_seconds(benchmark::State& state, const ClothSeconds& seconds)
 /// Closing and rigging, and the growth of the time with the vertices.
 void rig(benchmark::State& state)
 {
-    const TriangleMesh man = refined(read(FIT_BODIES "/man_a_pose.ply"), std::size_t(state.range(0)));
+    const TriangleMesh man = refined(read(GARMENTFIT_BODIES "/man_a_pose.ply"), std::size_t(state.range(0)));
     for (auto _ : state)
         benchmark::DoNotOptimize(rig_body(make_body(man.positions, man.triangles)));
     count_vertices(state, man.positions);
@@ -87,8 +87,8 @@ void fit_to(benchmark::State& state, const char* path, GarmentType type)
     count_vertices(state, garment.positions);
 }
 
-void fit_skirt(benchmark::State& state) { fit_to(state, FIT_SAMPLES "/skirt.ply", GarmentType::skirt); }
-void fit_coat(benchmark::State& state) { fit_to(state, FIT_SAMPLES "/coat.ply", GarmentType::coat); }
+void fit_skirt(benchmark::State& state) { fit_to(state, GARMENTFIT_SAMPLES "/skirt.ply", GarmentType::skirt); }
+void fit_coat(benchmark::State& state) { fit_to(state, GARMENTFIT_SAMPLES "/coat.ply", GarmentType::coat); }
 BENCHMARK(fit_skirt)->DenseRange(0, 3)->Unit(benchmark::kSecond);
 BENCHMARK(fit_coat)->DenseRange(0, 2)->Unit(benchmark::kSecond);
 
@@ -101,7 +101,7 @@ struct Fitted {
 
     explicit Fitted(benchmark::State& state)
     {
-        const TriangleMesh mesh = resampled(read(FIT_SAMPLES "/coat.ply"), std::size_t(state.range(0)));
+        const TriangleMesh mesh = resampled(read(GARMENTFIT_SAMPLES "/coat.ply"), std::size_t(state.range(0)));
         garment = make_garment(mesh.positions, mesh.triangles);
         pose = fit_skeleton(rigged, garment, as(GarmentType::coat)).pose;
         count_vertices(state, garment.positions);

@@ -32,7 +32,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 constexpr int k_timed_queries = 20000, k_timed_surfaces = 8;
 
@@ -58,7 +58,7 @@ const Row k_rows[] = {
 
 TriangleMesh read(const std::string& name)
 {
-    const MeshFile file = MeshFile::read(std::string(FIT_TABLE1) + "/" + name + ".ply");
+    const MeshFile file = MeshFile::read(std::string(GARMENTFIT_TABLE1) + "/" + name + ".ply");
     return { file.positions(), file.triangles() };
 }
 

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-const std::string k_body = FIT_SAMPLES "/walking_woman.ply", k_skirt = FIT_SAMPLES "/skirt.ply";
+const std::string k_body = GARMENTFIT_SAMPLES "/walking_woman.ply", k_skirt = GARMENTFIT_SAMPLES "/skirt.ply";
 
 std::string read_text(const fs::path& path)
 {
@@ -57,7 +57,7 @@ protected:
 
     pid_t start(const Arguments& arguments) const
     {
-        std::vector<char*> argv { const_cast<char*>(FIT_PROGRAM) };
+        std::vector<char*> argv { const_cast<char*>(GARMENTFIT_PROGRAM) };
         for (const std::string& argument : arguments)
             argv.push_back(const_cast<char*>(argument.c_str()));
         argv.push_back(nullptr);
@@ -67,7 +67,7 @@ protected:
         posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, (folder / "stdout").c_str(), flags, 0644);
         posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, (folder / "stderr").c_str(), flags, 0644);
         pid_t pid = -1;
-        EXPECT_EQ(posix_spawn(&pid, FIT_PROGRAM, &streams, nullptr, argv.data(), environ), 0);
+        EXPECT_EQ(posix_spawn(&pid, GARMENTFIT_PROGRAM, &streams, nullptr, argv.data(), environ), 0);
         posix_spawn_file_actions_destroy(&streams);
         return pid;
     }
@@ -160,7 +160,7 @@ TEST_F(CommandLine, RefusesAnIndexOutOfRange)
 
 TEST_F(CommandLine, RefusesACubeAsBody) { expect_refused({ "dress", write("cube.obj", cube_obj()), k_skirt }, {}); }
 
-TEST_F(CommandLine, RefusesAGarmentAsBody) { expect_refused({ "dress", FIT_SAMPLES "/coat.ply", k_skirt }, {}); }
+TEST_F(CommandLine, RefusesAGarmentAsBody) { expect_refused({ "dress", GARMENTFIT_SAMPLES "/coat.ply", k_skirt }, {}); }
 
 TEST_F(CommandLine, RefusesAnUnknownType)
 {
@@ -193,8 +193,8 @@ TEST_F(CommandLine, RefusesAFileAsResultFolder)
 
 TEST_F(CommandLine, RefusesToContinueWhatItDidNotWrite)
 {
-    expect_refused({ "drape", FIT_SAMPLES }, { "rig.json" });
-    expect_refused({ "recover", FIT_SAMPLES }, { "drape" });
+    expect_refused({ "drape", GARMENTFIT_SAMPLES }, { "rig.json" });
+    expect_refused({ "recover", GARMENTFIT_SAMPLES }, { "drape" });
     fs::create_directory(folder / "mangled");
     std::ofstream(folder / "mangled" / "rig.json") << "{\"format\": \"garmentfit-rig\", ";
     const Ended ended = run({ "drape", folder / "mangled", "-o", folder / "result" });
@@ -250,8 +250,8 @@ TEST_F(CommandLine, RigsABodyIntoAFolderThatExistsAlready)
     EXPECT_EQ(nlohmann::json::parse(ended.out).at("command"), "rig");
     EXPECT_EQ(nlohmann::json::parse(read_text(folder / "result" / "rig.json")).at("bones").size(), 17u);
     EXPECT_EQ(read_text(folder / "result" / "notes.txt"), "mine");
-    EXPECT_EQ(fit::MeshFile::read(folder / "result" / "rigged.ply").positions(),
-              fit::MeshFile::read(k_body).positions());
+    EXPECT_EQ(garmentfit::MeshFile::read(folder / "result" / "rigged.ply").positions(),
+              garmentfit::MeshFile::read(k_body).positions());
 }
 
 TEST_F(CommandLine, WritesTheSameBytesWithAnyNumberOfThreads)
@@ -277,7 +277,7 @@ std::map<std::string, Eigen::Vector3d> joints_in(const fs::path& rig_json)
 
 TEST_F(CommandLine, WritesTheSkeletonInTheUnitsAndAxesOfTheBody)
 {
-    const auto body = fit::MeshFile::read(k_body);
+    const auto body = garmentfit::MeshFile::read(k_body);
     std::ofstream obj(folder / "millimetres_z_up.obj");
     for (const auto& p : body.positions().rowwise())
         obj << "v " << 1000 * p.x() << ' ' << -1000 * p.z() << ' ' << 1000 * p.y() << '\n';
@@ -362,7 +362,7 @@ TEST_F(CommandLine, SaysWhyWhatIsNoGarmentCannotBeWorn)
 
 TEST_F(CommandLine, FitsSkirtAndCoatInOnePose)
 {
-    const Ended ended = run({ "fit", k_body, k_skirt, FIT_SAMPLES "/coat.ply", "--json", "-o", folder / "fitted" });
+    const Ended ended = run({ "fit", k_body, k_skirt, GARMENTFIT_SAMPLES "/coat.ply", "--json", "-o", folder / "fitted" });
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_TRUE(report.at("one_pose").get<bool>());
@@ -380,7 +380,7 @@ class Slow : public CommandLine { };
 TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
 {
     const fs::path fitted = folder / "fitted", draped = folder / "draped";
-    ASSERT_EQ(run({ "fit", k_body, FIT_SAMPLES "/coat.ply", k_skirt, "--layer-order", "found", "-o", fitted }).code, 0);
+    ASSERT_EQ(run({ "fit", k_body, GARMENTFIT_SAMPLES "/coat.ply", k_skirt, "--layer-order", "found", "-o", fitted }).code, 0);
     const auto rig = nlohmann::json::parse(read_text(fitted / "rig.json"));
     EXPECT_EQ(rig.at("garments").at(0).at("layer"), 1);
     EXPECT_EQ(rig.at("garments").at(1).at("layer"), 0);
@@ -533,9 +533,9 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     EXPECT_EQ(crossings.at("self"), 0);
     EXPECT_GT(report.at("garments").at(0).at("smallest_gap").get<double>(), 0);
 
-    const auto body = fit::MeshFile::read(k_body), came_back = fit::MeshFile::read(dressed / "body.ply");
+    const auto body = garmentfit::MeshFile::read(k_body), came_back = garmentfit::MeshFile::read(dressed / "body.ply");
     EXPECT_EQ(came_back.positions(), body.positions()) << "the body moved";
-    const auto given = fit::MeshFile::read(k_skirt), worn = fit::MeshFile::read(dressed / "skirt.ply");
+    const auto given = garmentfit::MeshFile::read(k_skirt), worn = garmentfit::MeshFile::read(dressed / "skirt.ply");
     EXPECT_EQ(worn.triangles(), given.triangles());
     EXPECT_TRUE(fs::exists(dressed / "fitted" / "skirt.ply"));
 
@@ -549,16 +549,16 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     EXPECT_EQ(cloth.at("density"), 0.5);
     EXPECT_EQ(cloth.at("stretch_stiffness"), 800);
     ASSERT_EQ(run({ "recover", draped, "-o", own }).code, 0);
-    EXPECT_EQ(fit::MeshFile::read(own / "body.ply").positions(), body.positions());
-    const fit::Positions stepwise = fit::MeshFile::read(own / "skirt.ply").positions();
+    EXPECT_EQ(garmentfit::MeshFile::read(own / "body.ply").positions(), body.positions());
+    const garmentfit::Positions stepwise = garmentfit::MeshFile::read(own / "skirt.ply").positions();
     const double apart = (stepwise - worn.positions()).rowwise().norm().maxCoeff();
     EXPECT_LT(apart, 0.02) << "metres; files between the steps round, and contact is sensitive to it";
 }
 
 TEST_F(Slow, SaysWhereAGarmentIsTooSmallAndMarksTheStateItLeaves)
 {
-    const auto skirt = fit::MeshFile::read(k_skirt);
-    fit::Positions slimmer = skirt.positions();
+    const auto skirt = garmentfit::MeshFile::read(k_skirt);
+    garmentfit::Positions slimmer = skirt.positions();
     slimmer.col(0) *= 0.8;
     slimmer.col(2) *= 0.8;
     skirt.write(folder / "tight.ply", slimmer);

@@ -7,8 +7,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c)
 {

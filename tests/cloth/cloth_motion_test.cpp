@@ -11,8 +11,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 /// What a hundred bodies and garments differ in.
 class Whim {

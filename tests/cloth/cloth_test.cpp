@@ -5,7 +5,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 TEST(Cloth, OfEveryFabricHasFiguresOfItsOwn)
 {

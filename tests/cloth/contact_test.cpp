@@ -17,8 +17,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 // A tube round +y with open ends.
 GarmentMesh tube(double radius, int rings = 12, int around = 24)

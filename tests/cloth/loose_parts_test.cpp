@@ -8,7 +8,7 @@
 #include "cloth_motion.h"
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// A sheet of 38 cm with a square of 2 cm over its middle, so high.
@@ -63,4 +63,4 @@ TEST(LooseParts, StayOnClothThatFalls)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

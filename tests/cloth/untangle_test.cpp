@@ -8,8 +8,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 /// 20 by 20 cm, vertices 1 cm apart.
 TriangleMesh sheet(const std::function<double(double, double)>& height) { return fixtures::sheet(21, 0.01, height); }

@@ -8,7 +8,7 @@ file(REMOVE_RECURSE ${WORK_DIR})
 set(step COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix OUTPUT_QUIET ${step})
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G ${GENERATOR}
-                        -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DFIT_SANITIZE=${SANITIZE} ${step})
+                        -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DGARMENTFIT_SANITIZE=${SANITIZE} ${step})
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build ${step})
 execute_process(COMMAND ${WORK_DIR}/build/consumer ${ARGUMENTS} ${step})
 if(EXISTS ${WORK_DIR}/prefix/bin/garmentfit)  # the installed program finds its library

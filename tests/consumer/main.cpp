@@ -6,6 +6,6 @@
 
 int main()
 {
-    const fit::Skeleton at_rest = fit::posed(fit::Skeleton(), fit::Pose());
-    return fit::bone_of("lfemur") == fit::lfemur && at_rest.root.isZero() ? 0 : 1;
+    const garmentfit::Skeleton at_rest = garmentfit::posed(garmentfit::Skeleton(), garmentfit::Pose());
+    return garmentfit::bone_of("lfemur") == garmentfit::lfemur && at_rest.root.isZero() ? 0 : 1;
 }

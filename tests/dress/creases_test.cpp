@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_top = 0.5, k_bottom = 0.4;  // m, of a slit 6 mm wide along z
@@ -81,4 +81,4 @@ TEST(Creases, OfSmoothSkinAreNone)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

@@ -12,8 +12,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 constexpr double k_degree = M_PI / 180;
 
@@ -288,8 +288,8 @@ class RealGarment : public testing::TestWithParam<Wearing> { };
 
 TEST_P(RealGarment, IsPutOnAndStaysOn)
 {
-    const MeshFile body_file = MeshFile::read(FIT_BODIES "/" + std::string(GetParam().body) + ".ply"),
-                   cloth = MeshFile::read(FIT_SAMPLES "/" + std::string(GetParam().garment) + ".ply");
+    const MeshFile body_file = MeshFile::read(GARMENTFIT_BODIES "/" + std::string(GetParam().body) + ".ply"),
+                   cloth = MeshFile::read(GARMENTFIT_SAMPLES "/" + std::string(GetParam().garment) + ".ply");
     const BodyMesh body = make_body(body_file.positions(), body_file.triangles());
     const Rig rig = rig_body(body);
     const GarmentMesh garment = make_garment(cloth.positions(), cloth.triangles());

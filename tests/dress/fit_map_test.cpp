@@ -8,8 +8,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 /// An open tube about the y axis, 40 cm long.
 TriangleMesh tube(double radius)

@@ -6,7 +6,7 @@
 #include "fixtures.h"
 #include "skin_weights.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_radius = 0.1, k_spacing = 0.01;  // m
@@ -32,7 +32,7 @@ struct ChestAndArm {
     }
     std::vector<Overlap> overlaps(char near_cloth) const
     {
-        return fit::overlaps(body, weights, std::vector<char>(body.positions.rows(), near_cloth));
+        return garmentfit::overlaps(body, weights, std::vector<char>(body.positions.rows(), near_cloth));
     }
 };
 
@@ -57,4 +57,4 @@ TEST(Overlaps, OfAPartWithItselfAreItsOwnAffair)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 #include "nearest.h"
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using namespace fixtures;
@@ -130,4 +130,4 @@ TEST_F(Sleeve, SetsFreeTheHandThatItCovered)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

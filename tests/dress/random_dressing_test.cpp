@@ -9,7 +9,7 @@
 #include "garmentfit/rig_body.h"
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 class Whim {
@@ -122,4 +122,4 @@ TEST_P(RandomDressing, NothingCrosses)
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomDressing, testing::Range(0u, 12u));
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

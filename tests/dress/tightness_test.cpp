@@ -7,7 +7,7 @@
 
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// Points round a bone, at this distance from it.
@@ -44,4 +44,4 @@ TEST(GrowthLeft, IsWhatTheSkinUnderAGarmentStillLacks)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

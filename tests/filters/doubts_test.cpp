@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -96,4 +96,4 @@ TEST(Doubts, SayThatCrossingsAsGivenAreStillThere)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

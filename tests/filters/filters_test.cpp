@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 struct CountNames {
     std::multiset<std::string> names;
@@ -202,7 +202,7 @@ std::string with_table(std::string page, std::string_view name, const std::strin
 
 TEST(Documentation, ParameterTablesAreCurrent)
 {
-    const std::string path = FIT_DOCS "/command-line.md";
+    const std::string path = GARMENTFIT_DOCS "/command-line.md";
     const std::string page = read_text(path);
     std::string current = page;
     const Parameters parameters;
@@ -213,10 +213,10 @@ TEST(Documentation, ParameterTablesAreCurrent)
         describe(filter, parameters, MarkdownTable(table));
         current = with_table(current, filter.name, table.str());
     }
-    if (std::getenv("FIT_WRITE_DOCS"))
+    if (std::getenv("GARMENTFIT_WRITE_DOCS"))
         std::ofstream(path) << current;
     else
-        EXPECT_EQ(page, current) << "run this test with FIT_WRITE_DOCS=1 to write the tables anew";
+        EXPECT_EQ(page, current) << "run this test with GARMENTFIT_WRITE_DOCS=1 to write the tables anew";
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 const TriangleMesh& person()
 {

@@ -5,7 +5,7 @@
 
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using namespace fixtures;
@@ -96,4 +96,4 @@ TEST_F(Moments, GoOnFromABodyThatClothHeldBack)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 WornGarment clean_garment() { return { {}, {}, {} }; }
@@ -103,4 +103,4 @@ TEST(DressingOutcome, IsOfPositionsAsTheyAreKept)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

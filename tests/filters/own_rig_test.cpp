@@ -3,7 +3,7 @@
 
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using namespace fixtures;
@@ -55,4 +55,4 @@ TEST_F(OwnRig, IsNotOneWhoseDirectionsOrWeightsWereSpoilt)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

@@ -4,7 +4,7 @@
 #include "garmentfit/error.h"
 #include "temporary_folder.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using RigFiles = fixtures::TemporaryFolder;
@@ -64,4 +64,4 @@ TEST_F(RigFiles, WithoutWeightsNeedThemBesideThem)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 #include "garmentfit/filters/own_rig.h"
 #include "fixtures.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 using namespace fixtures;
@@ -90,4 +90,4 @@ TEST_F(SceneArrays, SayWhyNoOnePoseServesTheGarments)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit

@@ -24,8 +24,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 Positions random_points(int count, unsigned seed)
 {

@@ -18,8 +18,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 constexpr double k_degree = std::numbers::pi / 180;
 
@@ -396,7 +396,7 @@ TEST(FitSkeleton, ClosedClothWithThicknessIsWornLikeItsOuterSheet)
 TEST(FitSkeleton, AThickTShirtIsWornLikeItsOuterSheet)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });
-    const MeshFile file = MeshFile::read(FIT_DOCS "/samples/tshirt.ply");
+    const MeshFile file = MeshFile::read(GARMENTFIT_DOCS "/samples/tshirt.ply");
     const GarmentMesh thin = make_garment(1.15 * file.positions(), file.triangles()),
                       thick = with_thickness(thin, 0.003);
     const FitResult expected = fit_skeleton(rig, thin), result = fit_skeleton(rig, thick);

@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 TriangleMesh ball(const Vec3& centre, double radius, double spacing)
 {

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 TEST(ReconstructSurface, LaysASurfaceThroughTheScanOfAPerson)
 {

@@ -20,7 +20,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 using SkinnedGlb = fixtures::TemporaryFolder;
 

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 constexpr int k_variants = 1000;  // of each file; all of them take some seconds
 

@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 class Io : public fixtures::TemporaryFolder {
 protected:

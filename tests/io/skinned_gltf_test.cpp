@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 using fixtures::capsule_person;
 using fixtures::TemporaryFolder;
 

@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 constexpr const char* k_axis_names[] = { "+y", "+z", "-y", "-z", "+x", "-x" };
 

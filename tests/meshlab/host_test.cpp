@@ -25,18 +25,18 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 namespace fs = std::filesystem;
 
-const fs::path k_body = FIT_SAMPLES "/walking_woman.ply", k_skirt = FIT_SAMPLES "/skirt.ply",
-               k_small_body = FIT_BODIES "/man_a_pose.ply";
+const fs::path k_body = GARMENTFIT_SAMPLES "/walking_woman.ply", k_skirt = GARMENTFIT_SAMPLES "/skirt.ply",
+               k_small_body = GARMENTFIT_BODIES "/man_a_pose.ply";
 
 PluginManager& plugins()
 {
     static PluginManager manager;
     static const bool loaded = [] {
         RichParameterList settings;
-        manager.loadPlugins(settings, QDir(FIT_PLUGIN_FOLDER));
+        manager.loadPlugins(settings, QDir(GARMENTFIT_PLUGIN_FOLDER));
         return true;
     }();
     (void)loaded;
@@ -336,7 +336,7 @@ TEST_F(MeshLab, RefusesTheBodyAsItsOwnGarment)
 TEST_F(MeshLab, RefusesAGarmentTwice)
 {
     open_samples();
-    meshlab::open_layer(document, FIT_SAMPLES "/coat.ply");
+    meshlab::open_layer(document, GARMENTFIT_SAMPLES "/coat.ply");
     RichParameterList list = dialog_of("Dress Body", document);
     choose(list, "second_garment", document, 2);
     choose(list, "third_garment", document, 2);
@@ -497,7 +497,7 @@ class SlowMeshLab : public MeshLab { };
 void dress_by_program(const fs::path& body, const fs::path& garment, const fs::path& out)
 {
     const std::string call
-        = std::string(FIT_PROGRAM) + " dress " + body.string() + " " + garment.string() + " --quiet -o " + out.string();
+        = std::string(GARMENTFIT_PROGRAM) + " dress " + body.string() + " " + garment.string() + " --quiet -o " + out.string();
     ASSERT_EQ(std::system(call.c_str()), 0);
 }
 

@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 using fixtures::capsule_person;
 using fixtures::expect_invalid;
 using fixtures::Person;

@@ -19,7 +19,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 struct KnownBody {
     const char* name;
@@ -47,14 +47,14 @@ constexpr JointPlace k_joints[]
 
 BodyMesh body_of(const std::string& name)
 {
-    const MeshFile file = MeshFile::read(FIT_BODIES "/" + name + ".ply");
+    const MeshFile file = MeshFile::read(GARMENTFIT_BODIES "/" + name + ".ply");
     return make_body(file.positions(), file.triangles());
 }
 
 /// Distance of each joint from the true one, as a share of stature.
 std::vector<double> errors(const std::string& name, const Skeleton& skeleton)
 {
-    std::ifstream file(FIT_BODIES "/" + name + ".json");
+    std::ifstream file(GARMENTFIT_BODIES "/" + name + ".json");
     const nlohmann::json truth = nlohmann::json::parse(file);
     std::vector<double> result;
     for (const JointPlace& joint : k_joints) {

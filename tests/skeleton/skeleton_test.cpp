@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 constexpr double k_tiny = 1e-12;
 

@@ -7,8 +7,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 constexpr int k_side = 21;  // vertices
 

@@ -3,7 +3,7 @@
 
 #include "nearest.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_outside = -100;  // s of equation (3)
@@ -54,4 +54,4 @@ double PaperMetric::total(const Skeleton& joints) const
     return sum;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

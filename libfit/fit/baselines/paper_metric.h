@@ -10,7 +10,7 @@
 #include "error_metric.h"
 #include "garmentfit/fit_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Equation (3): the distance to the nearest vertex, and a hundred times that on the wrong side of it.
 double paper_delta(const Vec3& sample, const Vec3& nearest, const Vec3& normal);
@@ -35,4 +35,4 @@ private:
     std::function<int(const Vec3&)> nearest_vertex_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -12,7 +12,7 @@
 #include "search_grids.h"
 #include "segment.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 constexpr double k_rotation_extent = 0.2, k_rotation_spacing = 0.02;  // rad
@@ -219,4 +219,4 @@ Relaxed relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bon
     return present;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

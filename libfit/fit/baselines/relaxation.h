@@ -9,7 +9,7 @@
 #include "error_metric.h"
 #include "garmentfit/fit_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Every iteration halves extents and spacings.
 struct Relaxation {
@@ -35,4 +35,4 @@ struct Relaxed {
 Relaxed relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bone>& covered,
                 const Relaxation& relaxation, const Progress& progress);
 
-}  // namespace fit
+}  // namespace garmentfit

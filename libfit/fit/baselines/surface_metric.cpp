@@ -3,7 +3,7 @@
 
 #include "nearest.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 // m; what opposed normals weigh against distance. The paper gives no number: two layers of cloth on a thin limb are this far apart.
@@ -53,4 +53,4 @@ double SurfaceMetric::total(const PlacedBones& bones) const
         : agreement(garment_.positions, garment_normals_, body, normals, NearestPoint(body));
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,7 +7,7 @@
 #include "error_metric.h"
 #include "garmentfit/fit_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 class SurfaceMetric : public ErrorMetric {
 public:
@@ -25,4 +25,4 @@ private:
     NearestSearch search_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -6,7 +6,7 @@
 #include "run_entry.h"
 #include "scrolling_dialogs.h"
 
-using namespace fit::meshlab;
+using namespace garmentfit::meshlab;
 
 FilterGarmentFit::FilterGarmentFit()
 {

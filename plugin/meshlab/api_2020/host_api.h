@@ -7,7 +7,7 @@
 
 #include <common/interfaces.h>
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 using HostFilters = MeshFilterInterface;  ///< whose categories are HostFilters::Layer, ...
 using ShownDocument = MeshDocument;  ///< as a dialog is made for it
@@ -42,4 +42,4 @@ inline void update_box_and_normals(MeshModel& layer) { layer.UpdateBoxAndNormals
 /// Textures are files that a mesh names: they go along with it.
 inline void copy_textures(const MeshModel&, MeshModel&) { }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -5,7 +5,7 @@
 #include "menu.h"
 #include "run_entry.h"
 
-using namespace fit::meshlab;
+using namespace garmentfit::meshlab;
 
 FilterGarmentFit::FilterGarmentFit()
 {

@@ -7,7 +7,7 @@
 
 #include <common/plugins/interfaces/filter_plugin.h>
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 using HostFilters = FilterPlugin;  ///< whose categories are HostFilters::Layer, ...
 using ShownDocument = const MeshDocument;  ///< as a dialog is made for it
@@ -52,4 +52,4 @@ inline void copy_textures(const MeshModel& from, MeshModel& to)
         to.addTexture(name, image);
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -3,7 +3,7 @@
 
 #include "garmentfit/io.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 MeshModel& add_mesh(MeshDocument& document, const std::filesystem::path& path, const TriangleMesh& mesh)
 {
@@ -25,4 +25,4 @@ MeshModel& open_layer(MeshDocument& document, const std::filesystem::path& path)
     return add_mesh(document, path, { file.positions(), file.triangles() });
 }
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

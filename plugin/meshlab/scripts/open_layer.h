@@ -8,7 +8,7 @@
 #include "garmentfit/types.h"
 #include "host_api.h"
 
-namespace fit::meshlab {
+namespace garmentfit::meshlab {
 
 /// A new layer, tied to a file that need not exist.
 MeshModel& add_mesh(MeshDocument& document, const std::filesystem::path& path, const TriangleMesh& mesh);
@@ -16,4 +16,4 @@ MeshModel& add_mesh(MeshDocument& document, const std::filesystem::path& path, c
 /// A layer as MeshLab itself opens the file. @throws InvalidInput.
 MeshModel& open_layer(MeshDocument& document, const std::filesystem::path& path);
 
-}  // namespace fit::meshlab
+}  // namespace garmentfit::meshlab

@@ -22,7 +22,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace fit;
+using namespace garmentfit;
 
 struct Script {
     std::string name;

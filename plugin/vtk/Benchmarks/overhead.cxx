@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace fit;
+using namespace garmentfit;
 
 constexpr std::size_t k_vertices = 15000;
 
@@ -27,13 +27,13 @@ TriangleMesh read(const char* path)
 
 const TriangleMesh& woman()
 {
-    static const TriangleMesh mesh = read(FIT_SAMPLES "/walking_woman.ply");
+    static const TriangleMesh mesh = read(GARMENTFIT_SAMPLES "/walking_woman.ply");
     return mesh;
 }
 
 const TriangleMesh& coat()
 {
-    static const TriangleMesh mesh = resampled(read(FIT_SAMPLES "/coat.ply"), k_vertices);
+    static const TriangleMesh mesh = resampled(read(GARMENTFIT_SAMPLES "/coat.ply"), k_vertices);
     return mesh;
 }
 

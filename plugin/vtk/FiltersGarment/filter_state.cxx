@@ -7,7 +7,7 @@
 #include "vtkDataObject.h"
 #include "vtkPolyData.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// Parameters as plain numbers, to see whether they changed.
@@ -168,4 +168,4 @@ std::vector<std::string> FilterState::warnings() const
     return lines;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -19,7 +19,7 @@
 class vtkDataObject;
 class vtkPolyData;
 
-namespace fit {
+namespace garmentfit {
 
 class FilterState {
 public:
@@ -68,6 +68,6 @@ private:
     std::map<Stage, std::vector<double>> made_with_;  ///< the numbers of each stage's parameters
 };
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

@@ -11,7 +11,7 @@
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/units.h"
 
-namespace fit {
+namespace garmentfit {
 
 constexpr const char* k_own_position
     = "OwnPosition";  ///< the array with the body's points as given, where they were moved
@@ -24,6 +24,6 @@ struct KnownScene {
     std::vector<std::string> garment_names;  ///< of their blocks
 };
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

@@ -11,7 +11,7 @@
 #include "vtkStringArray.h"
 #include "vtkUnsignedShortArray.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 template <class Array, class Matrix>
@@ -91,4 +91,4 @@ FindArray find_in(vtkPolyData& data)
     };
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -14,7 +14,7 @@ class vtkDataArray;
 class vtkDoubleArray;
 class vtkPolyData;
 
-namespace fit {
+namespace garmentfit {
 
 Rows rows_of(vtkDataArray& array);
 vtkNew<vtkDoubleArray> array_of(const char* name, const Eigen::Ref<const Rows>& rows);
@@ -25,6 +25,6 @@ void put(vtkPolyData& data, const MeshArrays& arrays);
 /// Among the arrays of points and of the field.
 FindArray find_in(vtkPolyData& data);
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

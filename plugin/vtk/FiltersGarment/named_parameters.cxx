@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 /// Calls `use(value, about)` for the one parameter of that name.
@@ -113,4 +113,4 @@ std::string help_on(const Filter& filter, const char* name)
     return help;
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -11,7 +11,7 @@
 
 #include "garmentfit/filters/filters.h"
 
-namespace fit {
+namespace garmentfit {
 
 std::vector<std::string> parameter_names(const Filter& filter);
 bool has_parameter(const Filter& filter, const char* name);
@@ -30,6 +30,6 @@ bool set_text(const Filter& filter, Parameters& parameters, const char* name, co
 /// What it does, range and unit, in one line.
 std::string help_on(const Filter& filter, const char* name);
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

@@ -16,7 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 std::string cells_of(vtkPolyData& data)
@@ -146,4 +146,4 @@ void draw_skeleton(vtkPolyData& skeleton, const Skeleton& joints, const Frame& f
     put(skeleton, arrays_of_skeleton());
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -15,7 +15,7 @@
 class vtkDataObject;
 class vtkPolyData;
 
-namespace fit {
+namespace garmentfit {
 
 /// Points as numbers, in the file's units and axes, and polygons as fans of triangles.
 /// @throws InvalidInput where there are no polygons, naming `what` it is.
@@ -38,6 +38,6 @@ void restore_points(vtkPolyData& data, const char* name);
 /// Lines from joint to joint, with their names.
 void draw_skeleton(vtkPolyData& skeleton, const Skeleton& joints, const Frame& frame);
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

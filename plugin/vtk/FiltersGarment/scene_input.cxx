@@ -12,7 +12,7 @@
 #include "vtkDataObject.h"
 #include "vtkPolyData.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 FrameChoice frame_choice(const Hints& hints, const std::string& prefix)
@@ -131,4 +131,4 @@ void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments)
     known.scene.draped = dressing_from(known.scene, dressed_pose_from(find_in(body)), left, worn, known.garment_names);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

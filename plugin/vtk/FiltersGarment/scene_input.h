@@ -15,7 +15,7 @@
 class vtkDataObject;
 class vtkPolyData;
 
-namespace fit {
+namespace garmentfit {
 
 /// What the user says of meshes that are hard to read.
 struct Hints {
@@ -37,6 +37,6 @@ void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garme
 /// Body and garments as they were left in the pose that the garments are worn in.
 void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments);
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

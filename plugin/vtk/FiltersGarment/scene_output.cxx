@@ -9,7 +9,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 void write_worn(vtkPolyData& garment, std::size_t i, const Dressing& dressing, const KnownScene& known,
@@ -62,4 +62,4 @@ void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Moment
     draw_skeleton(skeleton, posed(known.scene.rig->skeleton, now.pose), known.body_frame);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -12,13 +12,13 @@
 
 class vtkPolyData;
 
-namespace fit {
+namespace garmentfit {
 
 void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known, const Moment& now);
 void write_garments(const std::vector<vtkPolyData*>& garments, const Filter& filter, const KnownScene& known,
                     const Moment& now);
 void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Moment& now);
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

@@ -22,7 +22,7 @@
 
 namespace {
 
-using fit::Data;
+using garmentfit::Data;
 
 /// A copy of a composite's structure with shallow copies of its leaves, which are returned in order.
 std::vector<vtkPolyData*> copy_leaves(vtkDataObject& from, vtkDataObject& to)
@@ -78,7 +78,7 @@ double time_asked(vtkInformation* request, vtkInformationVector* outputs)
 
 }  // namespace
 
-vtkFitFilter::vtkFitFilter(const char* name) : State(std::make_unique<fit::FilterState>(fit::filter_of(name)))
+vtkFitFilter::vtkFitFilter(const char* name) : State(std::make_unique<garmentfit::FilterState>(garmentfit::filter_of(name)))
 {
     const bool dresses = this->State->filter.reads(Data::garments);
     this->SetNumberOfInputPorts(dresses ? 2 : 1);
@@ -91,47 +91,47 @@ vtkFitFilter::~vtkFitFilter() = default;
 
 void vtkFitFilter::SetNumber(const char* name, double number)
 {
-    if (fit::set_number(this->State->filter, this->State->parameters, name, number))
+    if (garmentfit::set_number(this->State->filter, this->State->parameters, name, number))
         this->Modified();
 }
 
 double vtkFitFilter::GetNumber(const char* name)
 {
-    return fit::number_of(this->State->filter, this->State->parameters, name);
+    return garmentfit::number_of(this->State->filter, this->State->parameters, name);
 }
 
-double vtkFitFilter::GetSmallest(const char* name) { return fit::range_of_number(this->State->filter, name).first; }
+double vtkFitFilter::GetSmallest(const char* name) { return garmentfit::range_of_number(this->State->filter, name).first; }
 
-double vtkFitFilter::GetLargest(const char* name) { return fit::range_of_number(this->State->filter, name).second; }
+double vtkFitFilter::GetLargest(const char* name) { return garmentfit::range_of_number(this->State->filter, name).second; }
 
 void vtkFitFilter::SetParameter(const char* name, const char* text)
 {
-    if (!fit::has_parameter(this->State->filter, name)) {
+    if (!garmentfit::has_parameter(this->State->filter, name)) {
         vtkErrorMacro("no parameter is called \"" << (name ? name : "") << "\"; GetParameterName lists them");
         return;
     }
     try {
-        if (fit::set_text(this->State->filter, this->State->parameters, name, text))
+        if (garmentfit::set_text(this->State->filter, this->State->parameters, name, text))
             this->Modified();
-    } catch (const fit::InvalidInput& error) {
+    } catch (const garmentfit::InvalidInput& error) {
         vtkErrorMacro(<< error.what());
     }
 }
 
 std::string vtkFitFilter::GetParameter(const char* name)
 {
-    return fit::text_of(this->State->filter, this->State->parameters, name);
+    return garmentfit::text_of(this->State->filter, this->State->parameters, name);
 }
 
-int vtkFitFilter::GetNumberOfParameters() { return static_cast<int>(fit::parameter_names(this->State->filter).size()); }
+int vtkFitFilter::GetNumberOfParameters() { return static_cast<int>(garmentfit::parameter_names(this->State->filter).size()); }
 
 std::string vtkFitFilter::GetParameterName(int index)
 {
-    const std::vector<std::string> names = fit::parameter_names(this->State->filter);
+    const std::vector<std::string> names = garmentfit::parameter_names(this->State->filter);
     return index >= 0 && index < static_cast<int>(names.size()) ? names[index] : "";
 }
 
-std::string vtkFitFilter::GetParameterHelp(const char* name) { return fit::help_on(this->State->filter, name); }
+std::string vtkFitFilter::GetParameterHelp(const char* name) { return garmentfit::help_on(this->State->filter, name); }
 
 int vtkFitFilter::GetSkeletonPort() { return this->GetNumberOfOutputPorts() - 1; }
 
@@ -162,8 +162,8 @@ void vtkFitFilter::ForgetJoints()
 void vtkFitFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
     this->Superclass::PrintSelf(os, indent);
-    fit::describe(this->State->filter, this->State->parameters, [&](const auto& value, const fit::About& about) {
-        os << indent << about.label << ": " << fit::text_of(value, about) << (about.unit.empty() ? "" : " ")
+    garmentfit::describe(this->State->filter, this->State->parameters, [&](const auto& value, const garmentfit::About& about) {
+        os << indent << about.label << ": " << garmentfit::text_of(value, about) << (about.unit.empty() ? "" : " ")
            << about.unit << "\n";
     });
     for (const auto& [what, value] : this->State->hints.choices)
@@ -277,15 +277,15 @@ int vtkFitFilter::Refuse(vtkInformationVector* outputs, unsigned long code, cons
 
 void vtkFitFilter::Write(vtkPolyData* body, vtkDataObject* garments, vtkInformationVector* outputs, double time)
 {
-    const fit::Filter& filter = this->State->filter;
-    const fit::KnownScene& known = this->State->known();
-    const fit::Moment now = this->State->moment(time);
+    const garmentfit::Filter& filter = this->State->filter;
+    const garmentfit::KnownScene& known = this->State->known();
+    const garmentfit::Moment now = this->State->moment(time);
     vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
     dressed->ShallowCopy(body);
-    fit::write_body(*dressed, filter, known, now);
+    garmentfit::write_body(*dressed, filter, known, now);
     if (garments)
-        fit::write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), filter, known, now);
-    fit::write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), known, now);
+        garmentfit::write_garments(copy_leaves(*garments, *vtkDataObject::GetData(outputs, 1)), filter, known, now);
+    garmentfit::write_skeleton(*vtkPolyData::GetData(outputs, this->GetSkeletonPort()), known, now);
     for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfOutputPorts(); ++port)
         vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
 }
@@ -298,16 +298,16 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
     if (body->GetNumberOfPoints() == 0 && is_stopped_before(*this))
         return this->Refuse(outputs, vtkErrorCode::NoError, "");
     try {
-        this->State->update(*body, garments, fit::Progress([this](double fraction, std::string_view stage) {
+        this->State->update(*body, garments, garmentfit::Progress([this](double fraction, std::string_view stage) {
             return this->GoesOn(fraction, std::string(stage));
         }));
         this->Write(body, garments, outputs, time_asked(request, outputs));
         for (const std::string& warning : this->State->warnings())
             vtkWarningMacro(<< warning);
         return 1;
-    } catch (const fit::Cancelled&) {
+    } catch (const garmentfit::Cancelled&) {
         return this->Refuse(outputs, vtkErrorCode::NoError, "");
-    } catch (const fit::InvalidInput& error) {
+    } catch (const garmentfit::InvalidInput& error) {
         return this->Refuse(outputs, InvalidInput, error.what());
     } catch (const std::exception& error) {
         return this->Refuse(outputs, SolverFailure, error.what());

@@ -48,7 +48,7 @@
 #include <memory>  // for std::unique_ptr
 #include <string>  // for std::string
 
-namespace fit {
+namespace garmentfit {
 class FilterState;
 }
 
@@ -116,7 +116,7 @@ private:
     void Write(vtkPolyData* body, vtkDataObject* garments, vtkInformationVector* outputs, double time);
     int Refuse(vtkInformationVector* outputs, unsigned long code, const char* message);
 
-    std::unique_ptr<fit::FilterState> State;
+    std::unique_ptr<garmentfit::FilterState> State;
 };
 
 #endif

@@ -12,7 +12,7 @@
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/units.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Tells the host's users to set a parameter: "give --swap-sides", "set swap_sides".
 using HowToSet = std::function<std::string(std::string_view parameter)>;
@@ -32,4 +32,4 @@ std::vector<std::string> doubts_about_dressing(const Dressing& dressing, const s
 std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vector<std::string>& names,
                                             const HowToSet& set);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -16,7 +16,7 @@
 #include "garmentfit/fit_map.h"
 #include "garmentfit/layer_order.h"
 
-namespace fit {
+namespace garmentfit {
 
 enum class Stage { rig, fit, drape, recover };
 constexpr int k_stage_count = 4;
@@ -131,4 +131,4 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
     }
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 
 #include "garmentfit/units.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// What the user says about units and axes: "m", "cm", ... and "+y", "-z", ...; "auto" leaves it to a guess.
 struct FrameChoice {
@@ -26,4 +26,4 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
                          const FrameChoice& choice = {});
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "garmentfit/rig_body.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Of the joint at the bone's tail: "lhip", "lknee", ...
 std::string_view joint_name(Bone bone);
@@ -17,4 +17,4 @@ std::string_view joint_name(Extremity tip);
 /// Where a joint of that name is kept; "root" is one, too. @throws InvalidInput listing the names.
 std::optional<Vec3>& joint_of(GivenJoints& joints, std::string_view name);
 
-}  // namespace fit
+}  // namespace garmentfit

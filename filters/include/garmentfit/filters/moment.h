@@ -8,7 +8,7 @@
 
 #include "garmentfit/filters/filters.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct Moment {
     Pose pose;
@@ -28,4 +28,4 @@ Moment moment_of(const Scene& scene, double share, const ClothOptions& cloth);
 Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& left, const std::vector<Positions>& worn,
                        const std::vector<std::string>& names);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "garmentfit/filters/filters.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The values are the command line's exit codes.
 enum class Outcome { done = 0, too_small = 3, not_certified = 4 };
@@ -33,4 +33,4 @@ std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, cons
 /// Rounded down: what stopped on its way never says 100%.
 int percent(double share);
 
-}  // namespace fit
+}  // namespace garmentfit

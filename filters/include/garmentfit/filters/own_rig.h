@@ -7,7 +7,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The rig of this body, with the radii measured on it. @throws InvalidInput where it is another body's, or the body was
 ///         moved since: there are more or fewer vertices, or the skin lies elsewhere about the bones; and where it is no rig
@@ -16,4 +16,4 @@ namespace fit {
 /// @param called  what the user knows the rig by
 Rig rig_on(Rig rig, const Positions& own, const std::string& called = "the rig");
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -16,7 +16,7 @@
 
 #include "garmentfit/error.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct About {
     std::string_view name;  ///< "contact_distance": unique among all filters; a host's spelling is made from it
@@ -134,4 +134,4 @@ private:
     std::ostream& out_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -25,4 +25,4 @@ Pose pose_of(const Rows& row);
 /// @throws InvalidInput where shapes differ, or a bone or weight is out of range, naming the vertex.
 SkinWeights weights_of(const Rows& bones, const Rows& weights);
 
-}  // namespace fit
+}  // namespace garmentfit

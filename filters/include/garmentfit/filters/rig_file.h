@@ -12,7 +12,7 @@
 #include "garmentfit/skeleton.h"
 #include "garmentfit/units.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct FittedGarment {
     std::string file;
@@ -38,4 +38,4 @@ RigFile read_rig_file(const std::filesystem::path& path);
 /// With weights: its own, or those of rigged.ply beside it. @throws InvalidInput.
 RigFile read_whole_rig(const std::filesystem::path& path);
 
-}  // namespace fit
+}  // namespace garmentfit

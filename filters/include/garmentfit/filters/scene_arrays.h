@@ -17,7 +17,7 @@
 #include "garmentfit/filters/rig_arrays.h"
 #include "garmentfit/units.h"
 
-namespace fit {
+namespace garmentfit {
 
 using Counts = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using BoneIndices
@@ -73,4 +73,4 @@ Pose dressed_pose_from(const FindArray& find);
 /// Nothing where no filter has seen the garment.
 std::optional<Frame> garment_frame_from(const FindArray& find);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -14,7 +14,7 @@
 #include "garmentfit/recover_pose.h"
 #include "garmentfit/rig_body.h"
 
-namespace fit {
+namespace garmentfit {
 
 template <class Options, class Struct>
 using IfOptionsOf = std::enable_if_t<std::is_same_v<std::remove_const_t<Options>, Struct>>;
@@ -143,4 +143,4 @@ void describe(Options& o, Visitor&& visit)
     describe_frames(o, visit);
 }
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -7,24 +7,24 @@
 
 #include "garmentfit/export.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// The caller gave something wrong. One line: what is wrong, where, and what to do, with numbers.
-class FIT_API InvalidInput : public std::runtime_error {
+class GARMENTFIT_API InvalidInput : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
 /// No answer exists or none was found; slow convergence is not this but a field of the result.
-class FIT_API SolverFailure : public std::runtime_error {
+class GARMENTFIT_API SolverFailure : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
 /// The user changed their mind: a Progress was told to stop.
-class FIT_API Cancelled : public std::runtime_error {
+class GARMENTFIT_API Cancelled : public std::runtime_error {
 public:
     Cancelled() : std::runtime_error("stopped by the user") { }
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -2,4 +2,4 @@
 #pragma once
 
 // Everything in libfit is hidden but what carries this mark.
-#define FIT_API __attribute__((visibility("default")))
+#define GARMENTFIT_API __attribute__((visibility("default")))

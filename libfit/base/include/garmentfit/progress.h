@@ -9,9 +9,9 @@
 
 #include "garmentfit/export.h"
 
-namespace fit {
+namespace garmentfit {
 
-class FIT_API Progress {
+class GARMENTFIT_API Progress {
 public:
     /// Receives the fraction done in [0, 1] and the stage's name; false = please stop.
     using Report = std::function<bool(double fraction, std::string_view stage)>;
@@ -32,4 +32,4 @@ private:
     std::string stage_;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

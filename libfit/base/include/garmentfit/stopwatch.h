@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace fit {
+namespace garmentfit {
 
 /// Adds the seconds of its life to a sum.
 class Stopwatch {
@@ -19,4 +19,4 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -13,22 +13,22 @@
 #include "garmentfit/export.h"
 #include "garmentfit/mesh.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// (edge of `a` as a row of edges_of, triangle of `b`).
 using Crossing = std::pair<int, int>;
 
 /// Every edge of `a` through every triangle of `b`. Cost O((n + k) log n).
-FIT_API std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b);
+GARMENTFIT_API std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b);
 /// Every edge of `mesh` through every triangle of `mesh`, neighbours left out.
-FIT_API std::vector<Crossing> self_crossings(const TriangleMesh& mesh);
+GARMENTFIT_API std::vector<Crossing> self_crossings(const TriangleMesh& mesh);
 /// Both ways: edges of each through triangles of the other.
-FIT_API int crossing_count(const TriangleMesh& a, const TriangleMesh& b);
+GARMENTFIT_API int crossing_count(const TriangleMesh& a, const TriangleMesh& b);
 
 struct Strain {
     double median = 0, p95 = 0, max = 0;  ///< of |l / l0 - 1| over all edges
 };
-FIT_API Strain strain_of(const GarmentMesh& rest, const Positions& positions);
+GARMENTFIT_API Strain strain_of(const GarmentMesh& rest, const Positions& positions);
 
 struct Certificate {
     int body_crossings = 0;  ///< between garment and body, both ways
@@ -47,7 +47,7 @@ struct Certificate {
 };
 
 /// Judges one dressed garment. `under` are the garments below it, dressed.
-FIT_API Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Positions& positions,
+GARMENTFIT_API Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Positions& positions,
                             const std::vector<TriangleMesh>& under = {});
 
-}  // namespace fit
+}  // namespace garmentfit

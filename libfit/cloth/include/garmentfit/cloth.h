@@ -8,13 +8,13 @@
 
 #include "garmentfit/export.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Fabrics of clothing, each with figures in the middle of what is measured for its kind (docs/drape.md names the sources).
 enum class Fabric { cotton, denim, jersey, silk, wool };
 
 /// "cotton", "denim", ..., in the order of the values.
-FIT_API const std::vector<std::string_view>& fabric_names();
+GARMENTFIT_API const std::vector<std::string_view>& fabric_names();
 
 /// Units: metres, kilograms, seconds.
 struct ClothOptions {
@@ -32,7 +32,7 @@ struct ClothOptions {
 
 /// Density, stiffness and friction that are still the defaults above (cotton's) become those of `options.fabric`; what was
 /// set stays.
-FIT_API ClothOptions made_of_fabric(ClothOptions options);
+GARMENTFIT_API ClothOptions made_of_fabric(ClothOptions options);
 
 /// Cloth counts as settled when no vertex is faster than this, m/s.
 constexpr double k_at_rest = 0.02;
@@ -50,4 +50,4 @@ struct ClothSeconds {
     }
 };
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -20,7 +20,7 @@
 #include "garmentfit/progress.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct DrapeOptions {
     ClothOptions cloth;
@@ -54,7 +54,7 @@ struct WornGarment {
 };
 
 /// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n). @return whether all are clean
-FIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
+GARMENTFIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
 
 struct DrapeResult {
     std::vector<WornGarment>
@@ -77,8 +77,8 @@ struct DrapeResult {
 /// @param worn    garments that the body wears already, in that pose, from the inside out; they move with the body
 /// @param left    the body's vertices as it wears those garments: what draping them gave
 /// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does. Cancelled.
-FIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
+GARMENTFIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                                   const DrapeOptions& options = {}, const Progress& progress = {},
                                   const std::vector<WornGarment>& worn = {}, const Positions& left = Positions(0, 3));
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,7 +8,7 @@
 
 #include "garmentfit/drape_garment.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// One value for each vertex of the garment; one that is of no face has those of the nearest vertex at rest that is.
 struct FitMap {
@@ -19,7 +19,7 @@ struct FitMap {
 
 /// For a garment at rest on a body (both in metres, y up, in one pose). Cost O((n + m) log m). Pressure is the force that
 /// springs, hinges and gravity leave to the skin, so it is as smooth as the cloth is at rest.
-FIT_API FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& cloth = {});
+GARMENTFIT_API FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& cloth = {});
 
 /// An edge stretched by more than this share of its length is overstretched: threads lock before (docs/drape.md), so it is caught
 /// somewhere, or the garment has no room.
@@ -33,7 +33,7 @@ struct Overstretch {
 };
 
 /// @param body  the vertices of the weights, in the pose in which the garment is worn. Cost O(n log n + m).
-FIT_API Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn);
+GARMENTFIT_API Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn);
 
 /// Girths in one place, by a tape drawn tight round what is cut by a plane across the bone.
 struct Girth {
@@ -45,7 +45,7 @@ struct Girth {
 /// Where the garment goes round the body, from the neck down. The chest is measured where the trunk is widest above the
 /// waist, the waist where it is narrowest, the hips where it is widest below; limbs never count into the trunk.
 /// @param skeleton  in the pose of body and garment
-FIT_API std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, const TriangleMesh& body,
+GARMENTFIT_API std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, const TriangleMesh& body,
                                   const WornGarment& worn);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -8,19 +8,19 @@
 
 #include "garmentfit/fit_skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Of several garments: as they were given, from the inside out, or as found_layers has it.
 enum class LayerOrder { given, found };
 /// "given", "found".
-FIT_API const std::vector<std::string_view>& layer_order_names();
+GARMENTFIT_API const std::vector<std::string_view>& layer_order_names();
 
 /// Which garment goes over which: the layer of each, 0 for the innermost. Of two that go round the same parts of the body, the type says it
 /// (a coat goes over a jacket, that over a hoodie, that over shirts) or, where it does not, the one that is clearly wider goes over the
 /// other; where that says nothing either, they stay in the order they are in. O(n log n).
 /// @param body  the user's vertices, metres
 /// @param fits  of each garment, with its type
-FIT_API std::vector<int> found_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
+GARMENTFIT_API std::vector<int> found_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
                                       const std::vector<FitResult>& fits);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -11,7 +11,7 @@
 
 #include "garmentfit/drape_garment.h"
 
-namespace fit {
+namespace garmentfit {
 
 struct RecoverOptions {
     ClothOptions cloth;
@@ -59,8 +59,8 @@ struct RecoverResult {
 /// @param start     the body's vertices at the beginning, where cloth holds some back from pose `from` (DrapeResult::body);
 ///                  they catch up on the way, and hands that it stretched out are bent back. Empty: all of them as in that pose.
 /// @throws InvalidInput when the garments cross the body at the beginning. Cancelled.
-FIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
+GARMENTFIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
                                    const std::vector<WornGarment>& worn, const RecoverOptions& options = {},
                                    const Progress& progress = {}, const Positions& start = Positions(0, 3));
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -19,16 +19,16 @@
 #include "garmentfit/progress.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 enum class FitMethod { fast, paper, tisserand };
 /// "fast", ... in the order of FitMethod.
-FIT_API const std::vector<std::string_view>& fit_method_names();
+GARMENTFIT_API const std::vector<std::string_view>& fit_method_names();
 
 /// How paper and tisserand look for the nearest vertex; the answers are the same.
 enum class NearestSearch { kd_tree, scan };
 /// "kd_tree", "scan".
-FIT_API const std::vector<std::string_view>& nearest_search_names();
+GARMENTFIT_API const std::vector<std::string_view>& nearest_search_names();
 
 struct FitOptions {
     GarmentType type = GarmentType::automatic;
@@ -59,15 +59,15 @@ struct FitResult {
 };
 
 /// The joints with their tips drawn back to where the extremities no longer pass through the garment. O(log n).
-FIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment);
+GARMENTFIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment);
 
 /// E_B of the paper's equation (1), by which poses of all methods compare; metres, 0 for bones that are not covered.
-FIT_API std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, const GarmentMesh& garment,
+GARMENTFIT_API std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, const GarmentMesh& garment,
                                                     const std::vector<Bone>& covered);
 
 /// What nobody could wear is a file read in a wrong unit, and would take all memory there is.
 /// @throws InvalidInput when the garment is more than 10 times as long as the body is tall, or less than a hundredth of that. O(n).
-FIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& garment);
+GARMENTFIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& garment);
 
 /// @pre    By paper and tisserand: the garment hangs upright (+y up). By the fast method it may be turned in any way.
 /// @post   By the fast method: no bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
@@ -75,11 +75,11 @@ FIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& garment);
 ///         with_clear_tips says how far they reach.
 /// @throws InvalidInput when no body fits into the garment, or its size is absurd; SolverFailure when no such pose was found, naming bone and place;
 ///         Cancelled.
-FIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
+GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
                                const Progress& progress = {});
 
 /// The same for any method: tisserand reads the body's surface, whose vertices are those of the rig's weights.
-FIT_API FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment,
+GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment,
                                const FitOptions& options = {}, const Progress& progress = {});
 
 /// A bone that no one pose holds well in each of two garments.
@@ -101,7 +101,7 @@ struct CommonFit {
 /// were, with what stands in the way.
 /// @param fits  by the fast method, of each garment by itself
 /// @throws Cancelled
-FIT_API CommonFit common_fit(const Rig& rig, const std::vector<GarmentMesh>& garments,
+GARMENTFIT_API CommonFit common_fit(const Rig& rig, const std::vector<GarmentMesh>& garments,
                              const std::vector<FitResult>& fits, const Progress& progress = {});
 
-}  // namespace fit
+}  // namespace garmentfit

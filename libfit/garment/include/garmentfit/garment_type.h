@@ -10,7 +10,7 @@
 #include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 enum class GarmentType {
     automatic,
@@ -30,10 +30,10 @@ enum class GarmentType {
 };
 
 /// "auto", "tshirt", ... all of them, in the order of GarmentType.
-FIT_API const std::vector<std::string_view>& garment_type_names();
+GARMENTFIT_API const std::vector<std::string_view>& garment_type_names();
 /// @throws InvalidInput listing the known names.
-FIT_API GarmentType garment_type_of(std::string_view name);
-FIT_API std::string_view name_of(GarmentType type);
+GARMENTFIT_API GarmentType garment_type_of(std::string_view name);
+GARMENTFIT_API std::string_view name_of(GarmentType type);
 
 struct TypeGuess {
     GarmentType type = GarmentType::automatic;
@@ -42,9 +42,9 @@ struct TypeGuess {
 
 /// Reads the type off the garment's openings and tubes; `automatic` with margin 0 when it has none that a body fits through.
 /// Cost O(n log n).
-FIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
+GARMENTFIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
 
 /// The bones that a type covers.
-FIT_API std::vector<Bone> bones_covered_by(GarmentType type);
+GARMENTFIT_API std::vector<Bone> bones_covered_by(GarmentType type);
 
-}  // namespace fit
+}  // namespace garmentfit

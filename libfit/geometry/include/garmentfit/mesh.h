@@ -6,7 +6,7 @@
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A body: the user's own surface and the repaired closed surface that geometry is read from.
 struct BodyMesh {
@@ -23,15 +23,15 @@ struct GarmentMesh {
 
 /// Checks a body mesh and makes the closed surface: welds, drops islands, fills holes, orients outwards (CGAL).
 /// Cost O(n log n). @throws InvalidInput: no faces, not finite, index out of range, nothing that can be closed.
-FIT_API BodyMesh make_body(const Positions& positions, const Triangles& triangles);
+GARMENTFIT_API BodyMesh make_body(const Positions& positions, const Triangles& triangles);
 
 /// Checks a garment mesh. Cost O(n). @throws InvalidInput: no faces, not finite, index out of range, all faces degenerate.
-FIT_API GarmentMesh make_garment(const Positions& positions, const Triangles& triangles);
+GARMENTFIT_API GarmentMesh make_garment(const Positions& positions, const Triangles& triangles);
 
 /// Unit vertex normals, area weighted, n x 3; zero where a vertex has no face.
-FIT_API Positions vertex_normals(const Positions& positions, const Triangles& triangles);
+GARMENTFIT_API Positions vertex_normals(const Positions& positions, const Triangles& triangles);
 
 /// Each undirected edge once, rows (i, j) with i < j, sorted; k x 2.
-FIT_API Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const Triangles& triangles);
+GARMENTFIT_API Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const Triangles& triangles);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -12,9 +12,9 @@
 #include "garmentfit/progress.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Rows of `points`. Holes stay where no points are: make_body closes them. @throws InvalidInput: too few points. Cancelled.
-FIT_API Triangles reconstruct_surface(const Positions& points, const Progress& progress = {});
+GARMENTFIT_API Triangles reconstruct_surface(const Positions& points, const Progress& progress = {});
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace fit {
+namespace garmentfit {
 
 using Vec3 = Eigen::Vector3d;
 
@@ -21,4 +21,4 @@ struct TriangleMesh {
     Triangles triangles;
 };
 
-}  // namespace fit
+}  // namespace garmentfit

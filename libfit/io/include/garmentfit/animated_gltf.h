@@ -10,7 +10,7 @@
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A mesh that keeps its faces while its vertices move.
 struct MovingMesh {
@@ -23,7 +23,7 @@ struct MovingMesh {
 /// Writes a GLB that plays once: each frame is a morph target, frames follow each other at `seconds_per_frame` and are blended in
 /// between. All meshes have the same number of frames. Never leaves a half-written file. Size 12 bytes per vertex and frame.
 /// @throws InvalidInput when the numbers of frames differ or the place cannot be written.
-FIT_API void write_animated_glb(const std::filesystem::path& path, const std::vector<MovingMesh>& meshes,
+GARMENTFIT_API void write_animated_glb(const std::filesystem::path& path, const std::vector<MovingMesh>& meshes,
                                 double seconds_per_frame);
 
-}  // namespace fit
+}  // namespace garmentfit

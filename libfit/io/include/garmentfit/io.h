@@ -12,11 +12,11 @@
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// A mesh file that can be written again with other positions and nothing else changed: same vertices, order, polygons,
 /// UVs, groups, materials, comments, extra properties. Normals, where the file has some, are turned along.
-class FIT_API MeshFile {
+class GARMENTFIT_API MeshFile {
 public:
     /// The format is told by the content where it has a signature, else by the extension.
     /// @throws InvalidInput: missing, unreadable, unknown format, truncated, mangled, no faces, index out of range, not
@@ -48,15 +48,15 @@ struct VertexProperty {
 };
 
 /// Binary little-endian PLY with double positions. Never leaves a half-written file.
-FIT_API void write_ply(const std::filesystem::path& path, const Positions& positions, const Triangles& triangles,
+GARMENTFIT_API void write_ply(const std::filesystem::path& path, const Positions& positions, const Triangles& triangles,
                        const std::vector<VertexProperty>& properties = {},
                        const std::vector<std::string>& comments = {});
 
 /// Scalar vertex properties of a PLY file by name. @throws InvalidInput.
-FIT_API std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& path);
+GARMENTFIT_API std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& path);
 
 /// Writes beside the place, then renames: a reader sees the old file or the whole new one, never a half.
 /// @throws InvalidInput when the place cannot be written.
-FIT_API void write_file(const std::filesystem::path& path, std::string_view bytes);
+GARMENTFIT_API void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace fit
+}  // namespace garmentfit

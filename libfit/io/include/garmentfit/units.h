@@ -9,7 +9,7 @@
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 constexpr double k_degrees_per_radian = 180 / 3.14159265358979323846;
 
@@ -18,15 +18,15 @@ struct Frame {
     double metres_per_unit = 1;
     Vec3 up = Vec3::UnitY();  ///< one of the six axis directions, in the file's axes
 
-    FIT_API Positions to_metres(const Positions& in_file) const;
-    FIT_API Positions to_file(const Positions& in_metres) const;
-    FIT_API Eigen::Matrix3d rotation() const;  ///< metres-from-file; +y up: identity, +z up: (x, y, z) -> (x, z, -y)
+    GARMENTFIT_API Positions to_metres(const Positions& in_file) const;
+    GARMENTFIT_API Positions to_file(const Positions& in_metres) const;
+    GARMENTFIT_API Eigen::Matrix3d rotation() const;  ///< metres-from-file; +y up: identity, +z up: (x, y, z) -> (x, z, -y)
 };
 
 /// "m", "dm", "cm", "mm", "in", "ft". @throws InvalidInput listing them.
-FIT_API double metres_per(std::string_view unit);
+GARMENTFIT_API double metres_per(std::string_view unit);
 /// "+x", "-x", ..., also "y" for "+y". @throws InvalidInput.
-FIT_API Vec3 axis_of(std::string_view name);
+GARMENTFIT_API Vec3 axis_of(std::string_view name);
 
 struct FrameGuess {
     Frame frame;
@@ -35,8 +35,8 @@ struct FrameGuess {
 };
 
 /// Guesses units and up axis of a human body from its size and shape. @throws InvalidInput: index out of range.
-FIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles);
+GARMENTFIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles);
 /// Guesses those of a garment, given the body's: same frame unless size or shape speak against it.
-FIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body);
+GARMENTFIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body);
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -17,7 +17,7 @@
 #include "garmentfit/progress.h"
 #include "garmentfit/skeleton.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Joints that the user knows better than the program, m; all, some or none.
 struct GivenJoints {
@@ -26,7 +26,7 @@ struct GivenJoints {
     std::array<std::optional<Vec3>, extremity_count> tips;
 
     /// Root and tails are all there: nothing needs to be found.
-    FIT_API bool complete() const;
+    GARMENTFIT_API bool complete() const;
 };
 
 struct RigOptions {
@@ -37,6 +37,6 @@ struct RigOptions {
 };
 
 /// @throws InvalidInput naming the gate that failed, with numbers, where the mesh is not a human body. Cancelled.
-FIT_API Rig rig_body(const BodyMesh& body, const RigOptions& options = {}, const Progress& progress = {});
+GARMENTFIT_API Rig rig_body(const BodyMesh& body, const RigOptions& options = {}, const Progress& progress = {});
 
-}  // namespace fit
+}  // namespace garmentfit

@@ -14,7 +14,7 @@
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
-namespace fit {
+namespace garmentfit {
 
 /// Bones in the order of every table in libfit. Parents come before children.
 enum Bone : int {
@@ -39,13 +39,13 @@ enum Bone : int {
 };
 
 /// "lhipjoint", ... in the order of Bone.
-FIT_API std::string_view bone_name(int bone);
+GARMENTFIT_API std::string_view bone_name(int bone);
 /// -1 when there is no bone of that name.
-FIT_API int bone_of(std::string_view name);
+GARMENTFIT_API int bone_of(std::string_view name);
 /// The bone at whose tail this one begins; -1 for the three that hang on the root.
-FIT_API int parent_of(int bone);
+GARMENTFIT_API int parent_of(int bone);
 /// lfemur <-> rfemur ...; bones of the spine are their own mirror.
-FIT_API int mirror_of(int bone);
+GARMENTFIT_API int mirror_of(int bone);
 /// Of the humerus and radius of either side.
 constexpr bool is_arm(int bone) { return bone == lhumerus || bone == lradius || bone == rhumerus || bone == rradius; }
 /// Of the femur and tibia of either side.
@@ -55,7 +55,7 @@ constexpr bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bon
 enum Extremity : int { head_top, lhand_tip, rhand_tip, lfoot_tip, rfoot_tip, extremity_count };
 
 /// The bone at whose tail an extremity begins: upperneck, lradius, rradius, ltibia, rtibia.
-FIT_API int bone_before(Extremity extremity);
+GARMENTFIT_API int bone_before(Extremity extremity);
 
 /// Joint positions of one body, in one pose. The head of a bone is the tail of its parent (or the root).
 struct Skeleton {
@@ -63,7 +63,7 @@ struct Skeleton {
     std::array<Vec3, bone_count> tails {};
     std::array<Vec3, extremity_count> tips {};
 
-    FIT_API const Vec3& head(int bone) const;
+    GARMENTFIT_API const Vec3& head(int bone) const;
     const Vec3& tail(int bone) const { return tails[bone]; }
     Vec3 direction(int bone) const { return (tail(bone) - head(bone)).normalized(); }
     double length(int bone) const { return (tail(bone) - head(bone)).norm(); }
@@ -75,23 +75,23 @@ struct Pose {
     Eigen::Quaterniond root_rotation = Eigen::Quaterniond::Identity();  ///< about the root, of the whole body
     std::array<Eigen::Quaterniond, bone_count> rotations;  ///< of each bone about its head, in the axes of the own
         ///< pose: world rotation = parent's world rotation * this
-    FIT_API Pose();  ///< the own pose
+    GARMENTFIT_API Pose();  ///< the own pose
 };
 
 /// Whether two poses are alike, bit for bit.
-FIT_API bool is_same(const Pose& a, const Pose& b);
+GARMENTFIT_API bool is_same(const Pose& a, const Pose& b);
 
 /// Where each bone goes: world-from-own rigid transforms.
 using BoneTransforms = std::array<Eigen::Isometry3d, bone_count>;
 
 /// Parents composed in. O(1).
-FIT_API BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose);
+GARMENTFIT_API BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose);
 
 /// The joints in a pose.
-FIT_API Skeleton posed(const Skeleton& own, const Pose& pose);
+GARMENTFIT_API Skeleton posed(const Skeleton& own, const Pose& pose);
 
 /// Interpolates every joint by spherical linear interpolation, the root linearly; t in [0, 1].
-FIT_API Pose slerp(const Pose& from, const Pose& to, double t);
+GARMENTFIT_API Pose slerp(const Pose& from, const Pose& to, double t);
 
 /// At most four bones a vertex; weights are non-negative and sum to 1, unused slots carry weight 0.
 struct SkinWeights {
@@ -101,7 +101,7 @@ struct SkinWeights {
 
 /// Poses vertices by dual quaternion blending; n x 3 in, n x 3 out. O(n).
 /// Vertices come back bit for bit when every transform is exactly the identity.
-FIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights, const BoneTransforms& transforms);
+GARMENTFIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights, const BoneTransforms& transforms);
 
 /// Everything that rigging a body finds out.
 struct Rig {
@@ -116,7 +116,7 @@ struct Rig {
 
 /// How far the skin is from each bone, m: the lower quartile over the vertices that hang mostly on it, so that a flat part
 /// counts with its thin side; 0 for a bone on which nothing hangs. O(n log n).
-FIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights,
+GARMENTFIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights,
                                                   const Positions& own_positions);
 
-}  // namespace fit
+}  // namespace garmentfit

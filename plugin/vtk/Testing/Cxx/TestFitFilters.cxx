@@ -46,8 +46,8 @@
 
 namespace {
 
-using namespace fit;
-using namespace fit::fixtures;
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
 
 // ---- what goes in ----------------------------------------------------------------------------------------------
 

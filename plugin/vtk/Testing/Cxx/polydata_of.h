@@ -13,7 +13,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-namespace fit {
+namespace garmentfit {
 
 inline vtkSmartPointer<vtkPolyData> polydata_of(const TriangleMesh& mesh)
 {
@@ -30,6 +30,6 @@ inline vtkSmartPointer<vtkPolyData> polydata_of(const TriangleMesh& mesh)
     return data;
 }
 
-}  // namespace fit
+}  // namespace garmentfit
 
 #endif

@@ -7,7 +7,7 @@
 #include "fixtures.h"
 #include "garmentfit/layer_order.h"
 
-namespace fit {
+namespace garmentfit {
 namespace {
 
 const std::vector<std::string> k_names { "first", "second" };
@@ -144,4 +144,4 @@ TEST(LayerOrder, WhatDoesNotGoOverTheOthersIsLeftOutUnderItsOwnName)
 }
 
 }  // namespace
-}  // namespace fit
+}  // namespace garmentfit
