@@ -68,9 +68,9 @@ void put_in_layers(Scene& scene, LayerOrder order)
 {
     if (scene.garments.size() < 2)
         return;
-    scene.layers_found = found_layers(*scene.rig, scene.body->surface.positions, meshes_of(scene.garments), scene.fits);
+    scene.automatic_layers = order_layers(*scene.rig, scene.body->surface.positions, meshes_of(scene.garments), scene.fits);
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
-        scene.fits[i].layer = order == LayerOrder::found ? scene.layers_found[i] : int(i);
+        scene.fits[i].layer = order == LayerOrder::automatic ? scene.automatic_layers[i] : int(i);
 }
 
 void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
@@ -78,7 +78,7 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
     scene.fits.clear();
     scene.one_pose.reset();
     scene.conflicts.clear();
-    scene.layers_found.clear();
+    scene.automatic_layers.clear();
     require_wearable_sizes(scene);
     const bool together = scene.garments.size() > 1 && p.fit.method == FitMethod::fast;
     const double n = double(scene.garments.size()) + (together ? 1 : 0);
@@ -178,7 +178,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const std::vector<std::
 void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
 {
     const TriangleMesh body { dressing.body, scene.body->surface.triangles };
-    const Skeleton skeleton = posed(scene.rig->skeleton, dressing.pose);
+    const Skeleton skeleton = pose_skeleton(scene.rig->skeleton, dressing.pose);
     dressing.maps.clear();
     dressing.girths.clear();
     dressing.overstretches.clear();

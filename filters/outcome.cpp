@@ -128,7 +128,7 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
          << " crossings, ";
     if (kept > 0)
         text << kept << " with itself kept as given, ";
-    text << "smallest gap " << 1000 * c.smallest_gap << " mm, strain " << 100 * c.strain.p95
+    text << "smallest gap " << 1000 * c.min_distance << " mm, strain " << 100 * c.strain.p95
          << "% at the 95th percentile";
     return text.str();
 }

@@ -157,7 +157,7 @@ Json garment_of(const Frame& body_frame, const Skeleton& own, const FittedGarmen
         json["covered"].push_back(bone_name(bone));
     json["pose"] = pose_of(body_frame, garment.fit.pose);
     json["angles"] = angles_of(garment.fit.pose);
-    json["fitted"] = fitted_joints(body_frame, posed(own, garment.fit.pose));
+    json["fitted"] = fitted_joints(body_frame, pose_skeleton(own, garment.fit.pose));
     return json;
 }
 
@@ -329,7 +329,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
     json["bones"] = bones_of(contents.frame, contents.rig);
     json["tips"] = tips_of(contents.frame, skeleton);
     if (!contents.garments.empty())
-        json["fitted"] = fitted_joints(contents.frame, posed(skeleton, outermost(contents.garments).fit.pose));
+        json["fitted"] = fitted_joints(contents.frame, pose_skeleton(skeleton, outermost(contents.garments).fit.pose));
     for (const FittedGarment& garment : contents.garments)
         json["garments"].push_back(garment_of(contents.frame, skeleton, garment));
     if (contents.has_weights())

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/outcome.h"
-#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/given_rig.h"
 #include "garmentfit/error.h"
 
 namespace garmentfit {
@@ -65,7 +65,7 @@ std::vector<NamedArray> certificate_arrays(const Certificate& c, double metres_p
              counts("KeptSelfCrossings", { int(c.kept_self_crossings.size()) }),
              counts("LayerCrossings", { c.layer_crossings }),
              counts("VerticesInside", { c.vertices_inside }),
-             numbers("GarmentGap", { c.smallest_gap / metres_per_unit }),
+             numbers("GarmentGap", { c.min_distance / metres_per_unit }),
              numbers("StrainMedian", { c.strain.median }),
              numbers("StrainP95", { c.strain.p95 }),
              numbers("StrainMax", { c.strain.max }) };
@@ -149,7 +149,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
                numbers("PoseReached", { dressing.pose_reached }),
                numbers("Speed", { dressing.speed.value_or(NAN) }),
                { "Note", Texts { note } },
-               { "Warnings", doubts_about_dressing(dressing, names) },
+               { "Warnings", warnings_about_dressing(dressing, names) },
                { "HeldBackPart", each(held, [](const HeldBack& part) { return part.part; }) },
                numbers("HeldBackDistance",
                        each(held, [&](const HeldBack& part) { return part.distance / body.metres_per_unit; })),

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "contact.h"
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "stretch.h"
@@ -93,7 +93,7 @@ int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const
     std::vector<char> crosses(edges.rows(), 0);
     for (const auto& [e, f] : through_body)
         crosses[e] = 1;
-    JoinedVertices pieces(int(garment.positions.rows()));
+    DisjointSets pieces(int(garment.positions.rows()));
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
         if (!crosses[e])
             pieces.join(edges(e, 0), edges(e, 1));
@@ -112,7 +112,7 @@ int vertices_inside(const TriangleMesh& body, const TriangleMesh& garment, const
 }
 
 // Vertex distances bound the gap from above; the contact search below that bound finds edges that come closer.
-double smallest_gap(const TriangleMesh& a, const TriangleMesh& b)
+double min_distance(const TriangleMesh& a, const TriangleMesh& b)
 {
     const TriangleTree tree(b);
     double bound = INFINITY;
@@ -165,7 +165,7 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     for (const TriangleMesh& layer : under)
         result.layer_crossings += crossing_count(garment, layer);
     result.vertices_inside = vertices_inside(body, garment, through_body);
-    result.smallest_gap = result.body_crossings > 0 ? 0 : smallest_gap(garment, body);
+    result.min_distance = result.body_crossings > 0 ? 0 : min_distance(garment, body);
     result.strain = strain_of(rest, positions);
     return result;
 }

@@ -28,7 +28,7 @@ const std::vector<std::string_view>& fabric_names()
     return names;
 }
 
-ClothOptions made_of_fabric(ClothOptions options)
+ClothOptions apply_fabric(ClothOptions options)
 {
     const ClothOptions defaults;
     const Figures& fabric = k_fabrics[static_cast<int>(options.fabric)];

@@ -36,7 +36,7 @@ double mean_edge(const GarmentMesh& mesh)
 // Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
 Untangled parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
 {
-    Untangled result = untangled(cloth);
+    Untangled result = untangle(cloth);
     if (result.positions != cloth.positions && crossing_count({ result.positions, cloth.triangles }, obstacle) > 0)
         return { cloth.positions, self_crossings(cloth) };
     return result;
@@ -98,7 +98,7 @@ struct ClothMotion::Touch {
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options) :
-    options_(made_of_fabric(options)),
+    options_(apply_fabric(options)),
     weld_(rest), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
     off_itself_(std::min(options_.contact_distance, k_off_itself * mean_edge(rest_))),
     contact_(rest_.triangles, cloth_vertices_, obstacle.triangles,
@@ -126,7 +126,7 @@ void ClothMotion::set_rest(const GarmentMesh& rest)
     energy_.emplace(rest_, ties_, options_);
 }
 
-void ClothMotion::put_back(const Positions& state)
+void ClothMotion::restore(const Positions& state)
 {
     x_ = state;
     velocity_.setZero();
@@ -144,18 +144,18 @@ void ClothMotion::move(const Positions& displacements)
 {
     const Stopwatch watch(seconds_.detection);
     const auto go = [&](const Positions& way) {
-        contact_.detect(x_, way, { options_.smallest_gap, options_.smallest_gap });
-        const std::vector<double> shares = contact_.free_shares(x_, way, options_.smallest_gap);
+        contact_.detect(x_, way, { options_.min_distance, options_.min_distance });
+        const std::vector<double> shares = contact_.free_shares(x_, way, options_.min_distance);
         return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal()
                          * way);
     };
     const Positions first = go(displacements);
     x_ += first;
     if (first != displacements)
-        x_ += go(contact_.joined(x_, displacements - first, options_.smallest_gap));
+        x_ += go(contact_.joined(x_, displacements - first, options_.min_distance));
 }
 
-void ClothMotion::carry(const Positions& cloth, const Positions& obstacle)
+void ClothMotion::advect(const Positions& cloth, const Positions& obstacle)
 {
     Positions displacements(x_.rows(), 3);
     displacements << weld_.gathered(cloth), obstacle;
@@ -218,15 +218,15 @@ std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const
 }
 
 // A single motion uses up only part of the room to what it meets; as long as the next one gets nearer, it is worth making.
-double ClothMotion::carry_obstacle(const Positions& target)
+double ClothMotion::advect_obstacle(const Positions& target)
 {
     constexpr int k_most_motions = 20;
     double lag = INFINITY, before;
     int motions = 0;
     do {
         before = lag;
-        carry(Positions::Zero(vertices(), 3), target - obstacle());
-        lag = settle_obstacle(target);
+        advect(Positions::Zero(vertices(), 3), target - obstacle());
+        lag = snap_obstacle(target);
     } while (lag > 0 && lag < k_nearer * before && ++motions < k_most_motions);
     return lag;
 }
@@ -266,10 +266,10 @@ double ClothMotion::advance(const MotionStep& step)
     const Positions before = x_.topRows(cloth_vertices_);
     move(displacements);
     velocity_ = (x_.topRows(cloth_vertices_) - before) / step.time_step;
-    return settle_obstacle(*step.obstacle_target);
+    return snap_obstacle(*step.obstacle_target);
 }
 
-double ClothMotion::settle_obstacle(const Positions& target)
+double ClothMotion::snap_obstacle(const Positions& target)
 {
     constexpr double k_rounding = 1e-12;  // m; nearer than this the target's own bits are taken
     double longest_lag = 0;
@@ -283,7 +283,7 @@ double ClothMotion::settle_obstacle(const Positions& target)
     return longest_lag;
 }
 
-double arrive(ClothMotion& motion, const MotionStep& step)
+double step_until_converged(ClothMotion& motion, const MotionStep& step)
 {
     constexpr int k_most_steps = 30;
     Patience patience(k_most_steps);
@@ -312,7 +312,7 @@ Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_r
         step.contact_stiffness = lag > 0 ? pushing : k_settling_contact_stiffness;
         lag = motion.advance(step);
         if (lag > 0)
-            lag = motion.carry_obstacle(target);
+            lag = motion.advect_obstacle(target);
     }
     return { lag == 0, motion.speed() };
 }

@@ -42,11 +42,11 @@ public:
 
     /// Moves cloth and obstacle together by these displacements (n x 3, m x 3), as far as each vertex freely may. What was
     /// lagging before keeps its lag, and nothing is left behind by it.
-    void carry(const Positions& cloth, const Positions& obstacle);
+    void advect(const Positions& cloth, const Positions& obstacle);
 
     /// Moves the obstacle towards a target, as far as each vertex freely may, while the cloth stands still.
     /// @return as advance()
-    double carry_obstacle(const Positions& target);
+    double advect_obstacle(const Positions& target);
 
     /// Lets the obstacle go to its target and the cloth find its rest around it.
     /// @return the longest way that an obstacle vertex still has to its target, metres
@@ -55,7 +55,7 @@ public:
     /// Everything's place, to be put back there later.
     const Positions& state() const { return x_; }
     /// Puts cloth and obstacle back where they were, at rest.
-    void put_back(const Positions& state);
+    void restore(const Positions& state);
 
     Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
@@ -67,7 +67,7 @@ private:
     struct Touch;
     void move(const Positions& displacements);
     Margins touching() const;
-    double settle_obstacle(const Positions& target);
+    double snap_obstacle(const Positions& target);
     Positions relaxed(const MotionStep& step, const Positions& displacements);
     std::vector<Touch> touches(const Positions& wished) const;
     std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished,
@@ -88,7 +88,7 @@ private:
 
 /// Repeats a step until the whole obstacle is at its target, for as long as is worth waiting: before the bridges over creases are
 /// drawn back, say, for where a bridge is not closed, cloth would go in. @return as advance()
-double arrive(ClothMotion& motion, const MotionStep& step);
+double step_until_converged(ClothMotion& motion, const MotionStep& step);
 
 struct Settled {
     bool arrived;  ///< the whole obstacle at its target

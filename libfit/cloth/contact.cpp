@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "garmentfit/mesh.h"
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "parallel.h"
 #include "segment.h"
 
@@ -75,7 +75,7 @@ void lower(std::atomic<double>& value, double to)
 }
 
 /// The mean of the values of each set, at all of its vertices; 0 where one of them, from `standing` on, stands still.
-Positions means(JoinedVertices& sets, const Positions& values, int standing)
+Positions means(DisjointSets& sets, const Positions& values, int standing)
 {
     Positions sum = Positions::Zero(values.rows(), 3);
     std::vector<int> size(values.rows(), 0);
@@ -111,15 +111,15 @@ Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& ob
 }
 
 // A segment with a margin is convex: it holds a smaller one when it holds both of its ends.
-bool Contact::searched(const Room& room) const
+bool Contact::searched(const SweptRegion& region) const
 {
-    if (room_.start.rows() != room.start.rows())
+    if (searched_region_.start.rows() != region.start.rows())
         return false;
-    for (Eigen::Index v = 0; v < room.start.rows(); ++v) {
-        const Vec3 from = room.start.row(v), to = from + Vec3(room.way.row(v)), begin = room_.start.row(v),
-                   end = begin + Vec3(room_.way.row(v));
-        const double spare = v < cloth_vertices_ ? room_.margins.cloth - room.margins.cloth
-                                                 : room_.margins.obstacle - room.margins.obstacle;
+    for (Eigen::Index v = 0; v < region.start.rows(); ++v) {
+        const Vec3 from = region.start.row(v), to = from + Vec3(region.way.row(v)), begin = searched_region_.start.row(v),
+                   end = begin + Vec3(searched_region_.way.row(v));
+        const double spare = v < cloth_vertices_ ? searched_region_.margins.cloth - region.margins.cloth
+                                                 : searched_region_.margins.obstacle - region.margins.obstacle;
         if (distance_to_segment(from, begin, end) > spare || distance_to_segment(to, begin, end) > spare)
             return false;
     }
@@ -131,7 +131,7 @@ void Contact::renew_trees()
     const auto renew = [&](BoxTree& tree, double margin, Eigen::Index count, const auto& vertices_of) {
         std::vector<Box> boxes(count);
         for (Eigen::Index i = 0; i < count; ++i)
-            boxes[i] = box_of(vertices_of(i), room_.start, room_.way, margin);
+            boxes[i] = box_of(vertices_of(i), searched_region_.start, searched_region_.way, margin);
         if (tree.empty())
             tree = BoxTree(boxes);
         else
@@ -139,7 +139,7 @@ void Contact::renew_trees()
     };
     parallel_for(6, [&](int i) {
         Surface& s = i % 2 == 0 ? cloth_ : obstacle_;
-        const double margin = i % 2 == 0 ? room_.margins.cloth : room_.margins.obstacle;
+        const double margin = i % 2 == 0 ? searched_region_.margins.cloth : searched_region_.margins.obstacle;
         if (i < 2)
             renew(s.edge_tree, margin, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
         else if (i < 4)
@@ -159,8 +159,8 @@ void Contact::search()
         const int split = first_size(c.kind);
         if (c.self && (share_a_vertex(c.vertices, split) || passing(c.kind).count(c.key)))
             return;
-        c.distance = closest(c.kind, corners(room_.start, c.vertices)).distance;
-        if (c.distance <= approach(room_.way, c.vertices, split) + both(room_.margins, c.self))
+        c.distance = closest(c.kind, corners(searched_region_.start, c.vertices)).distance;
+        if (c.distance <= approach(searched_region_.way, c.vertices, split) + both(searched_region_.margins, c.self))
             (c.distance > 0 ? found : touching)[part].push_back(c);
     };
     const auto vertex_faces = [&](const Surface& a, const Surface& b, bool self) {
@@ -204,10 +204,10 @@ void Contact::search()
 void Contact::detect(const Positions& x, const Positions& displacements, const Margins& margins)
 {
     if (!searched({ x, displacements, margins })) {
-        room_ = { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
+        searched_region_ = { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
         search();
     }
-    const Eigen::VectorXd moved = (x - room_.start).rowwise().norm();
+    const Eigen::VectorXd moved = (x - searched_region_.start).rowwise().norm();
     pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
         const Candidate& c = candidates_[i];
         const double near = approach(displacements, c.vertices, first_size(c.kind)) + both(margins, c.self);
@@ -263,7 +263,7 @@ std::vector<double> Contact::free_shares(const Positions& x, const Positions& di
 Positions Contact::joined(const Positions& x, const Positions& displacements, double gap) const
 {
     constexpr double k_nearly_all = 0.9;
-    JoinedVertices zones(int(x.rows()));
+    DisjointSets zones(int(x.rows()));
     const int standing
         = displacements.bottomRows(x.rows() - cloth_vertices_).isZero(0) ? int(cloth_vertices_) : int(x.rows());
     Positions common = displacements;

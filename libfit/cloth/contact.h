@@ -63,7 +63,7 @@ private:
         BoxTree vertex_tree, edge_tree, triangle_tree;
     };
     /// Where vertices may go: along their ways from their starts, and beside them.
-    struct Room {
+    struct SweptRegion {
         Positions start, way;
         Margins margins;
     };
@@ -76,7 +76,7 @@ private:
         double distance;  // where the search began
     };
     static Surface surface(const Triangles& triangles, int offset);
-    bool searched(const Room& room) const;
+    bool searched(const SweptRegion& region) const;
     void renew_trees();
     void search();
     std::unordered_set<std::uint64_t>& passing(PairKind kind) { return passing_[int(kind)]; }
@@ -84,7 +84,7 @@ private:
     Surface cloth_, obstacle_;
     Eigen::Index cloth_vertices_;
     Margins spare_;
-    Room room_;
+    SweptRegion searched_region_;
     std::vector<Candidate> candidates_;  // all that may meet in that room
     std::array<std::unordered_set<std::uint64_t>, 2> passing_;  // by kind: pairs of cloth that touched
     std::vector<ContactPair> pairs_;

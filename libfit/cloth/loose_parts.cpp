@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "nearest.h"
 
 namespace garmentfit {
@@ -15,7 +15,7 @@ constexpr double k_furthest = 0.02;  // m, from the cloth that a part lies on
 
 std::map<int, std::vector<int>> pieces_of(const GarmentMesh& mesh)
 {
-    JoinedVertices joined(int(mesh.positions.rows()));
+    DisjointSets joined(int(mesh.positions.rows()));
     std::vector<char> used(mesh.positions.rows(), 0);
     for (const auto& corners : mesh.triangles.rowwise())
         for (int k = 0; k < 3; ++k) {

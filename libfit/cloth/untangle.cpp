@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "nearest.h"
 
 namespace garmentfit {
@@ -97,7 +97,7 @@ public:
             in_vain = left.size() < fewest ? 0 : in_vain + 1;
             fewest = std::min(fewest, left.size());
         }
-        put_back(left);
+        restore(left);
         return region_;
     }
 
@@ -127,7 +127,7 @@ private:
         Eigen::VectorXd shares = Eigen::VectorXd::Zero(given_.rows());
         for (const auto& [e, f] : crossings)
             add(e, region_.mesh.triangles.row(f), sum, shares);
-        return smoothed(step_ * (sum.array().colwise() / shares.array().max(1)).matrix());
+        return smooth(step_ * (sum.array().colwise() / shares.array().max(1)).matrix());
     }
 
     void add(int e, const Eigen::RowVector3i& corners, Positions& sum, Eigen::VectorXd& shares) const
@@ -155,7 +155,7 @@ private:
         push(corners[2], share(a, b), -way);
     }
 
-    Positions smoothed(Positions motion) const
+    Positions smooth(Positions motion) const
     {
         for (int pass = 0; pass < k_smoothing_passes; ++pass) {
             Positions sum = Positions::Zero(motion.rows(), 3);
@@ -172,10 +172,10 @@ private:
         return motion;
     }
 
-    void put_back(const std::vector<Crossing>& left)
+    void restore(const std::vector<Crossing>& left)
     {
         const TriangleMesh& mesh = region_.mesh;
-        JoinedVertices pieces(int(given_.rows()));
+        DisjointSets pieces(int(given_.rows()));
         for (Eigen::Index e = 0; e < edges_.rows(); ++e)
             pieces.join(edges_(e, 0), edges_(e, 1));
         for (const auto& [e, f] : left)
@@ -197,7 +197,7 @@ private:
 
 }  // namespace
 
-Untangled untangled(const TriangleMesh& cloth)
+Untangled untangle(const TriangleMesh& cloth)
 {
     const std::vector<Crossing> tangles = self_crossings(cloth);
     if (tangles.empty())

@@ -19,6 +19,6 @@ struct Untangled {
 /// `cloth` (n x 3, metres, equal vertices welded) with its sheets parted. A tangle that does not come apart
 /// stays as given, vertex for vertex, and so does all that is further than a few edges from a tangle.
 /// Cost O(n log n) to find the tangles, and some hundred times their own size to part them.
-Untangled untangled(const TriangleMesh& cloth);
+Untangled untangle(const TriangleMesh& cloth);
 
 }  // namespace garmentfit

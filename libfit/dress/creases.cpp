@@ -7,7 +7,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "garmentfit/mesh.h"
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "surface_measures.h"
@@ -82,7 +82,7 @@ void add_enclosed(std::vector<char>& marked, const std::vector<std::vector<int>>
 // Creases that no cloth will come to stay as they are: mouths and toes would be smoothed away on the way.
 void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std::vector<char>& near)
 {
-    JoinedVertices creases(int(marked.size()));
+    DisjointSets creases(int(marked.size()));
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
         if (marked[edges(e, 0)] && marked[edges(e, 1)])
             creases.join(edges(e, 0), edges(e, 1));

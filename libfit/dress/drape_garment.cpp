@@ -15,7 +15,7 @@
 #include "garmentfit/fit_skeleton.h"
 #include "held_back.h"
 #include "layers.h"
-#include "pushed_up.h"
+#include "sleeve_retraction.h"
 #include "skin_weights.h"
 #include "straight_hands.h"
 #include "tightness.h"
@@ -51,7 +51,7 @@ struct Inflatable {
 
 /// @param pushed  hands and feet that it frees are of full size from the start; none: all of the body is thin
 Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
-                      const std::vector<WornGarment>& worn, const Positions& left, const PushedUp* pushed)
+                      const std::vector<WornGarment>& worn, const Positions& left, const SleeveRetraction* pushed)
 {
     Inflatable result;
     const Eigen::Index body_vertices = body.surface.positions.rows();
@@ -64,9 +64,9 @@ Inflatable inflatable(const Rig& rig, const BodyMesh& body, const Pose& pose, co
         append(weights, weights_of_nearest(under.positions, result.full.positions.topRows(body_vertices), rig.weights));
         append(result.full, { under.positions, under.rest.triangles });
     }
-    const Skeleton joints = posed(hands.skeleton(stretch), pose);
+    const Skeleton joints = pose_skeleton(hands.skeleton(stretch), pose);
     // a hand or foot that would still poke through the cloth grows out of its wrist or ankle instead
-    result.bones = with_clear_tips(joints, garment);
+    result.bones = retract_tips(joints, garment);
     result.core = collapse(result.full.positions, weights, result.bones);
     result.grown
         = pushed ? pushed->freed(result.full.positions, weights, joints) : std::vector<double>(result.core.rows(), 0);
@@ -159,11 +159,11 @@ std::optional<double> first_size(Inflatable& inside, const GarmentMesh& garment)
 
 /// The garment with its sleeves and legs pushed up, where no pairs cross each other then that did not as it was given: what lies in
 /// narrow folds may, for triangles stay flat, and mostly comes apart.
-std::optional<Positions> without_new_crossings(const PushedUp& pushed, const GarmentMesh& garment)
+std::optional<Positions> without_new_crossings(const SleeveRetraction& pushed, const GarmentMesh& garment)
 {
     const Weld weld(garment);
     const GarmentMesh given = weld.gathered(garment);
-    const Untangled up = untangled({ weld.gathered(pushed.positions()), given.triangles });
+    const Untangled up = untangle({ weld.gathered(pushed.positions()), given.triangles });
     if (!up.left.empty())
         if (const std::vector<Crossing> crossed = self_crossings({ given.positions, given.triangles });
             !std::includes(crossed.begin(), crossed.end(), up.left.begin(), up.left.end()))
@@ -182,7 +182,7 @@ struct Start {
 Start start(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
             const std::vector<WornGarment>& worn, const Positions& left)
 {
-    if (const PushedUp pushed(posed(rig.skeleton, pose), garment); pushed.any())
+    if (const SleeveRetraction pushed(pose_skeleton(rig.skeleton, pose), garment); pushed.any())
         if (const auto positions = without_new_crossings(pushed, garment)) {
             const GarmentMesh up { *positions, garment.triangles };
             Inflatable inside = inflatable(rig, body, pose, up, worn, left, &pushed);
@@ -253,9 +253,9 @@ double inflate(ClothMotion& motion, const Inflatable& inside, double first, Grad
     }
     const Positions bridged = inside.at(1);
     step.obstacle_target = &bridged;
-    arrive(motion, step);
-    motion.carry_obstacle(inside.withdrawn);
-    motion.carry_obstacle(inside.full.positions);
+    step_until_converged(motion, step);
+    motion.advect_obstacle(inside.withdrawn);
+    motion.advect_obstacle(inside.full.positions);
     return 1;
 }
 
@@ -283,7 +283,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     const Eigen::Index body_vertices = body.surface.positions.rows();
     const SkinWeights follows
         = weights_of_nearest(garment.positions, inside.full.positions.topRows(body_vertices), rig.weights);
-    Grading grading(garment, follows, posed(rig.skeleton, pose), int(worn.size()), options.cloth);
+    Grading grading(garment, follows, pose_skeleton(rig.skeleton, pose), int(worn.size()), options.cloth);
     ClothMotion motion(garment, cloth, { inside.at(first), inside.full.triangles }, options.cloth);
 
     DrapeResult result;
@@ -291,7 +291,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     if (result.size_reached < 1) {
         const PerPart growth
             = growth_left(motion.cloth(), motion.obstacle().topRows(body_vertices),
-                          inside.full.positions.topRows(body_vertices), rig.weights, posed(rig.skeleton, pose));
+                          inside.full.positions.topRows(body_vertices), rig.weights, pose_skeleton(rig.skeleton, pose));
         result.too_tight
             = grading.tightness().too_tight(motion.cloth(), k_worth_naming * options.cloth.largest_stretch, growth);
     } else {

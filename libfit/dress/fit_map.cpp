@@ -153,7 +153,7 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
     const Weld weld(worn.rest);
     const GarmentMesh rest = weld.gathered(worn.rest);
     const Positions x = weld.gathered(worn.positions);
-    const ClothOptions made = made_of_fabric(options);
+    const ClothOptions made = apply_fabric(options);
     const ClothEnergy energy(rest, {}, made);
     const Positions forces = energy.elastic_forces(x);
     const TriangleTree skin(body);

@@ -37,7 +37,7 @@ struct Layer {
 PerPart widths(const Rig& rig, const Positions& body, const GarmentMesh& garment, const FitResult& fit)
 {
     const Positions posed_body = skin(body, rig.weights, bone_transforms(rig.skeleton, fit.pose));
-    return slack(garment.positions, posed_body, rig.weights, posed(rig.skeleton, fit.pose));
+    return slack(garment.positions, posed_body, rig.weights, pose_skeleton(rig.skeleton, fit.pose));
 }
 
 /// Whether a goes over b, by habit or else for it is the wider one, on the mean of the parts that both go round.
@@ -57,11 +57,11 @@ bool is_over(const Layer& a, const Layer& b)
 
 const std::vector<std::string_view>& layer_order_names()
 {
-    static const std::vector<std::string_view> names { "given", "found" };
+    static const std::vector<std::string_view> names { "given", "auto" };
     return names;
 }
 
-std::vector<int> found_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
+std::vector<int> order_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
                               const std::vector<FitResult>& fits)
 {
     std::vector<Layer> all;

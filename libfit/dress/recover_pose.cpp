@@ -66,7 +66,7 @@ public:
     }
 
     /// The last pose, with what is in creases drawn back from them.
-    Positions withdrawn() const { return creases_.withdrawn(collapse(last_, rig_.weights, posed(rig_.skeleton, to_))); }
+    Positions withdrawn() const { return creases_.withdrawn(collapse(last_, rig_.weights, pose_skeleton(rig_.skeleton, to_))); }
 
     /// Metres that the vertex of the cloth with the longest way is carried. Bare hands go further, but they carry nothing.
     double length(const Positions& cloth, const SkinWeights& weights) const
@@ -99,7 +99,7 @@ private:
     Creases creases_;
 };
 
-SkinWeights smoothed(const SkinWeights& weights, const Triangles& triangles)
+SkinWeights smooth(const SkinWeights& weights, const Triangles& triangles)
 {
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(weights.bones.rows(), bone_count);
     for (Eigen::Index v = 0; v < dense.rows(); ++v)
@@ -203,11 +203,11 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
         const double t = double(i) / steps;
         const BoneTransforms along = between(way.transforms(double(i - 1) / steps), way.transforms(t));
         const Positions cloth = motion.cloth(), body = motion.obstacle(), target = way.bridged(t);
-        motion.carry(skin(cloth, cloth_weights, along) - cloth, skin(body, body_weights, along) - body);
+        motion.advect(skin(cloth, cloth_weights, along) - cloth, skin(body, body_weights, along) - body);
         step.obstacle_target = &target;
         double lag = motion.advance(step);
         if (lag > stuck)
-            lag = arrive(motion, step);  // it may only be slow
+            lag = step_until_converged(motion, step);  // it may only be slow
         gone.share = t;
         if (lag < k_in_place) {
             gone.in_place = t;
@@ -220,7 +220,7 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
     }
     const Positions bridged = way.bridged(1);
     step.obstacle_target = &bridged;
-    arrive(motion, step);
+    step_until_converged(motion, step);
     return gone;
 }
 
@@ -244,7 +244,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
                            + " places at the start; drape the garment first");
 
     const SkinWeights cloth_weights
-        = smoothed(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
+        = smooth(weights_of_nearest(cloth.positions, start.positions, rig.weights), cloth.triangles);
     ClothMotion motion({ rest.positions, rest.triangles }, cloth.positions, start, options.cloth);
     Recording recording(worn, body.surface.triangles, options.frames);
     recording.see(motion, 0);
@@ -252,10 +252,10 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     const bool stuck = gone.share < 1;
     if (stuck) {
         result.held_back = held_back(motion.obstacle(), way.bridged(gone.share), rig.weights);
-        motion.put_back(gone.state);
+        motion.restore(gone.state);
     } else {
-        motion.carry_obstacle(way.withdrawn());
-        motion.carry_obstacle(way.last());
+        motion.advect_obstacle(way.withdrawn());
+        motion.advect_obstacle(way.last());
     }
     const double reached = stuck ? gone.in_place : 1;
     const Positions end = way.at(reached);
@@ -271,8 +271,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     result.body = motion.obstacle();
     if (!stuck)
         result.held_back = held_back(result.body, end, rig.weights);
-    result.too_tight = too_tight({ worn, start.positions, posed(rig.skeleton, from) },
-                                 { result.garments, result.body, posed(rig.skeleton, slerp(from, to, reached)) },
+    result.too_tight = too_tight({ worn, start.positions, pose_skeleton(rig.skeleton, from) },
+                                 { result.garments, result.body, pose_skeleton(rig.skeleton, slerp(from, to, reached)) },
                                  rig.weights, options.cloth.largest_stretch);
     result.speed = speed;
     result.seconds = motion.seconds();

@@ -35,8 +35,8 @@ StraightHands::Stretch StraightHands::clear_of(const GarmentMesh& garment, const
     Stretch result { 0, 0 };
     std::array<bool, 2> found { false, false };
     for (const double stretch : k_stretches) {
-        const Skeleton wished = garmentfit::posed(skeleton({ stretch, stretch }), pose),
-                       clear = with_clear_tips(wished, garment);
+        const Skeleton wished = garmentfit::pose_skeleton(skeleton({ stretch, stretch }), pose),
+                       clear = retract_tips(wished, garment);
         for (int side = 0; side < 2; ++side)
             if (!found[side] && clear.tips[k_tips[side]] == wished.tips[k_tips[side]]) {
                 found[side] = true;
@@ -55,7 +55,7 @@ StraightHands::Stretch StraightHands::of(const Positions& left, const Pose& pose
         return result;
     std::array<double, 2> least { INFINITY, INFINITY };
     for (const double stretch : k_stretches) {
-        const Positions here = posed({ stretch, stretch }, pose);
+        const Positions here = pose_skeleton({ stretch, stretch }, pose);
         for (int side = 0; side < 2; ++side) {
             double off = 0;
             for (const auto& [v, share] : hands_[side].skin)
@@ -97,7 +97,7 @@ Skeleton StraightHands::skeleton(const Stretch& stretch) const
     return result;
 }
 
-Positions StraightHands::posed(const Stretch& stretch, const Pose& pose) const
+Positions StraightHands::pose_skeleton(const Stretch& stretch, const Pose& pose) const
 {
     return skin(stretched(stretch), rig_.weights, bone_transforms(rig_.skeleton, pose));
 }

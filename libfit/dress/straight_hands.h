@@ -37,7 +37,7 @@ private:
         Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // from bent to straight
         std::vector<std::pair<int, double>> skin {};  // vertices, and how far they belong to the hand
     };
-    Positions posed(const Stretch& stretch, const Pose& pose) const;
+    Positions pose_skeleton(const Stretch& stretch, const Pose& pose) const;
 
     const Rig& rig_;
     const Positions& own_;

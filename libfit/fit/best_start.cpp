@@ -45,7 +45,7 @@ Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Rea
 }
 
 // The horizontal direction in which the cloth is spread most.
-Eigen::Vector2d widest(const ClothRoom& cloth)
+Eigen::Vector2d widest(const ClearanceField& cloth)
 {
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     for (const ClothPatch& patch : cloth.patches()) {
@@ -104,14 +104,14 @@ std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
 // Where the trunk has room, for each heading, with limbs as far as a coarse look finds them.
 std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
 {
-    const ClothRoom& cloth = search.metric().cloth();
-    const RoomPyramid room(cloth.tree(), cloth.low(), cloth.high());
+    const ClearanceField& cloth = search.metric().cloth();
+    const MinMaxPyramid clearance(cloth.tree(), cloth.low(), cloth.high());
     std::vector<Posture> postures;
     for (const double angle : headings(rig, search))
         postures.push_back(search.at_ease(Vec3::Zero(), upright(rig, angle)));
     std::vector<std::vector<Place>> places(postures.size());
     parallel_for<std::size_t>(postures.size(), [&](std::size_t h) {
-        places[h] = search.trunk_places(room, postures[h], k_place_spacing, k_places_apart, k_places_a_heading);
+        places[h] = search.trunk_places(clearance, postures[h], k_place_spacing, k_places_apart, k_places_a_heading);
     });
     std::vector<Scored> all;
     for (std::size_t h = 0; h < postures.size(); ++h)

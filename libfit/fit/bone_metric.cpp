@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "error_metric.h"
-#include "room_search.h"
+#include "clearance_search.h"
 #include "segment.h"
 
 namespace garmentfit {
@@ -37,7 +37,7 @@ double BoneMetric::worn(int bone, const Vec3& head, const Vec3& tail) const
 {
     double sum = 0;
     for (int i = 0; i < k_samples; ++i)
-        sum += room_value(cloth_.at(bone_sample(head, tail, i)), figure_.radii[bone]);
+        sum += clearance_value(cloth_.at(bone_sample(head, tail, i)), figure_.radii[bone]);
     return sum;
 }
 
@@ -45,13 +45,13 @@ double BoneMetric::needed(int bone, const Vec3& head, const Vec3& tail) const
 {
     double sum = 0;
     for (int i = 0; i < k_samples; ++i) {
-        const Room room = cloth_.at(bone_sample(head, tail, i));
-        sum += room.inside * std::min(room.distance, figure_.radii[bone]);
+        const Clearance clearance = cloth_.at(bone_sample(head, tail, i));
+        sum += clearance.inside * std::min(clearance.distance, figure_.radii[bone]);
     }
     return sum;
 }
 
-std::array<double, bone_count> BoneMetric::shares_of_room(const Skeleton& joints) const
+std::array<double, bone_count> BoneMetric::clearance_shares(const Skeleton& joints) const
 {
     std::array<double, bone_count> shares {};
     for (int b = 0; b < bone_count; ++b)
@@ -66,10 +66,10 @@ double BoneMetric::bare(int bone, const Vec3& head, const Vec3& tail) const
         return 0;  // a shirt hangs round hips and neck without covering them
     double sum = 0;
     for (int i = 0; i < k_samples; ++i) {
-        const Room room = cloth_.at(bone_sample(head, tail, i));
-        sum += k_bare * std::min(room.distance - figure_.radii[bone], 0.0);
+        const Clearance clearance = cloth_.at(bone_sample(head, tail, i));
+        sum += k_bare * std::min(clearance.distance - figure_.radii[bone], 0.0);
         if (is_arm(bone))
-            sum -= 0.5 * room.inside * figure_.radii[bone];
+            sum -= 0.5 * clearance.inside * figure_.radii[bone];
     }
     return sum;
 }

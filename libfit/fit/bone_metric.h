@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "cloth_room.h"
+#include "clearance_field.h"
 #include "error_metric.h"
 #include "garmentfit/skeleton.h"
 
@@ -25,14 +25,14 @@ Figure figure_of(const Rig& rig, const std::vector<Bone>& covered);
 
 class BoneMetric {
 public:
-    BoneMetric(const ClothRoom& cloth, const Figure& figure) : cloth_(cloth), figure_(figure) { }
+    BoneMetric(const ClearanceField& cloth, const Figure& figure) : cloth_(cloth), figure_(figure) { }
 
     /// E_B of a covered bone, m: the room at its five samples, as far as the limb needs it.
     double worn(int bone, const Vec3& head, const Vec3& tail) const;
     /// Of that, what the limb cannot do without, m.
     double needed(int bone, const Vec3& head, const Vec3& tail) const;
     /// As a share of all that it needs, 0 to 1; 0 for bones that are not covered.
-    std::array<double, bone_count> shares_of_room(const Skeleton& joints) const;
+    std::array<double, bone_count> clearance_shares(const Skeleton& joints) const;
     /// What an arm or leg that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the
     /// garment. 0 for other bones.
     double bare(int bone, const Vec3& head, const Vec3& tail) const;
@@ -46,9 +46,9 @@ public:
     int samples_inside(const Vec3& head, const Vec3& tail) const;
 
     /// No place is worth more to a bone than that, m.
-    double most(int bone) const { return figure_.covered[bone] ? k_samples * most_room_value(figure_.radii[bone]) : 0; }
+    double most(int bone) const { return figure_.covered[bone] ? k_samples * max_clearance_value(figure_.radii[bone]) : 0; }
 
-    const ClothRoom& cloth() const { return cloth_; }
+    const ClearanceField& cloth() const { return cloth_; }
     const Figure& figure() const { return figure_; }
     double value(int bone, const Vec3& head, const Vec3& tail) const
     {
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    const ClothRoom& cloth_;
+    const ClearanceField& cloth_;
     Figure figure_;
 };
 

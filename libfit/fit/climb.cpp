@@ -9,7 +9,7 @@ namespace {
 constexpr double k_lever = 0.2;  // m; a step of translation moves as far as a bone's far end at this distance
 constexpr double k_least_gain = 1e-4;  // m; of a step
 constexpr double k_furthest_way = 0.02;  // m; that a joint goes for the paper's E alone
-constexpr double k_room_lost = 0.04;  // m, of a bone's five samples: 8 mm each
+constexpr double k_clearance_lost = 0.04;  // m, of a bone's five samples: 8 mm each
 constexpr double k_energy_lost = 0.3;  // m; tight clothes have ten times that
 // All but the hip joints, which are as good as fixed to the pelvis. First the trunk.
 constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
@@ -159,14 +159,14 @@ auto sum_over(const std::vector<const SkeletonSearch*>& searches, const std::vec
 }
 
 // What must hold while a posture is raised by the paper's E alone: joints stay near, and bones keep the room they need.
-class RoomKept {
+class ClearanceKept {
 public:
-    RoomKept(const SkeletonSearch& search, const Posture& start) :
+    ClearanceKept(const SkeletonSearch& search, const Posture& start) :
         search_(search), joints_(placed(search.own(), start).joints),
         least_energy_(search.total(start) - k_energy_lost), corners_(corners_through_cloth(search, start))
     {
         for (int b = 0; b < bone_count; ++b)
-            least_room_[b] = needed(b, joints_) - k_room_lost;
+            min_clearance_[b] = needed(b, joints_) - k_clearance_lost;
     }
 
     bool holds(const Posture& posture) const
@@ -175,7 +175,7 @@ public:
         for (int b = 0; b < bone_count; ++b)
             if (search_.metric().figure().covered[b]
                 && (is_far(joints.head(b), joints_.head(b)) || is_far(joints.tail(b), joints_.tail(b))
-                    || needed(b, joints) < least_room_[b]))
+                    || needed(b, joints) < min_clearance_[b]))
                 return false;
         return search_.total(posture) >= least_energy_ && corners_through_cloth(search_, posture) <= corners_;
     }
@@ -191,7 +191,7 @@ private:
     Skeleton joints_;
     double least_energy_;
     int corners_;
-    std::array<double, bone_count> least_room_ {};
+    std::array<double, bone_count> min_clearance_ {};
 };
 
 }  // namespace
@@ -280,10 +280,10 @@ Posture raised_alone(const SkeletonSearch& search, const Posture& start, PaperCl
 {
     Posture present = start;
     PlacedBones bones = placed(search.own(), start);
-    const RoomKept room(search, start);
+    const ClearanceKept clearance(search, start);
     climb_in_cloth(search, present, bones, steps, [&](const Posture& next) {
         const PlacedBones next_bones = placed(search.own(), next, bones);
-        if (!paper.is_above(next_bones.joints, k_least_gain) || !room.holds(next))
+        if (!paper.is_above(next_bones.joints, k_least_gain) || !clearance.holds(next))
             return false;
         present = next;
         bones = next_bones;

@@ -13,7 +13,7 @@ namespace garmentfit {
 namespace {
 
 constexpr double k_room_kept = 0.75;  // share of the room it has in a garment's own fit that a bone keeps
-constexpr double k_room_lost = 0.01;  // m, of a bone's five samples: 2 mm each are no loss
+constexpr double k_clearance_lost = 0.01;  // m, of a bone's five samples: 2 mm each are no loss
 constexpr double k_same_place = 0.2, k_same_turn = 0.35;  // m, rad; of roots that may become one
 constexpr Steps k_steps { 0.16, 0.005 };  // rad
 
@@ -40,7 +40,7 @@ public:
         const Skeleton joints = placed(search_.own(), posture).joints;
         std::vector<int> lacking;
         for (int b = 0; b < bone_count; ++b)
-            if (cloth_.crosses(joints.head(b), joints.tail(b)) || lacks_room(b, joints)
+            if (cloth_.crosses(joints.head(b), joints.tail(b)) || lacks_clearance(b, joints)
                 || (b == upperneck && cloth_.crosses(joints.tail(b), joints.tips[head_top])))
                 lacking.push_back(b);
         return lacking;
@@ -52,7 +52,7 @@ public:
         result.pose = pose_of(search_.own(), turned(posture, turn_.conjugate()));
         result.pose.rotations = bones.rotations;
         result.scores = search_.scores(posture);
-        result.room = metric_.shares_of_room(placed(search_.own(), posture).joints);
+        result.clearance = metric_.clearance_shares(placed(search_.own(), posture).joints);
         result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);
         return result;
     }
@@ -65,15 +65,15 @@ private:
         return figure;
     }
 
-    bool lacks_room(int b, const Skeleton& joints) const
+    bool lacks_clearance(int b, const Skeleton& joints) const
     {
         const auto needed = [&](const Skeleton& s) { return metric_.needed(b, s.head(b), s.tail(b)); };
-        return covers(b) && needed(joints) < k_room_kept * needed(joints_) - k_room_lost;
+        return covers(b) && needed(joints) < k_room_kept * needed(joints_) - k_clearance_lost;
     }
 
     Eigen::Quaterniond turn_;  // upright from as given
     TriangleMesh outward_;
-    ClothRoom cloth_;
+    ClearanceField cloth_;
     BoneMetric metric_;
     SkeletonSearch search_;
     Posture posture_;

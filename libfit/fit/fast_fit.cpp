@@ -48,7 +48,7 @@ std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& post
     return inside;
 }
 
-std::string sizes(const Rig& rig, const ClothRoom& cloth)
+std::string sizes(const Rig& rig, const ClearanceField& cloth)
 {
     const Vec3 size = 100 * (cloth.high() - cloth.low());
     const Skeleton& own = rig.skeleton;
@@ -161,7 +161,7 @@ Posture settled(const SkeletonSearch& search, const Posture& start, const Triang
 struct Seen {
     TriangleMesh outward;
     std::vector<Opening> openings;
-    std::unique_ptr<const ClothRoom> room;
+    std::unique_ptr<const ClearanceField> clearance;
 };
 
 Seen seen(const TriangleMesh& outward)
@@ -169,7 +169,7 @@ Seen seen(const TriangleMesh& outward)
     Seen result { outward, {}, {} };
     parallel_for<int>(2, [&](int part) {
         if (part == 0)
-            result.room = std::make_unique<const ClothRoom>(outward);
+            result.clearance = std::make_unique<const ClearanceField>(outward);
         else
             result.openings = openings_of(outward);
     });
@@ -180,7 +180,7 @@ Seen turned(const Seen& garment, const Eigen::Quaterniond& turn)
 {
     Seen result { turned(garment.outward, turn), {}, {} };
     result.openings = turned(garment.openings, result.outward, turn);
-    result.room = std::make_unique<const ClothRoom>(result.outward);
+    result.clearance = std::make_unique<const ClearanceField>(result.outward);
     return result;
 }
 
@@ -189,7 +189,7 @@ class Attempt {
 public:
     /// @throws InvalidInput when no body fits into the garment held like this.
     Attempt(const Rig& rig, Seen garment, GarmentType given, const Progress& progress) :
-        rig_(rig), seen_(std::move(garment)), cloth_(*seen_.room), guess_(resolved_type(given, seen_.openings)),
+        rig_(rig), seen_(std::move(garment)), cloth_(*seen_.clearance), guess_(resolve_type(given, seen_.openings)),
         cues_(cues_of(seen_.openings)), limits_(rig),
         metric_(cloth_, figure_of(rig, bones_covered_by(guess_.type, seen_.openings))),
         search_(rig_, limits_, metric_, cues_), start_(best_start(rig_, search_, progress))
@@ -216,7 +216,7 @@ public:
         result.covered = bones_inside(search, fitted, k_mostly_inside);
         result.pose = pose_of(rig_.skeleton, turned(fitted, back));
         result.scores = search.scores(fitted);
-        result.room = metric.shares_of_room(placed(rig_.skeleton, fitted).joints);
+        result.clearance = metric.clearance_shares(placed(rig_.skeleton, fitted).joints);
         result.scores_before = search.scores(at_barycentre(rig_, search));
         return result;
     }
@@ -224,7 +224,7 @@ public:
 private:
     const Rig& rig_;
     Seen seen_;
-    const ClothRoom& cloth_;
+    const ClearanceField& cloth_;
     TypeGuess guess_;
     GarmentCues cues_;
     JointLimits limits_;
@@ -311,7 +311,7 @@ Tried best_way_up(const Rig& rig, const TriangleMesh& outward, GarmentType given
 
 }  // namespace
 
-Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment)
+Skeleton retract_tips(const Skeleton& joints, const GarmentMesh& garment)
 {
     const TriangleTree cloth({ garment.positions, garment.triangles });
     Skeleton result = joints;

@@ -68,7 +68,7 @@ FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMes
 {
     const TriangleMesh outward = outward_cloth(garment);
     const std::vector<Opening> openings = openings_of(outward);
-    const TypeGuess guess = resolved_type(options.type, openings);
+    const TypeGuess guess = resolve_type(options.type, openings);
     FitResult result;
     result.type = guess.type;
     result.type_margin = guess.margin;
@@ -82,8 +82,8 @@ FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMes
     result.scores_before = scores(*metric, placed(rig.skeleton, relaxation.start), result.covered);
     const PlacedBones bones = placed(rig.skeleton, found.posture);
     result.scores = scores(*metric, bones, result.covered);
-    const ClothRoom cloth(outward);
-    result.room = BoneMetric(cloth, figure_of(rig, result.covered)).shares_of_room(bones.joints);
+    const ClearanceField cloth(outward);
+    result.clearance = BoneMetric(cloth, figure_of(rig, result.covered)).clearance_shares(bones.joints);
     return result;
 }
 
@@ -105,7 +105,7 @@ std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, co
                                             const std::vector<Bone>& covered)
 {
     const PaperMetric metric(garment, covered, NearestSearch::kd_tree);
-    const Skeleton joints = posed(rig.skeleton, pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, pose);
     std::array<double, bone_count> result {};
     for (const Bone b : covered)
         result[b] = metric.of_bone(b, joints);

@@ -48,7 +48,7 @@ bool may_stick(Extremity extremity) { return extremity != head_top; }
 Vec3 reflected(const Vec3& direction, const Vec3& axis) { return direction - 2 * direction.dot(axis) * axis; }
 
 // One point, the mean, for each cell that has cloth.
-Eigen::ArrayX3f spread_points(const ClothRoom& cloth, double cells)
+Eigen::ArrayX3f spread_points(const ClearanceField& cloth, double cells)
 {
     const double cell = (cloth.high() - cloth.low()).maxCoeff() / cells;
     std::map<std::tuple<int, int, int>, std::pair<Vec3, int>> sums;
@@ -306,7 +306,7 @@ Posture SkeletonSearch::at_ease(const Vec3& root, const Eigen::Quaterniond& turn
     return posture;
 }
 
-std::vector<Place> SkeletonSearch::trunk_places(const RoomPyramid& room, const Posture& posture, double spacing,
+std::vector<Place> SkeletonSearch::trunk_places(const MinMaxPyramid& clearance, const Posture& posture, double spacing,
                                                 double apart, std::size_t count) const
 {
     Posture at_origin = posture;
@@ -316,10 +316,10 @@ std::vector<Place> SkeletonSearch::trunk_places(const RoomPyramid& room, const P
     for (const int b : k_placed)
         for (int i = 0; i < k_samples && metric_.figure().covered[b]; i += 2)  // both ends and the middle tell enough
             samples.push_back({ bone_sample(joints.head(b), joints.tail(b), i), metric_.figure().radii[b] });
-    const ClothRoom& cloth = metric_.cloth();
+    const ClearanceField& cloth = metric_.cloth();
     const double hem
         = hangs_from_shoulders_ ? (joints.tail(thorax) - joints.root).norm() : 0;  // its root may lie below
-    return RoomSearch(room, samples, sag() * Vec3::UnitY(), between_legs())
+    return ClearanceSearch(clearance, samples, sag() * Vec3::UnitY(), between_legs())
         .best(cloth.low() - 1.2 * hem * Vec3::UnitY(), cloth.high(), spacing, apart, count);
 }
 

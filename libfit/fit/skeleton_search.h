@@ -11,7 +11,7 @@
 #include "type_guess.h"
 #include "joint_limits.h"
 #include "posture.h"
-#include "room_search.h"
+#include "clearance_search.h"
 
 namespace garmentfit {
 
@@ -76,7 +76,7 @@ public:
     double total(const Posture& posture) const { return energy(posture) - crossing_cost(posture); }
 
     /// Where the trunk has the most room as this posture holds and turns it; its root counts for nothing.
-    std::vector<Place> trunk_places(const RoomPyramid& room, const Posture& posture, double spacing, double apart,
+    std::vector<Place> trunk_places(const MinMaxPyramid& clearance, const Posture& posture, double spacing, double apart,
                                     std::size_t count) const;
 
     /// The best chain of the limb's two bones; the present posture when all of them pass through cloth.

@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "buckets.h"
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "parallel.h"
 
 namespace garmentfit {
@@ -56,7 +56,7 @@ Ring border_edges(const TriangleMesh& mesh)
 // Edges that hang together, in the order of their first one.
 std::vector<Ring> rings_of(const Ring& border, int vertices)
 {
-    JoinedVertices joined(vertices);
+    DisjointSets joined(vertices);
     for (const auto& [a, b] : border)
         joined.join(a, b);
     std::vector<int> ring_at(vertices, -1);
@@ -237,7 +237,7 @@ void measure_tube(Opening& opening, const std::vector<Slice>& slices, double wid
 
 std::vector<int> pieces_of(const TriangleMesh& mesh)
 {
-    JoinedVertices joined(int(mesh.positions.rows()));
+    DisjointSets joined(int(mesh.positions.rows()));
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         for (int k = 1; k < 3; ++k)
             joined.join(mesh.triangles(f, k), mesh.triangles(f, 0));

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
 
@@ -135,7 +135,7 @@ std::vector<int> without_crumbs(const std::vector<int>& faces, const std::vector
     std::vector<char> is_kept(areas.size(), 0);
     for (const int f : faces)
         is_kept[f] = 1;
-    JoinedVertices joined { int(areas.size()) };
+    DisjointSets joined { int(areas.size()) };
     for (const int f : faces)
         for (int e = 3 * f; e < 3 * f + 3; ++e)
             if (opposite[e] >= 0 && is_kept[opposite[e] / 3])

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "buckets.h"
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "outer_sheet.h"
 #include "parallel.h"
 #include "winding_number.h"
@@ -162,7 +162,7 @@ Patch patch_from(int seed, Triangles& triangles, const std::vector<int>& opposit
 
 double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6; }
 
-void measure(Patch& patch, const TriangleMesh& cloth, JoinedVertices& rings)
+void measure(Patch& patch, const TriangleMesh& cloth, DisjointSets& rings)
 {
     const Vec3 origin = cloth.positions.row(cloth.triangles(patch.faces[0], 0));
     const auto at = [&](int v) { return Vec3(Vec3(cloth.positions.row(v)) - origin); };
@@ -277,7 +277,7 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     cloth.triangles = distinct_faces(cloth.triangles, vertices);
     const std::vector<int> opposite = opposite_edges(cloth.triangles, vertices);
     std::vector<bool> seen(cloth.triangles.rows(), false);
-    JoinedVertices rings(vertices);
+    DisjointSets rings(vertices);
     std::vector<Patch> patches;
     for (int seed = 0; seed < int(seen.size()); ++seed)
         if (!seen[seed]) {

@@ -336,7 +336,7 @@ double uprightness(const std::vector<Opening>& openings)
     return height > 0 ? result / height : 0;
 }
 
-TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings)
+TypeGuess resolve_type(GarmentType given, const std::vector<Opening>& openings)
 {
     if (given != GarmentType::automatic)
         return { given, 1 };

@@ -11,7 +11,7 @@ namespace garmentfit {
 /// As guess_garment_type, from its openings.
 TypeGuess guess_type(const std::vector<Opening>& openings);
 /// The given type, or for `automatic` the one that is found. @throws InvalidInput when there is none.
-TypeGuess resolved_type(GarmentType given, const std::vector<Opening>& openings);
+TypeGuess resolve_type(GarmentType given, const std::vector<Opening>& openings);
 
 /// How clearly the openings say that the garment hangs upright: 0 (not at all) to 1.
 double uprightness(const std::vector<Opening>& openings);

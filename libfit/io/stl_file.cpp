@@ -18,7 +18,7 @@ namespace {
 /// STL repeats a vertex in every facet; equal ones become one again.
 class Weld {
 public:
-    /// Room for about as many vertices as a closed surface of so many facets has.
+    /// Clearance for about as many vertices as a closed surface of so many facets has.
     void expect_facets(std::size_t facets) { rows_.reserve(facets / 2 + 2); }
 
     int row_of(const Vec3& position)

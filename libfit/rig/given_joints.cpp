@@ -56,7 +56,7 @@ bool GivenJoints::complete() const
     return root && std::all_of(tails.begin(), tails.end(), [](const auto& tail) { return tail.has_value(); });
 }
 
-Skeleton corrected(const Skeleton& found, const GivenJoints& given) { return Correction(found, given)(); }
+Skeleton correct(const Skeleton& found, const GivenJoints& given) { return Correction(found, given)(); }
 
 Skeleton skeleton_of(const GivenJoints& given)
 {

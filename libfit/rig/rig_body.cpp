@@ -10,8 +10,8 @@
 #include "heat_weights.h"
 #include "joint_labels.h"
 #include "proxy_surface.h"
-#include "rig_gates.h"
-#include "side_vote.h"
+#include "rig_validation.h"
+#include "side_classification.h"
 #include "skin_transfer.h"
 
 namespace garmentfit {
@@ -111,14 +111,14 @@ FoundBones found_bones(const TriangleMesh& proxy, const RigOptions& options, con
     const CurveSkeleton curves = curve_skeleton(proxy, progress);
     const BodyGraph graph = body_graph(curves);
     const BodyJoints joints = joint_labels(proxy, curves, graph);
-    Sides sides = side_vote(joints, options.front);
+    Sides sides = side_classification(joints, options.front);
     if (options.swap_sides) {
         sides.left_arm = 1 - sides.left_arm;
         sides.left_leg = 1 - sides.left_leg;
         sides.front = -sides.front;
     }
     FoundBones found { {}, visible_bones(curves, graph, sides) };
-    found.rig.skeleton = corrected(skeleton_of(joints, sides), options.joints);
+    found.rig.skeleton = correct(skeleton_of(joints, sides), options.joints);
     found.rig.up = sides.up;
     found.rig.front = sides.front;
     found.rig.side_margin = sides.margin;
@@ -148,7 +148,7 @@ Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, 
     check_rig(proxy, rig.skeleton);
     const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible);
     progress.at(0.9);
-    rig.weights = transferred(proxy, weights, body);
+    rig.weights = transfer_skin_weights(proxy, weights, body);
     rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
     progress.at(1);
     return rig;

@@ -75,7 +75,7 @@ Pose pose_of(const Skeleton& own, const Posture& posture)
 
 Posture posture_of(const Skeleton& own, const Pose& pose)
 {
-    const Skeleton joints = posed(own, pose);
+    const Skeleton joints = pose_skeleton(own, pose);
     Posture posture { joints.root, pose.root_rotation, {} };
     for (int b = 0; b < bone_count; ++b)
         posture.directions[b] = joints.direction(b);

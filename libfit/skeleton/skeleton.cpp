@@ -94,7 +94,7 @@ BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose)
     return transforms;
 }
 
-Skeleton posed(const Skeleton& own, const Pose& pose)
+Skeleton pose_skeleton(const Skeleton& own, const Pose& pose)
 {
     const auto transforms = bone_transforms(own, pose);
     Skeleton result = own;

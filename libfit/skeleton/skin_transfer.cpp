@@ -6,7 +6,7 @@
 
 #include <flann/flann.hpp>
 
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "loose_vertices.h"
 #include "nearest.h"
 #include "parallel.h"
@@ -133,7 +133,7 @@ void for_each_edge(const Triangles& triangles, Visit&& visit)
 std::vector<bool> cut_off(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
 {
     const int n = int(bone_of_vertex.size());
-    JoinedVertices parts(n), surfaces(n);
+    DisjointSets parts(n), surfaces(n);
     for_each_edge(triangles, [&](int a, int b) {
         surfaces.join(a, b);
         if (steps_between(bone_of_vertex[a], bone_of_vertex[b]) < k_far_bones)
@@ -171,7 +171,7 @@ BlendedWeights weights_on(const std::array<bool, bone_count>& bones, const std::
 std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
 {
     const std::vector<bool> stray = cut_off(triangles, bone_of_vertex);
-    JoinedVertices joined(int(bone_of_vertex.size()));
+    DisjointSets joined(int(bone_of_vertex.size()));
     for_each_edge(triangles, [&](int a, int b) {
         if (stray[a] && stray[b])
             joined.join(a, b);
@@ -193,7 +193,7 @@ std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vec
     return result;
 }
 
-SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to)
+SkinWeights transfer_skin_weights(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to)
 {
     const double normal_length
         = k_normal_weight * (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();

@@ -13,7 +13,7 @@ namespace garmentfit {
 /// Carries weights (n x 17) to the body's own vertices by the nearest points that face the same way, and keeps the four largest of each row.
 /// Where fingers touch other skin the nearest point may belong to that: skin which hangs on a bone far along the skeleton from what its
 /// neighbours hang on is carried anew, from points that suit the neighbours.
-SkinWeights transferred(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to);
+SkinWeights transfer_skin_weights(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to);
 
 /// Skin that hangs on other bones than all the skin around it, and no way along the skeleton leads there.
 struct StrayPatch {

@@ -78,7 +78,7 @@ void put_certificate(Json& json, const WornGarment& garment, double metres_per_u
                           { "layers", c.layer_crossings } };
     json["self_kept"] = pairs_of(c.kept_self_crossings, garment.rest.triangles);
     json["vertices_inside"] = c.vertices_inside;
-    json["smallest_gap"] = c.smallest_gap / metres_per_unit;
+    json["min_distance"] = c.min_distance / metres_per_unit;
     json["slipped"] = garment.slipped / metres_per_unit;
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
 }
@@ -117,7 +117,7 @@ Json overstretched_of(const Overstretch& stretch)
 /// What the garments were taken to be made of, SI units.
 Json cloth_of(const Call& call)
 {
-    const ClothOptions cloth = made_of_fabric(call.filter->cloth(call.parameters));
+    const ClothOptions cloth = apply_fabric(call.filter->cloth(call.parameters));
     return { { "fabric", fabric_names()[static_cast<int>(cloth.fabric)] },
              { "density", cloth.density },
              { "stretch_stiffness", cloth.stretch_stiffness },
@@ -152,7 +152,7 @@ void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eig
     for (const Bone bone : fit.covered)
         bones[std::string(bone_name(bone))] = { { "before", fit.scores_before[bone] / metres_per_unit },
                                                 { "after", fit.scores[bone] / metres_per_unit },
-                                                { "room", fit.room[bone] } };
+                                                { "clearance", fit.clearance[bone] } };
     json["score"] = { { "before", fit.score_before / metres_per_unit },
                       { "after", fit.score_after / metres_per_unit },
                       { "bones", bones } };

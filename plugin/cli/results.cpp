@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/animated_gltf.h"
@@ -196,7 +196,7 @@ bool was_read(const Session& session, const fs::path& path)
         || std::any_of(session.garments.begin(), session.garments.end(), [&](const auto& g) { return is(g.path); });
 }
 
-// ---- doubts ----------------------------------------------------------------------------------------------------
+// ---- warnings ----------------------------------------------------------------------------------------------------
 
 /// "give --swap-sides" for "swap_sides".
 std::string give_flag(std::string_view parameter)
@@ -210,13 +210,13 @@ std::string give_flag(std::string_view parameter)
 
 void add_doubts(Session& session)
 {
-    const auto add = [&](const std::vector<std::string>& doubts) {
-        session.warnings.insert(session.warnings.end(), doubts.begin(), doubts.end());
+    const auto add = [&](const std::vector<std::string>& warnings) {
+        session.warnings.insert(session.warnings.end(), warnings.begin(), warnings.end());
     };
-    add(doubts_about_frame(session.body.path.filename().string(), session.body.frame, "", give_flag));
+    add(warnings_about_frame(session.body.path.filename().string(), session.body.frame, "", give_flag));
     for (const GarmentFile& garment : session.garments)
-        add(doubts_about_frame(garment.name(), garment.frame, "garment_", give_flag));
-    add(doubts_about_scene(session.scene, session.garment_names(), give_flag));
+        add(warnings_about_frame(garment.name(), garment.frame, "garment_", give_flag));
+    add(warnings_about_scene(session.scene, session.garment_names(), give_flag));
 }
 
 std::vector<std::string> outdated_results(const Session& session, std::string_view command, const fs::path& folder)

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "garmentfit/filters/moment.h"
-#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/snapshot.h"
+#include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/error.h"
 #include "garmentfit/reconstruct.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <mutex>
 
-#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/given_rig.h"
 
 namespace garmentfit::meshlab {
 namespace {

@@ -4,14 +4,14 @@
 #include <iomanip>
 #include <sstream>
 
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
 
 namespace garmentfit::meshlab {
 
-void Report::warn(const std::vector<std::string>& doubts)
+void Report::warn(const std::vector<std::string>& warnings)
 {
-    warnings.insert(warnings.end(), doubts.begin(), doubts.end());
+    warnings.insert(warnings.end(), warnings.begin(), warnings.end());
 }
 
 std::string set_field(std::string_view parameter) { return "set " + std::string(parameter); }
@@ -19,7 +19,7 @@ std::string set_field(std::string_view parameter) { return "set " + std::string(
 void report_scene(Report& report, const Fitting& fitting)
 {
     const Scene& scene = fitting.scene;
-    report.warn(doubts_about_scene(scene, fitting.garment_names, set_field));
+    report.warn(warnings_about_scene(scene, fitting.garment_names, set_field));
     report.numbers["side_margin"] = scene.rig->side_margin;
     const Dressing* end = final_dressing(scene);
     for (std::size_t i = 0; i < scene.fits.size(); ++i) {
@@ -31,7 +31,7 @@ void report_scene(Report& report, const Fitting& fitting)
     if (!end)
         return;
     const Certificate& outermost = end->garments[end->outermost].certificate;
-    report.numbers["smallest_gap"] = outermost.smallest_gap / fitting.body_frame.metres_per_unit;
+    report.numbers["min_distance"] = outermost.min_distance / fitting.body_frame.metres_per_unit;
     report.numbers["strain_p95"] = outermost.strain.p95;
 }
 

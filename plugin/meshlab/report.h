@@ -17,10 +17,10 @@ struct Report {
     std::vector<std::string> lines, warnings;
     std::map<std::string, double> numbers;  ///< for scripts; lengths in the body's unit
 
-    void warn(const std::vector<std::string>& doubts);
+    void warn(const std::vector<std::string>& warnings);
 };
 
-/// "set swap_sides", for doubts.
+/// "set swap_sides", for warnings.
 std::string set_field(std::string_view parameter);
 
 /// How fitting or dressing ended.

@@ -84,7 +84,7 @@ private:
             const std::string in_pose = " in the pose of " + fitting_->garment_names[i];
             add_body(fitting_->body_name + in_pose,
                      skin(scene().body->surface.positions, rig.weights, bone_transforms(rig.skeleton, pose)));
-            add_bones(fitting_->body_name + " skeleton" + in_pose, posed(rig.skeleton, pose));
+            add_bones(fitting_->body_name + " skeleton" + in_pose, pose_skeleton(rig.skeleton, pose));
         }
     }
 

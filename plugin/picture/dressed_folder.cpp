@@ -66,7 +66,7 @@ std::string verdict_of(const Json& report, const Frame& frame)
         return "NOT certified: " + report.value("note", "");
     double gap = 1, strain = 0;
     for (const Json& garment : report.at("garments")) {
-        gap = std::min(gap, garment.at("smallest_gap").get<double>() * frame.metres_per_unit);
+        gap = std::min(gap, garment.at("min_distance").get<double>() * frame.metres_per_unit);
         strain = std::max(strain, garment.at("strain").at("p95").get<double>());
     }
     std::ostringstream text;
@@ -122,7 +122,7 @@ std::vector<ShownBone> fitted_bones(const Json& joints, const Json& scores, cons
     for (const auto& [name, ends] : joints.items()) {
         bones.push_back(bone_between(ends, frame));
         if (scores.contains(name))
-            bones.back().value = 100 * scores.at(name).at("room").get<double>();
+            bones.back().value = 100 * scores.at(name).at("clearance").get<double>();
     }
     return bones;
 }

@@ -90,7 +90,7 @@ void bind_mesh_file(nb::module_& m)
 
 void bind_moment(nb::module_& m)
 {
-    nb::class_<PythonMoment>(m, "Moment", "A scene at one time of its way back to the body's own pose")
+    nb::class_<PythonMoment>(m, "Snapshot", "A scene at one time of its way back to the body's own pose")
         .def("body", &PythonMoment::body)
         .def("joints", &PythonMoment::joints)
         .def("garment", &PythonMoment::garment, "garment"_a)

@@ -3,7 +3,7 @@
 
 #include <nanobind/stl/string.h>
 
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
 
 namespace garmentfit::python {
@@ -23,7 +23,7 @@ nb::dict certificate_of(const Certificate& c, double metres_per_unit)
     made["kept_self_crossings"] = c.kept_self_crossings.size();
     made["layer_crossings"] = c.layer_crossings;
     made["vertices_inside"] = c.vertices_inside;
-    made["smallest_gap"] = c.smallest_gap / metres_per_unit;
+    made["min_distance"] = c.min_distance / metres_per_unit;
     made["strain_median"] = c.strain.median;
     made["strain_p95"] = c.strain.p95;
     made["strain_max"] = c.strain.max;
@@ -69,7 +69,7 @@ nb::dict garment_of(const PythonScene& s, std::size_t i)
 }  // namespace
 
 PythonMoment::PythonMoment(const PythonScene& scene, double share) :
-    scene_(scene), now_(moment_of(scene.scene, share, scene.cloth))
+    scene_(scene), now_(snapshot_of(scene.scene, share, scene.cloth))
 {
 }
 
@@ -77,7 +77,7 @@ nb::object PythonMoment::body() const { return in_body_units(scene_, now_.body);
 
 nb::object PythonMoment::joints() const
 {
-    return in_body_units(scene_, rows_of(posed(scene_.rig().skeleton, now_.pose)));
+    return in_body_units(scene_, rows_of(pose_skeleton(scene_.rig().skeleton, now_.pose)));
 }
 
 nb::object PythonMoment::garment(std::size_t i) const { return in_body_units(scene_, now_.garments.at(i)); }
@@ -147,9 +147,9 @@ nb::dict verdict_of(const PythonScene& s)
     made["note"] = end.certified ? std::string() : explain(end, s.names);
     nb::list warnings;
     const auto set = [](std::string_view parameter) { return "set " + std::string(parameter); };
-    for (const std::string& warning : doubts_about_layers(s.scene, s.names, set))
+    for (const std::string& warning : warnings_about_layers(s.scene, s.names, set))
         warnings.append(nb::str(warning.c_str()));
-    for (const std::string& warning : doubts_about_dressing(end, s.names))
+    for (const std::string& warning : warnings_about_dressing(end, s.names))
         warnings.append(nb::str(warning.c_str()));
     made["warnings"] = warnings;
     nb::list held;

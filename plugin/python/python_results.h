@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 #include "python_scene.h"
 
 namespace garmentfit::python {
@@ -27,7 +27,7 @@ public:
 
 private:
     const PythonScene& scene_;
-    Moment now_;
+    Snapshot now_;
 };
 
 /// [{name, positions, triangles, certificate: {...}, ease, strain, pressure, girths: [...], too_tight: [...]}, ...]

@@ -5,7 +5,7 @@
 
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/joint_names.h"
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/error.h"
 

@@ -367,7 +367,7 @@ TEST_F(CommandLine, FitsSkirtAndCoatInOnePose)
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_TRUE(report.at("one_pose").get<bool>());
     EXPECT_TRUE(report.at("conflicts").empty());
-    const auto room = report.at("garments").at(1).at("score").at("bones").at("lhumerus").at("room").get<double>();
+    const auto room = report.at("garments").at(1).at("score").at("bones").at("lhumerus").at("clearance").get<double>();
     EXPECT_TRUE(room > 0.5 && room <= 1) << room;
     const auto garments = nlohmann::json::parse(read_text(folder / "fitted/rig.json")).at("garments");
     EXPECT_EQ(garments.at(0).at("pose").at("rotations"), garments.at(1).at("pose").at("rotations"));
@@ -531,7 +531,7 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     const auto& crossings = report.at("garments").at(0).at("crossings");
     EXPECT_EQ(crossings.at("body"), 0);
     EXPECT_EQ(crossings.at("self"), 0);
-    EXPECT_GT(report.at("garments").at(0).at("smallest_gap").get<double>(), 0);
+    EXPECT_GT(report.at("garments").at(0).at("min_distance").get<double>(), 0);
 
     const auto body = garmentfit::MeshFile::read(k_body), came_back = garmentfit::MeshFile::read(dressed / "body.ply");
     EXPECT_EQ(came_back.positions(), body.positions()) << "the body moved";

@@ -58,8 +58,8 @@ TEST(Certificate, FindsAGarmentThatLiesInsideTheBodyWithoutCrossingIt)
     EXPECT_EQ(bad.vertices_inside, inner.positions.rows());
     EXPECT_FALSE(bad.clean());
     EXPECT_TRUE(good.clean());
-    EXPECT_GT(good.smallest_gap, 0.02);  // the balls are polyhedra
-    EXPECT_LT(good.smallest_gap, 0.05);
+    EXPECT_GT(good.min_distance, 0.02);  // the balls are polyhedra
+    EXPECT_LT(good.min_distance, 0.05);
 }
 
 TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)

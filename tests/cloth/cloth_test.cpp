@@ -13,7 +13,7 @@ TEST(Cloth, OfEveryFabricHasFiguresOfItsOwn)
     for (int i = 0; i < 5; ++i) {
         ClothOptions options;
         options.fabric = Fabric(i);
-        const ClothOptions made = made_of_fabric(options);
+        const ClothOptions made = apply_fabric(options);
         EXPECT_GT(made.density, 0) << fabric_names()[i];
         EXPECT_EQ(made.density == ClothOptions().density, Fabric(i) == Fabric::cotton) << fabric_names()[i];
     }
@@ -21,7 +21,7 @@ TEST(Cloth, OfEveryFabricHasFiguresOfItsOwn)
 
 TEST(Cloth, OfCottonIsTheDefault)
 {
-    const ClothOptions made = made_of_fabric({});
+    const ClothOptions made = apply_fabric({});
     EXPECT_EQ(made.density, ClothOptions().density);
     EXPECT_EQ(made.stretch_stiffness, ClothOptions().stretch_stiffness);
     EXPECT_EQ(made.bend_stiffness, ClothOptions().bend_stiffness);
@@ -33,7 +33,7 @@ TEST(Cloth, KeepsWhatTheUserSet)
     ClothOptions options;
     options.fabric = Fabric::denim;
     options.density = 0.33;
-    const ClothOptions made = made_of_fabric(options);
+    const ClothOptions made = apply_fabric(options);
     EXPECT_EQ(made.density, 0.33);
     EXPECT_GT(made.bend_stiffness, 2 * ClothOptions().bend_stiffness);
 }

@@ -27,14 +27,14 @@ TEST(Untangle, LeavesClothThatDoesNotCrossItselfAsItIs)
 {
     const TriangleMesh apart = dipping(-0.002);
     ASSERT_TRUE(self_crossings(apart).empty());
-    EXPECT_EQ(untangled(apart).positions, apart.positions);
+    EXPECT_EQ(untangle(apart).positions, apart.positions);
 }
 
 TEST(Untangle, PartsASheetThatDipsThroughAnother)
 {
     const TriangleMesh tangled = dipping(0.006);
     ASSERT_FALSE(self_crossings(tangled).empty());
-    EXPECT_TRUE(self_crossings({ untangled(tangled).positions, tangled.triangles }).empty());
+    EXPECT_TRUE(self_crossings({ untangle(tangled).positions, tangled.triangles }).empty());
 }
 
 TEST(Untangle, PartsACornerThatSticksThroughASheet)
@@ -44,13 +44,13 @@ TEST(Untangle, PartsACornerThatSticksThroughASheet)
     corner.positions.col(2).array() += 0.0537;
     const TriangleMesh tangled = joined(sheet([](double, double) { return 0; }), corner);
     ASSERT_FALSE(self_crossings(tangled).empty());
-    EXPECT_TRUE(self_crossings({ untangled(tangled).positions, tangled.triangles }).empty());
+    EXPECT_TRUE(self_crossings({ untangle(tangled).positions, tangled.triangles }).empty());
 }
 
 TEST(Untangle, MovesNothingFarFromATangle)
 {
     const TriangleMesh tangled = dipping(0.003);
-    const Positions result = untangled(tangled).positions;
+    const Positions result = untangle(tangled).positions;
     for (Eigen::Index v = 0; v < result.rows(); ++v)
         if (std::hypot(tangled.positions(v, 0) - 0.103, tangled.positions(v, 2) - 0.097) > 0.1) {
             EXPECT_EQ(result.row(v), tangled.positions.row(v));
@@ -68,7 +68,7 @@ TEST(Untangle, LeavesWhatDoesNotComeApartAsGivenAndPartsTheRest)
     TriangleMesh dip = dipping(0.004);
     dip.positions.col(1).array() += 1;
     const TriangleMesh both = joined(rings, dip);
-    const Positions result = untangled(both).positions;
+    const Positions result = untangle(both).positions;
     const Eigen::Index first = rings.positions.rows();
     EXPECT_EQ(result.topRows(first), rings.positions);
     EXPECT_TRUE(self_crossings({ result.bottomRows(result.rows() - first), dip.triangles }).empty());
@@ -79,7 +79,7 @@ TEST(Untangle, GoesTheSameWayInAnyFrame)
     const TriangleMesh tangled = dipping(0.006);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     const Positions moved = tangled.positions * turn.transpose();
-    EXPECT_LT((untangled({ moved, tangled.triangles }).positions - untangled(tangled).positions * turn.transpose())
+    EXPECT_LT((untangle({ moved, tangled.triangles }).positions - untangle(tangled).positions * turn.transpose())
                   .rowwise()
                   .norm()
                   .maxCoeff(),

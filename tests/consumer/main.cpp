@@ -6,6 +6,6 @@
 
 int main()
 {
-    const garmentfit::Skeleton at_rest = garmentfit::posed(garmentfit::Skeleton(), garmentfit::Pose());
+    const garmentfit::Skeleton at_rest = garmentfit::pose_skeleton(garmentfit::Skeleton(), garmentfit::Pose());
     return garmentfit::bone_of("lfemur") == garmentfit::lfemur && at_rest.root.isZero() ? 0 : 1;
 }

@@ -60,7 +60,7 @@ TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
     EXPECT_TRUE(result.too_tight.empty());
     EXPECT_EQ(result.body, d.body.surface.positions);
     ASSERT_EQ(result.garments.size(), 1u);
-    EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
+    EXPECT_GT(result.garments[0].certificate.min_distance, 0);
     EXPECT_EQ(result.garments[0].rest.positions, garment.positions);
     EXPECT_LT(result.garments[0].certificate.strain.p95, 0.05);
 }
@@ -200,7 +200,7 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.pose_reached, 1);
     EXPECT_EQ(result.body, d.body.surface.positions);
-    EXPECT_GT(result.garments[0].certificate.smallest_gap, 0);
+    EXPECT_GT(result.garments[0].certificate.min_distance, 0);
     EXPECT_LT(result.garments[0].certificate.strain.p95, 0.15);
     EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
     ASSERT_EQ(result.frames.size(), 5u);

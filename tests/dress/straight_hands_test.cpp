@@ -36,7 +36,7 @@ struct HangingHands : testing::Test {
     /// A sleeve round the left forearm, longer than the hand, in the turned pose.
     GarmentMesh sleeve(double radius) const
     {
-        return sleeve_round(garmentfit::posed(rig.skeleton, turned), lradius, radius, 0.05, 0.5);
+        return sleeve_round(garmentfit::pose_skeleton(rig.skeleton, turned), lradius, radius, 0.05, 0.5);
     }
 
     Positions own;

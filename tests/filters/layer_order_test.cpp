@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/filters/outcome.h"
 #include "fixtures.h"
@@ -46,7 +46,7 @@ std::vector<int> found(const std::vector<double>& eases)
     std::vector<GarmentMesh> meshes;
     for (const GarmentInput& garment : garments)
         meshes.push_back(garment.mesh);
-    return found_layers(*scene.rig, scene.body->surface.positions, meshes, scene.fits);
+    return order_layers(*scene.rig, scene.body->surface.positions, meshes, scene.fits);
 }
 
 Parameters short_settling()
@@ -73,7 +73,7 @@ TEST(LayerOrder, ACoatGoesOverAShirtThatIsWider)
     const auto found = [&](GarmentType first, GarmentType second) {
         scene.fits[0].type = first;
         scene.fits[1].type = second;
-        return found_layers(*scene.rig, scene.body->surface.positions,
+        return order_layers(*scene.rig, scene.body->surface.positions,
                             { scene.garments[0].mesh, scene.garments[1].mesh }, scene.fits);
     };
     EXPECT_EQ(found(GarmentType::coat, GarmentType::blouse), (std::vector<int> { 1, 0 }));
@@ -89,15 +89,15 @@ TEST(LayerOrder, FittingFindsItWhereAskedToAndElseOnlyWarns)
     EXPECT_EQ(scene.fits[1].layer, 1);
     const HowToSet set = [](std::string_view parameter) { return "set " + std::string(parameter); };
     const auto warns = [&] {
-        const std::vector<std::string> doubts = doubts_about_scene(scene, k_names, set);
-        return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
-            return doubt.find("from the inside out: second, first; give them in that, or set layer_order found")
+        const std::vector<std::string> warnings = warnings_about_scene(scene, k_names, set);
+        return std::any_of(warnings.begin(), warnings.end(), [](const std::string& doubt) {
+            return doubt.find("from the inside out: second, first; give them in that, or set layer_order auto")
                 != std::string::npos;
         });
     };
     EXPECT_TRUE(warns());
     Parameters parameters;
-    parameters.layer_order = LayerOrder::found;
+    parameters.layer_order = LayerOrder::automatic;
     filter_of("fit").run(scene, parameters);
     EXPECT_EQ(scene.fits[0].layer, 1);
     EXPECT_EQ(scene.fits[1].layer, 0);

@@ -77,7 +77,7 @@ TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoRoom)
 TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)
 {
     WornGarment garment = clean_garment();
-    garment.certificate.smallest_gap = 1e-3;
+    garment.certificate.min_distance = 1e-3;
     EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
               "coat (coat): 0 crossings, smallest gap 1 mm, strain 0% at the 95th percentile");
     garment.certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };

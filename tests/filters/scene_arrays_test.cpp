@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/given_rig.h"
 #include "fixtures.h"
 
 namespace garmentfit {

@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "cloth_room.h"
+#include "clearance_field.h"
 #include "crossing_tree.h"
 #include "nearest.h"
 #include "paper_climb.h"
 #include "baselines/paper_metric.h"
 #include "baselines/relaxation.h"
-#include "room_search.h"
+#include "clearance_search.h"
 #include "baselines/surface_metric.h"
 #include "vertex_tree.h"
 #include "garmentfit/error.h"
@@ -96,11 +96,11 @@ protected:
         = GetParam() == 0 ? TriangleMesh { tube(0.3).positions, tube(0.3).triangles } : random_cloth(GetParam());
     const Vec3 low = cloth.positions.colwise().minCoeff(), high = cloth.positions.colwise().maxCoeff();
     const ClothTree tree { cloth_patches(cloth, 0.015) };
-    const RoomPyramid room { tree, low, high };
+    const MinMaxPyramid room { tree, low, high };
     const std::vector<RoomSample> samples { { Vec3(0, 0, 0), 0.1 },
                                             { Vec3(0, 0.2, 0), 0.12 },
                                             { Vec3(0.15, 0.2, 0), 0.05 } };
-    const RoomSearch search { room, samples, Vec3(0, 1.5, 0) };
+    const ClearanceSearch search { room, samples, Vec3(0, 1.5, 0) };
 };
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCloth, testing::Range(0u, 12u));
 
@@ -162,7 +162,7 @@ TEST_P(RandomCloth, BranchAndBoundFindsWhatTryingAllFinds)
 TEST_P(RandomCloth, DistanceIsGoodToTheSizeOfAPatch)
 {
     const TriangleTree exact(cloth);
-    const ClothRoom grid(cloth);
+    const ClearanceField grid(cloth);
     const Positions numbers = random_points(200, 200 + GetParam());
     for (Eigen::Index q = 0; q < numbers.rows(); ++q) {
         const Vec3 place = 0.5 * (low + high) + 0.5 * (high - low).cwiseProduct(Vec3(numbers.row(q)));

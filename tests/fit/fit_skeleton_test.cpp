@@ -216,7 +216,7 @@ TEST(FitSkeleton, ABodyOffsetAsGarmentGivesTheRestPose)
     const PersonOptions own { .arm_angle = 45 };
     const Rig rig = rig_of(own);
     const FitResult result = fit_skeleton(rig, jumpsuit(own, 0.01), { .type = GarmentType::jumpsuit });
-    EXPECT_LT(largest_difference(posed(rig.skeleton, result.pose), rig.skeleton), 0.05);
+    EXPECT_LT(largest_difference(pose_skeleton(rig.skeleton, result.pose), rig.skeleton), 0.05);
     EXPECT_GT(result.score_after, result.score_before);
 }
 
@@ -226,7 +226,7 @@ TEST(FitSkeleton, ArmsGoIntoTheSleevesAndHandsOutOfTheCuffs)
     const Rig rig = rig_of(own);
     const GarmentMesh garment = shirt(made_on, 1.9);
     const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::longsleeve });
-    const Skeleton joints = posed(rig.skeleton, result.pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     expect_directions(joints, person_skeleton(made_on), { lhumerus, lradius, rhumerus, rradius }, 12);
     EXPECT_GT(joints.tail(lradius).x(), 0.5) << "the left arm is in the left sleeve";
     expect_clear(joints, garment);
@@ -237,7 +237,7 @@ TEST(FitSkeleton, ASittingBodyStandsUpInTrousers)
     const Rig rig = rig_of({ .arm_angle = 60, .knee_angle = 85, .hip_angle = 85 });
     const GarmentMesh garment = trousers();
     const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::trousers });
-    const Skeleton joints = posed(rig.skeleton, result.pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     expect_directions(joints, person_skeleton({}), { lfemur, ltibia, rfemur, rtibia }, 12);
     expect_clear(joints, garment);
 }
@@ -247,7 +247,7 @@ TEST(FitSkeleton, ThighsOfASittingBodyLeaveAShirtThroughItsHem)
     const Rig rig = rig_of({ .arm_angle = 60, .knee_angle = 85, .hip_angle = 85 });
     const GarmentMesh garment = shirt({ .arm_angle = 45 }, 0.6);
     const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::tshirt });
-    expect_clear(posed(rig.skeleton, result.pose), garment);
+    expect_clear(pose_skeleton(rig.skeleton, result.pose), garment);
 }
 
 TEST(FitSkeleton, BareForearmsStayAsTheBodyHeldThem)
@@ -255,7 +255,7 @@ TEST(FitSkeleton, BareForearmsStayAsTheBodyHeldThem)
     const PersonOptions own { .arm_angle = 45, .elbow_angle = 60 };
     const Rig rig = rig_of(own);
     const FitResult result = fit_skeleton(rig, shirt(own, 0.6), { .type = GarmentType::tshirt });
-    const Skeleton joints = posed(rig.skeleton, result.pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     for (const int b : { lradius, rradius })
         EXPECT_NEAR(angle(joints.direction(b), joints.direction(parent_of(b))), 60, 10);
     EXPECT_EQ(std::count(result.covered.begin(), result.covered.end(), lradius), 0);
@@ -269,7 +269,7 @@ TEST(FitSkeleton, TheGarmentMayBeAnywhere)
     garment.positions.rowwise() += Vec3(3, -2, 5).transpose();
     Skeleton wanted = rig.skeleton;
     const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::jumpsuit });
-    const Skeleton joints = posed(rig.skeleton, result.pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     EXPECT_LT((joints.root - wanted.root - Vec3(3, -2, 5)).norm(), 0.05);
 }
 
@@ -279,19 +279,19 @@ TEST(FitSkeleton, FlippedNormalsAndShuffledVerticesChangeNothing)
     const Rig rig = rig_of(own);
     const GarmentMesh garment = shirt({ .arm_angle = 40 }, 1.9);
     const FitOptions options { .type = GarmentType::longsleeve };
-    const Skeleton expected = posed(rig.skeleton, fit_skeleton(rig, garment, options).pose);
+    const Skeleton expected = pose_skeleton(rig.skeleton, fit_skeleton(rig, garment, options).pose);
 
     GarmentMesh mixed = garment;
     mixed.triangles.col(1).swap(mixed.triangles.col(2));
     for (Eigen::Index f = 0; f < mixed.triangles.rows(); f += 3)
         std::swap(mixed.triangles(f, 1), mixed.triangles(f, 2));
-    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, mixed, options).pose), expected), 0.01);
+    EXPECT_LT(largest_difference(pose_skeleton(rig.skeleton, fit_skeleton(rig, mixed, options).pose), expected), 0.01);
 
     GarmentMesh reversed = garment;
     const int last = int(garment.positions.rows()) - 1;
     reversed.positions = garment.positions.colwise().reverse();
     reversed.triangles = garment.triangles.unaryExpr([&](int v) { return last - v; });
-    EXPECT_LT(largest_difference(posed(rig.skeleton, fit_skeleton(rig, reversed, options).pose), expected), 0.01);
+    EXPECT_LT(largest_difference(pose_skeleton(rig.skeleton, fit_skeleton(rig, reversed, options).pose), expected), 0.01);
 }
 
 TEST(FitSkeleton, TheSameInputGivesTheSameBits)
@@ -316,7 +316,7 @@ TEST(FitSkeleton, ABodyThatFacesAwayTurnsToTheGarmentsFront)
     rig.front = -rig.front;
     const FitResult result = fit_skeleton(rig, shirt(made_on, 1.9), { .type = GarmentType::longsleeve });
     EXPECT_GT((result.pose.root_rotation * rig.front).z(), 0.8);
-    EXPECT_GT(posed(rig.skeleton, result.pose).tail(lradius).x(), 0.3) << "the left arm is in the left sleeve";
+    EXPECT_GT(pose_skeleton(rig.skeleton, result.pose).tail(lradius).x(), 0.3) << "the left arm is in the left sleeve";
 }
 
 TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
@@ -333,7 +333,7 @@ TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
         const FitResult result = fit_skeleton(rig, garment);
         EXPECT_EQ(result.type, GarmentType::longsleeve);
         EXPECT_LT((result.up - turn * Vec3::UnitY()).norm(), 1e-6);
-        const Skeleton joints = posed(rig.skeleton, result.pose), wanted = posed(rig.skeleton, expected.pose);
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose), wanted = pose_skeleton(rig.skeleton, expected.pose);
         for (const int b : { thorax, lhumerus, rhumerus, lradius, rradius })
             EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 10) << bone_name(b);
     }
@@ -349,7 +349,7 @@ TEST(FitSkeleton, AGarmentHeldAskewIsFound)
         EXPECT_EQ(result.type, expected.type);
         EXPECT_LT(angle(result.up, turn * Vec3::UnitY()), 8) << name_of(expected.type);
         EXPECT_GT(result.up_margin, 0.5);
-        const Skeleton joints = posed(rig.skeleton, result.pose), wanted = posed(rig.skeleton, expected.pose);
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose), wanted = pose_skeleton(rig.skeleton, expected.pose);
         for (const Bone b : expected.covered)
             EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 25)
                 << bone_name(b) << " in " << name_of(expected.type);
@@ -374,7 +374,7 @@ TEST(FitSkeleton, OneSleeveHoldsOneArm)
     const GarmentMesh garment = with_left_sleeve_only(shirt(made_on, 1.9));
     const FitResult result = fit_skeleton(rig, garment);
     EXPECT_EQ(result.type, GarmentType::longsleeve);
-    const Skeleton joints = posed(rig.skeleton, result.pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     expect_directions(joints, person_skeleton(made_on), { lhumerus, lradius }, 12);
     expect_clear(joints, garment);
     const auto covers = [&](Bone b) { return std::count(result.covered.begin(), result.covered.end(), b) > 0; };
@@ -389,7 +389,7 @@ TEST(FitSkeleton, ClosedClothWithThicknessIsWornLikeItsOuterSheet)
     const FitResult expected = fit_skeleton(rig, thin), result = fit_skeleton(rig, thick);
     EXPECT_EQ(result.type, GarmentType::skirt);
     EXPECT_EQ(result.covered, expected.covered);
-    expect_clear(posed(rig.skeleton, result.pose), thick);
+    expect_clear(pose_skeleton(rig.skeleton, result.pose), thick);
 }
 
 // Its wrinkles are sharper than 3 mm: there, the sheets pass through each other.
@@ -401,8 +401,8 @@ TEST(FitSkeleton, AThickTShirtIsWornLikeItsOuterSheet)
                       thick = with_thickness(thin, 0.003);
     const FitResult expected = fit_skeleton(rig, thin), result = fit_skeleton(rig, thick);
     EXPECT_EQ(result.type, GarmentType::tshirt);
-    const Skeleton joints = posed(rig.skeleton, result.pose);
-    expect_directions(joints, posed(rig.skeleton, expected.pose), { thorax, lhumerus, rhumerus }, 35);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
+    expect_directions(joints, pose_skeleton(rig.skeleton, expected.pose), { thorax, lhumerus, rhumerus }, 35);
     expect_clear(joints, thick);
 }
 
@@ -412,7 +412,7 @@ TEST(FitSkeleton, ASmallBodyDoesNotSlideIntoOneTrouserLeg)
     GarmentMesh garment = trousers();
     garment.positions *= 1.5;
     const FitResult result = fit_skeleton(rig, garment);
-    const Skeleton joints = posed(rig.skeleton, result.pose);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     for (const int b : { ltibia, rtibia })
         EXPECT_GT(joints.head(b).x() * (b == ltibia ? 1 : -1), 0.02) << bone_name(b);
     expect_clear(joints, garment);
@@ -423,7 +423,7 @@ TEST(FitSkeleton, TipsAreDrawnBackToWhereTheyAreClear)
     const Skeleton joints = person_skeleton({});
     const GarmentMesh wall = make_garment((Positions(3, 3) << -1, -1, 0.1, 1, -1, 0.1, 0, 3, 0.1).finished(),
                                           (Triangles(1, 3) << 0, 1, 2).finished());
-    const Skeleton clear = with_clear_tips(joints, wall);
+    const Skeleton clear = retract_tips(joints, wall);
     EXPECT_LT(clear.tips[lfoot_tip].z(), 0.1);
     EXPECT_GT(clear.tips[lfoot_tip].z(), joints.tail(ltibia).z());
     EXPECT_EQ(clear.tips[head_top], joints.tips[head_top]);
@@ -561,7 +561,7 @@ TEST(CommonFit, OnePoseServesAShirtAndTrousers)
     EXPECT_TRUE(common.conflicts.empty());
     expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
     for (std::size_t i = 0; i < garments.size(); ++i) {
-        const Skeleton joints = posed(rig.skeleton, common.fits[i].pose);
+        const Skeleton joints = pose_skeleton(rig.skeleton, common.fits[i].pose);
         expect_directions(joints, person_skeleton(made_on),
                           { lhumerus, lradius, rhumerus, rradius, lfemur, ltibia, rfemur, rtibia }, 15);
         expect_clear(joints, garments[i]);
@@ -580,7 +580,7 @@ TEST(CommonFit, AGarmentThatLiesElsewhereIsOnlyMoved)
     const Vec3 apart = common.fits[1].pose.root_translation - common.fits[0].pose.root_translation;
     EXPECT_LT((apart - Vec3(2, 0.5, -1)).norm(), 0.15);
     for (std::size_t i = 0; i < garments.size(); ++i)
-        expect_clear(posed(rig.skeleton, common.fits[i].pose), garments[i]);
+        expect_clear(pose_skeleton(rig.skeleton, common.fits[i].pose), garments[i]);
 }
 
 TEST(CommonFit, SleevesTooFarApartAreReportedAndEachGarmentKeepsItsFit)

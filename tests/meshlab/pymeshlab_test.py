@@ -101,7 +101,7 @@ class GarmentFitting(unittest.TestCase):
     def test_dresses_to_the_numbers_of_the_command_line(self):
         meshes = opened(SMALL_BODY, SKIRT)
         numbers = meshes.apply_filter("generate_garment_fitting_dress", body=0, garment=1)
-        self.assertGreater(numbers["smallest_gap"], 0)
+        self.assertGreater(numbers["min_distance"], 0)
         worn = labels(meshes).index("skirt on man_a_pose")
         dressed = meshes.mesh(worn)
         with tempfile.TemporaryDirectory() as folder:

@@ -77,7 +77,7 @@ TEST(Skeleton, BoneBeginsWhereItsParentEnds)
 
 TEST(Posed, KeepsTheLengthOfEveryBone)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton, there = posed(own, some_pose());
+    const Skeleton own = fixtures::capsule_person().skeleton, there = pose_skeleton(own, some_pose());
     for (int b = 0; b < bone_count; ++b)
         EXPECT_NEAR(there.length(b), own.length(b), k_tiny) << bone_name(b);
     for (int e = 0; e < extremity_count; ++e) {
@@ -88,7 +88,7 @@ TEST(Posed, KeepsTheLengthOfEveryBone)
 
 TEST(Posed, InTheOwnPoseIsTheSameBitForBit)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton, there = posed(own, Pose());
+    const Skeleton own = fixtures::capsule_person().skeleton, there = pose_skeleton(own, Pose());
     EXPECT_EQ(there.root, own.root);
     EXPECT_EQ(there.tails, own.tails);
     EXPECT_EQ(there.tips, own.tips);
@@ -99,7 +99,7 @@ TEST(Posed, BendsAnElbowAndLeavesTheRest)
     const Skeleton own = fixtures::capsule_person().skeleton;
     Pose pose;
     pose.rotations[lradius] = turn(1.0, Vec3::UnitY());
-    const Skeleton there = posed(own, pose);
+    const Skeleton there = pose_skeleton(own, pose);
     EXPECT_NEAR(there.direction(lradius).dot(pose.rotations[lradius] * own.direction(lradius)), 1, k_tiny);
     for (int b = 0; b < bone_count; ++b)
         EXPECT_TRUE(b == lradius || (there.tail(b) - own.tail(b)).norm() < k_tiny) << bone_name(b);

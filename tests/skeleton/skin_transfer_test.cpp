@@ -33,7 +33,7 @@ struct TwoSheets {
 
 SkinWeights carried_to(const TriangleMesh& surface, const TwoSheets& from)
 {
-    return transferred(from.mesh, from.weights, { surface, surface, false });
+    return transfer_skin_weights(from.mesh, from.weights, { surface, surface, false });
 }
 
 TEST(SkinTransfer, SkinThatReachesOtherSkinHangsOnTheBoneOfItsNeighbours)

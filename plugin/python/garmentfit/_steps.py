@@ -62,7 +62,7 @@ class Certificate:
     kept_self_crossings: int  #: those of them that did not come apart
     layer_crossings: int
     vertices_inside: int
-    smallest_gap: float
+    min_distance: float
     strain_median: float
     strain_p95: float
     strain_max: float
@@ -244,7 +244,7 @@ def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_
                  garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Fit:
     """Poses a rigged body so that its bones run through the middle of the garment's parts.
 
-    garments: one, or a list from the inside out (or layer_order="found"); Garment(mesh, type) tells what each is.
+    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type) tells what each is.
     """
     return Fit(_with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up).run("fit", parameters, progress))
 

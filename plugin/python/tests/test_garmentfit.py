@@ -23,7 +23,7 @@ def test_dressing_is_certified_and_leaves_the_body_where_it_was(dressed, body, s
     garment = dressed.garments[0]
     assert np.array_equal(garment.triangles, skirt.triangles)
     assert garment.positions.shape == skirt.positions.shape
-    assert garment.certificate.clean and garment.certificate.smallest_gap > 0
+    assert garment.certificate.clean and garment.certificate.min_distance > 0
     assert garment.certificate.kept_self_crossings == 0 and garment.overstretched.edges == 0
     assert dressed.speed >= 0 and not [warning for warning in dressed.warnings if "rest" not in warning]
     assert garment.ease.shape == garment.strain.shape == garment.pressure.shape == (len(skirt.positions),)
@@ -164,4 +164,4 @@ def test_layers_are_found_where_asked_for(body, skirt):
     coat, shirt = Garment(skirt, "coat"), Garment(skirt, "blouse")  # types say it, whatever the shape
     rig = garmentfit.rig_body(body)
     assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt]).garments] == [0, 1]
-    assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt], layer_order="found").garments] == [1, 0]
+    assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt], layer_order="auto").garments] == [1, 0]

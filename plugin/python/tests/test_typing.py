@@ -17,7 +17,7 @@ import garmentfit
 from garmentfit.vtk import DressBody
 body, skirt = garmentfit.read_mesh("body.ply"), garmentfit.read_mesh("skirt.ply")
 dressed: garmentfit.Dressing = garmentfit.dress(body, skirt, type="skirt", contact_distance=0.003, frames=3, unit="m")
-gap: float = dressed.garments[0].certificate.smallest_gap
+gap: float = dressed.garments[0].certificate.min_distance
 dress = DressBody(type="skirt", front="+z")
 dress.density = 0.3
 """

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_state.h"
 
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
 
 #include "vtkDataObject.h"
@@ -68,7 +68,7 @@ void FilterState::forget_from(Stage stage)
         known_.scene.rig.reset();
     if (stage <= Stage::fit && filter.makes(Data::fits)) {
         known_.scene.fits.clear();
-        known_.scene.layers_found.clear();
+        known_.scene.automatic_layers.clear();
     }
     if (stage <= Stage::drape && filter.makes(Data::draped))
         known_.scene.draped.reset();
@@ -152,17 +152,17 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
 
 // ---- what is shown ---------------------------------------------------------------------------------------------------
 
-Moment FilterState::moment(double time) const { return moment_of(known_.scene, time, filter.cloth(parameters)); }
+Snapshot FilterState::moment(double time) const { return snapshot_of(known_.scene, time, filter.cloth(parameters)); }
 
 std::vector<std::string> FilterState::warnings() const
 {
     const auto set = [](std::string_view parameter) { return "set " + std::string(parameter); };
-    std::vector<std::string> lines = doubts_about_layers(known_.scene, known_.garment_names, set);
+    std::vector<std::string> lines = warnings_about_layers(known_.scene, known_.garment_names, set);
     const Dressing* dressing = final_dressing(known_.scene);
     if (!dressing)
         return lines;
-    const std::vector<std::string> doubts = doubts_about_dressing(*dressing, known_.garment_names);
-    lines.insert(lines.end(), doubts.begin(), doubts.end());
+    const std::vector<std::string> warnings = warnings_about_dressing(*dressing, known_.garment_names);
+    lines.insert(lines.end(), warnings.begin(), warnings.end());
     if (!dressing->certified)
         lines.insert(lines.begin(), explain(*dressing, known_.garment_names));
     return lines;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 #include "known_scene.h"
 #include "scene_input.h"
 
@@ -38,7 +38,7 @@ public:
 
     const KnownScene& known() const { return known_; }
     /// What the outputs show at a time.
-    Moment moment(double time) const;
+    Snapshot moment(double time) const;
     /// What the user should know of how the garments ended up, one line each: first why they could not be put on as they should.
     std::vector<std::string> warnings() const;
 

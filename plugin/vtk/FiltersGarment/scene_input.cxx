@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "garmentfit/filters/joint_names.h"
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/scene_arrays.h"
 #include "named_arrays.h"
 #include "polydata.h"

@@ -13,7 +13,7 @@ namespace garmentfit {
 namespace {
 
 void write_worn(vtkPolyData& garment, std::size_t i, const Dressing& dressing, const KnownScene& known,
-                const Moment& now)
+                const Snapshot& now)
 {
     put(garment, arrays_of_worn(dressing, i, known.body_frame));
     if (!dressing.is_worn(i))
@@ -24,7 +24,7 @@ void write_worn(vtkPolyData& garment, std::size_t i, const Dressing& dressing, c
 
 }  // namespace
 
-void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known, const Moment& now)
+void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known, const Snapshot& now)
 {
     const TriangleMesh& own = known.scene.body->surface;
     if (filter.makes(Data::rig)) {
@@ -42,7 +42,7 @@ void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known
 }
 
 void write_garments(const std::vector<vtkPolyData*>& garments, const Filter& filter, const KnownScene& known,
-                    const Moment& now)
+                    const Snapshot& now)
 {
     for (std::size_t i = 0; i < garments.size(); ++i) {
         put(*garments[i], arrays_of(known.garment_frames[i]));
@@ -57,9 +57,9 @@ void write_garments(const std::vector<vtkPolyData*>& garments, const Filter& fil
     }
 }
 
-void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Moment& now)
+void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Snapshot& now)
 {
-    draw_skeleton(skeleton, posed(known.scene.rig->skeleton, now.pose), known.body_frame);
+    draw_skeleton(skeleton, pose_skeleton(known.scene.rig->skeleton, now.pose), known.body_frame);
 }
 
 }  // namespace garmentfit

@@ -7,17 +7,17 @@
 
 #include <vector>
 
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 #include "known_scene.h"
 
 class vtkPolyData;
 
 namespace garmentfit {
 
-void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known, const Moment& now);
+void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known, const Snapshot& now);
 void write_garments(const std::vector<vtkPolyData*>& garments, const Filter& filter, const KnownScene& known,
-                    const Moment& now);
-void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Moment& now);
+                    const Snapshot& now);
+void write_skeleton(vtkPolyData& skeleton, const KnownScene& known, const Snapshot& now);
 
 }  // namespace garmentfit
 

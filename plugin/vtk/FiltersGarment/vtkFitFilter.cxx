@@ -279,7 +279,7 @@ void vtkFitFilter::Write(vtkPolyData* body, vtkDataObject* garments, vtkInformat
 {
     const garmentfit::Filter& filter = this->State->filter;
     const garmentfit::KnownScene& known = this->State->known();
-    const garmentfit::Moment now = this->State->moment(time);
+    const garmentfit::Snapshot now = this->State->moment(time);
     vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
     dressed->ShallowCopy(body);
     garmentfit::write_body(*dressed, filter, known, now);

@@ -40,7 +40,7 @@
 #define vtkFitClothParametersMacro()                                                                                   \
     vtkFitChoiceMacro(Fabric, fabric);                                                                                 \
     vtkFitNumberMacro(ContactDistance, double, contact_distance);                                                      \
-    vtkFitNumberMacro(SmallestGap, double, smallest_gap);                                                              \
+    vtkFitNumberMacro(MinDistance, double, min_distance);                                                              \
     vtkFitNumberMacro(Density, double, density);                                                                       \
     vtkFitNumberMacro(StretchStiffness, double, stretch_stiffness);                                                    \
     vtkFitNumberMacro(BendStiffness, double, bend_stiffness);                                                          \

@@ -72,7 +72,7 @@ struct Scene {
     std::vector<GarmentInput> garments;
     std::optional<Rig> rig;
     std::vector<FitResult> fits;  ///< one for each garment
-    std::vector<int> layers_found;  ///< of several garments: the layer of each by type and width
+    std::vector<int> automatic_layers;  ///< of several garments: the layer of each by type and width
     std::optional<bool> one_pose;  ///< of several garments: whether all fits turn the bones alike; by the fast method
     std::vector<FitConflict> conflicts;  ///< why they do not
     std::optional<Dressing> draped;  ///< in the pose of the outermost garment's fit

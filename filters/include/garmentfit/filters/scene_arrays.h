@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/rig_arrays.h"
 #include "garmentfit/units.h"
 

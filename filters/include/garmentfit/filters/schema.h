@@ -74,8 +74,8 @@ void describe_cloth(Options& o, Visitor&& visit)
     visit(o.contact_distance,
           About { "contact_distance", "Contact distance", "m", 5e-4, 0.02,
                   "Cloth is pushed off body and cloth when nearer than this" });
-    visit(o.smallest_gap,
-          About { "smallest_gap", "Smallest gap", "m", 1e-6, 5e-4, "Motion is cut before a gap falls below this" });
+    visit(o.min_distance,
+          About { "min_distance", "Minimum distance", "m", 1e-6, 5e-4, "Motion is cut before a gap falls below this" });
     visit(o.density, About { "density", "Density", "kg/m^2", 0.01, 5, "Mass of the cloth by area" });
     visit(o.stretch_stiffness,
           About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5,

@@ -37,7 +37,7 @@ struct Certificate {
     std::vector<Crossing> kept_self_crossings;  ///< those of them that it still has
     int layer_crossings = 0;  ///< with the garments worn under it
     int vertices_inside = 0;  ///< garment vertices inside the body
-    double smallest_gap = 0;  ///< m, between garment and body
+    double min_distance = 0;  ///< m, between garment and body
     Strain strain;
 
     bool clean() const

@@ -20,7 +20,7 @@ GARMENTFIT_API const std::vector<std::string_view>& fabric_names();
 struct ClothOptions {
     Fabric fabric = Fabric::cotton;
     double contact_distance = 2.5e-3;  ///< m; contact force begins below this gap
-    double smallest_gap = 1e-4;  ///< m; motion is cut before a gap falls below this
+    double min_distance = 1e-4;  ///< m; motion is cut before a gap falls below this
     double density = 0.2;  ///< kg/m^2
     double stretch_stiffness = 400;  ///< N/m
     double bend_stiffness = 2e-5;  ///< N m
@@ -32,7 +32,7 @@ struct ClothOptions {
 
 /// Density, stiffness and friction that are still the defaults above (cotton's) become those of `options.fabric`; what was
 /// set stays.
-GARMENTFIT_API ClothOptions made_of_fabric(ClothOptions options);
+GARMENTFIT_API ClothOptions apply_fabric(ClothOptions options);
 
 /// Cloth counts as settled when no vertex is faster than this, m/s.
 constexpr double k_at_rest = 0.02;

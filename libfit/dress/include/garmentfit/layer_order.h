@@ -10,9 +10,9 @@
 
 namespace garmentfit {
 
-/// Of several garments: as they were given, from the inside out, or as found_layers has it.
-enum class LayerOrder { given, found };
-/// "given", "found".
+/// Of several garments: as they were given, from the inside out, or as order_layers has it.
+enum class LayerOrder { given, automatic };
+/// "given", "auto".
 GARMENTFIT_API const std::vector<std::string_view>& layer_order_names();
 
 /// Which garment goes over which: the layer of each, 0 for the innermost. Of two that go round the same parts of the body, the type says it
@@ -20,7 +20,7 @@ GARMENTFIT_API const std::vector<std::string_view>& layer_order_names();
 /// other; where that says nothing either, they stay in the order they are in. O(n log n).
 /// @param body  the user's vertices, metres
 /// @param fits  of each garment, with its type
-GARMENTFIT_API std::vector<int> found_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
+GARMENTFIT_API std::vector<int> order_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
                                       const std::vector<FitResult>& fits);
 
 }  // namespace garmentfit

@@ -52,14 +52,14 @@ struct FitResult {
     std::array<double, bone_count> scores_before {}, scores {};  ///< E_B of equation (1) by the method's own metric,
         ///< metres, at the start and at the end; 0 for bones that take no part
     std::array<double, bone_count>
-        room {};  ///< how central a covered bone runs at the end: of the room that its limb needs, the share
+        clearance {};  ///< how central a covered bone runs at the end: of the room that its limb needs, the share
         ///< that it has, 0 (at the cloth, or outside) to 1 (no cloth nearer than the skin)
     double score_before = 0, score_after = 0;  ///< E of equation (4)
     long long evaluations = 0, bone_evaluations = 0;  ///< of E and of E_B; paper and tisserand only
 };
 
 /// The joints with their tips drawn back to where the extremities no longer pass through the garment. O(log n).
-GARMENTFIT_API Skeleton with_clear_tips(const Skeleton& joints, const GarmentMesh& garment);
+GARMENTFIT_API Skeleton retract_tips(const Skeleton& joints, const GarmentMesh& garment);
 
 /// E_B of the paper's equation (1), by which poses of all methods compare; metres, 0 for bones that are not covered.
 GARMENTFIT_API std::array<double, bone_count> paper_scores(const Rig& rig, const Pose& pose, const GarmentMesh& garment,
@@ -72,7 +72,7 @@ GARMENTFIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& gar
 /// @pre    By paper and tisserand: the garment hangs upright (+y up). By the fast method it may be turned in any way.
 /// @post   By the fast method: no bone, covered or not, and no head passes through the garment's surface. Hands and feet keep clear where they can:
 ///         ankles and wrists do not bend, and a trouser leg longer than the leg has no room for a foot across it; there,
-///         with_clear_tips says how far they reach.
+///         retract_tips says how far they reach.
 /// @throws InvalidInput when no body fits into the garment, or its size is absurd; SolverFailure when no such pose was found, naming bone and place;
 ///         Cancelled.
 GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},

@@ -88,7 +88,7 @@ using BoneTransforms = std::array<Eigen::Isometry3d, bone_count>;
 GARMENTFIT_API BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose);
 
 /// The joints in a pose.
-GARMENTFIT_API Skeleton posed(const Skeleton& own, const Pose& pose);
+GARMENTFIT_API Skeleton pose_skeleton(const Skeleton& own, const Pose& pose);
 
 /// Interpolates every joint by spherical linear interpolation, the root linearly; t in [0, 1].
 GARMENTFIT_API Pose slerp(const Pose& from, const Pose& to, double t);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 
 #include <cmath>
 #include <sstream>
@@ -15,22 +15,22 @@ constexpr double k_slipped = 0.15;  // m; cloth that settles sinks by some centi
 
 constexpr const char* k_guess = " hardly more than a guess";
 
-void doubt_type(std::vector<std::string>& doubts, const std::string& name, const FitResult& fit, const HowToSet& set)
+void warn_of_type(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit, const HowToSet& set)
 {
     if (fit.type_margin < k_doubt)
-        doubts.push_back("the type of " + name + " is" + k_guess + ", " + std::string(name_of(fit.type)) + "; "
+        warnings.push_back("the type of " + name + " is" + k_guess + ", " + std::string(name_of(fit.type)) + "; "
                          + set("type"));
 }
 
-void doubt_garment(std::vector<std::string>& doubts, const std::string& name, const WornGarment& garment)
+void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment)
 {
     if (garment.size > 1)
-        doubts.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
+        warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
     if (const std::size_t kept = garment.certificate.kept_self_crossings.size(); kept > 0)
-        doubts.push_back(name + " was given with crossings of itself that did not come apart: " + std::to_string(kept)
+        warnings.push_back(name + " was given with crossings of itself that did not come apart: " + std::to_string(kept)
                          + " of " + std::to_string(garment.certificate.input_self_crossings) + " are still there");
     if (garment.slipped > k_slipped)
-        doubts.push_back(name + " slipped " + std::to_string(std::lround(100 * garment.slipped))
+        warnings.push_back(name + " slipped " + std::to_string(std::lround(100 * garment.slipped))
                          + " cm down: it is too wide for this body to stay where it is worn");
 }
 
@@ -45,25 +45,25 @@ std::string overstretched_edges(const std::string& name, const Overstretch& stre
 
 }  // namespace
 
-std::vector<std::string> doubts_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
+std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
                                             const HowToSet& set)
 {
-    std::vector<std::string> doubts;
+    std::vector<std::string> warnings;
     if (guess.unit_margin < k_doubt)
-        doubts.push_back("the unit of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "unit"));
+        warnings.push_back("the unit of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "unit"));
     if (guess.up_margin < k_doubt)
-        doubts.push_back("the up axis of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "up"));
-    return doubts;
+        warnings.push_back("the up axis of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "up"));
+    return warnings;
 }
 
-std::vector<std::string> doubts_about_layers(const Scene& scene, const std::vector<std::string>& names,
+std::vector<std::string> warnings_about_layers(const Scene& scene, const std::vector<std::string>& names,
                                              const HowToSet& set)
 {
     bool same = true;
-    std::vector<std::string> in_order(scene.layers_found.size());
+    std::vector<std::string> in_order(scene.automatic_layers.size());
     for (std::size_t i = 0; i < in_order.size(); ++i) {
-        in_order[scene.layers_found[i]] = names[i];
-        same &= scene.layers_found[i] == scene.fits[i].layer;
+        in_order[scene.automatic_layers[i]] = names[i];
+        same &= scene.automatic_layers[i] == scene.fits[i].layer;
     }
     if (same)
         return {};
@@ -74,11 +74,11 @@ std::vector<std::string> doubts_about_layers(const Scene& scene, const std::vect
              + "; give them in that, or " + set("layer_order") + " found" };
 }
 
-std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::vector<std::string>& names)
+std::vector<std::string> warnings_about_dressing(const Dressing& end, const std::vector<std::string>& names)
 {
-    std::vector<std::string> doubts;
+    std::vector<std::string> warnings;
     if (end.speed && *end.speed >= k_at_rest)
-        doubts.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
+        warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
                          + " mm/s); give more settling steps");
     const auto is_too_small = [&](std::size_t i) {
         return (i == end.outermost && end.size_reached < 1)
@@ -87,35 +87,35 @@ std::vector<std::string> doubts_about_dressing(const Dressing& end, const std::v
     };
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
-            doubt_garment(doubts, names[i], end.garments[i]);
+            warn_of_garment(warnings, names[i], end.garments[i]);
         else if (is_too_small(i))
-            doubts.push_back(names[i] + " is left out of the result: it does not go over what is under it");
+            warnings.push_back(names[i] + " is left out of the result: it does not go over what is under it");
         else
-            doubts.push_back(names[i] + " was not put on, for what is under it was not certified");
+            warnings.push_back(names[i] + " was not put on, for what is under it was not certified");
     for (std::size_t i = 0; i < end.overstretches.size(); ++i)
         if (end.overstretches[i].edges > 0)
-            doubts.push_back(overstretched_edges(names[i], end.overstretches[i]));
+            warnings.push_back(overstretched_edges(names[i], end.overstretches[i]));
     if (int(end.frames.size()) < end.frames_asked)
-        doubts.push_back("of " + std::to_string(end.frames_asked) + " frames there are "
+        warnings.push_back("of " + std::to_string(end.frames_asked) + " frames there are "
                          + std::to_string(end.frames.size()) + ": those that cannot be certified are left out");
-    return doubts;
+    return warnings;
 }
 
-std::vector<std::string> doubts_about_scene(const Scene& scene, const std::vector<std::string>& names,
+std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vector<std::string>& names,
                                             const HowToSet& set)
 {
-    std::vector<std::string> doubts = explain(scene.conflicts, names);
+    std::vector<std::string> warnings = explain(scene.conflicts, names);
     if (scene.rig && scene.rig->side_margin < k_doubt)
-        doubts.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
+        warnings.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
-        doubt_type(doubts, names[i], scene.fits[i], set);
-    const std::vector<std::string> layers = doubts_about_layers(scene, names, set);
-    doubts.insert(doubts.end(), layers.begin(), layers.end());
+        warn_of_type(warnings, names[i], scene.fits[i], set);
+    const std::vector<std::string> layers = warnings_about_layers(scene, names, set);
+    warnings.insert(warnings.end(), layers.begin(), layers.end());
     if (const Dressing* end = final_dressing(scene)) {
-        const std::vector<std::string> more = doubts_about_dressing(*end, names);
-        doubts.insert(doubts.end(), more.begin(), more.end());
+        const std::vector<std::string> more = warnings_about_dressing(*end, names);
+        warnings.insert(warnings.end(), more.begin(), more.end());
     }
-    return doubts;
+    return warnings;
 }
 
 }  // namespace garmentfit

@@ -10,7 +10,7 @@
 
 namespace garmentfit {
 
-struct Moment {
+struct Snapshot {
     Pose pose;
     Positions body;  ///< of the user's vertices; equal to the surface's, bit for bit, in the body's own pose
     std::vector<Positions> garments;  ///< of each of the scene's; empty where it is not worn
@@ -19,7 +19,7 @@ struct Moment {
 
 /// @param share  of the way back to the body's own pose: the nearest of the dressing's frames is taken. 1, or no frames: the end
 /// @param cloth  that the garments were moved as; needed for the maps of frames
-Moment moment_of(const Scene& scene, double share, const ClothOptions& cloth);
+Snapshot snapshot_of(const Scene& scene, double share, const ClothOptions& cloth);
 
 /// The scene's garments as they are worn in a pose of its rig, certified anew, to go on from.
 /// @param left   the body's vertices as they were left, metres: cloth may hold some of them back from the pose

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "room_search.h"
+#include "clearance_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,21 +24,21 @@ struct Cell {
 
 }  // namespace
 
-RoomSearch::RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab) :
+ClearanceSearch::ClearanceSearch(const MinMaxPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab) :
     cloth_(cloth), samples_(std::move(samples)), slope_(slope), slab_(slab)
 {
 }
 
-double RoomSearch::value(const Vec3& at) const
+double ClearanceSearch::value(const Vec3& at) const
 {
     double sum = slope_.dot(at);
     for (const RoomSample& sample : samples_)
-        sum += room_value(cloth_.at(at + sample.offset), sample.radius);
+        sum += clearance_value(cloth_.at(at + sample.offset), sample.radius);
     return sum;
 }
 
 // More room is worth more inside and less outside, and being inside is worth more than not: so the three extremes bound the value.
-double RoomSearch::bound(const Vec3& centre, const Vec3& half_size) const
+double ClearanceSearch::bound(const Vec3& centre, const Vec3& half_size) const
 {
     double sum = slope_.dot(centre) + slope_.cwiseAbs().dot(half_size);
     for (const RoomSample& sample : samples_) {
@@ -49,7 +49,7 @@ double RoomSearch::bound(const Vec3& centre, const Vec3& half_size) const
     return sum;
 }
 
-std::vector<Place> RoomSearch::best(const Vec3& low, const Vec3& high, double spacing, double apart,
+std::vector<Place> ClearanceSearch::best(const Vec3& low, const Vec3& high, double spacing, double apart,
                                     std::size_t count) const
 {
     std::priority_queue<Cell> cells;

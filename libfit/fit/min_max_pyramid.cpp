@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "room_pyramid.h"
+#include "min_max_pyramid.h"
 
 #include <cmath>
 
@@ -23,7 +23,7 @@ void for_each_corner(const Eigen::Vector3i& low, const Eigen::Vector3i& high, co
 
 }  // namespace
 
-RoomPyramid::RoomPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high)
+MinMaxPyramid::MinMaxPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high)
 {
     const Vec3 extent = high - low + Vec3::Constant(2 * k_border);
     spacing_ = std::max(k_spacing, std::cbrt(extent.prod() / k_largest_grid));
@@ -43,7 +43,7 @@ RoomPyramid::RoomPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& hi
         levels_.push_back(above(levels_.back()));
 }
 
-RoomPyramid::Level RoomPyramid::above(const Level& level) const
+MinMaxPyramid::Level MinMaxPyramid::above(const Level& level) const
 {
     Level next;
     next.size = (level.size.array() + 1) / 2;
@@ -57,7 +57,7 @@ RoomPyramid::Level RoomPyramid::above(const Level& level) const
     return next;
 }
 
-Room RoomPyramid::at(const Vec3& point) const
+Clearance MinMaxPyramid::at(const Vec3& point) const
 {
     const Level& nodes = levels_[0];
     const Vec3 last = (nodes.size.array() - 1).cast<double>();
@@ -65,20 +65,20 @@ Room RoomPyramid::at(const Vec3& point) const
     const Vec3 cell = wanted.cwiseMax(0).cwiseMin(last);
     const Eigen::Vector3i c = cell.cast<int>().cwiseMin(nodes.size - Eigen::Vector3i::Constant(2));
     const Vec3 t = cell - c.cast<double>();
-    Room room;
+    Clearance clearance;
     for_each_corner(Eigen::Vector3i::Zero(), Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& corner) {
         double weight = 1;
         for (int axis = 0; axis < 3; ++axis)
             weight *= corner[axis] ? t[axis] : 1 - t[axis];
         const Least& node = nodes.at(c + corner);
-        room.distance += weight * node[0];
-        room.inside -= weight * node[2];
+        clearance.distance += weight * node[0];
+        clearance.inside -= weight * node[2];
     });
     const double beyond = spacing_ * (wanted - cell).norm();  // outside of the grid
-    return { room.distance + beyond, beyond > 0 ? 0.0 : room.inside };
+    return { clearance.distance + beyond, beyond > 0 ? 0.0 : clearance.inside };
 }
 
-RoomRange RoomPyramid::within(const Vec3& centre, const Vec3& half_size) const
+RoomRange MinMaxPyramid::within(const Vec3& centre, const Vec3& half_size) const
 {
     const Vec3 last = (levels_[0].size.array() - 1).cast<double>();
     const Vec3 wanted_low = (centre - half_size - origin_) / spacing_,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cloth_room.h"
+#include "clearance_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double k_largest_grid = 4e6;  // nodes; a garment far too large gets a
 
 }  // namespace
 
-ClothRoom::Parts ClothRoom::parts_of(const TriangleMesh& outward)
+ClearanceField::Parts ClearanceField::parts_of(const TriangleMesh& outward)
 {
     std::optional<ClothTree> tree;
     std::optional<CrossingTree> triangles;
@@ -31,9 +31,9 @@ ClothRoom::Parts ClothRoom::parts_of(const TriangleMesh& outward)
     return { *std::move(tree), *std::move(triangles) };
 }
 
-ClothRoom::ClothRoom(const TriangleMesh& outward) : ClothRoom(outward, parts_of(outward)) { }
+ClearanceField::ClearanceField(const TriangleMesh& outward) : ClearanceField(outward, parts_of(outward)) { }
 
-ClothRoom::ClothRoom(const TriangleMesh& outward, Parts parts) :
+ClearanceField::ClearanceField(const TriangleMesh& outward, Parts parts) :
     low_(outward.positions.colwise().minCoeff()), high_(outward.positions.colwise().maxCoeff()),
     barycentre_(outward.positions.colwise().mean()), tree_(std::move(parts.tree)),
     triangles_(std::move(parts.triangles))
@@ -47,7 +47,7 @@ ClothRoom::ClothRoom(const TriangleMesh& outward, Parts parts) :
     nodes_.resize(std::size_t(size_.x()) * size_.y() * size_.z());
 }
 
-void ClothRoom::fill(const Eigen::Vector3i& block) const
+void ClearanceField::fill(const Eigen::Vector3i& block) const
 {
     constexpr int k = ClothTree::k;
     const Eigen::Vector3i first = k * block, end = (first.array() + k).min(size_.array());
@@ -60,7 +60,7 @@ void ClothRoom::fill(const Eigen::Vector3i& block) const
             }
 }
 
-void ClothRoom::require(const Eigen::Vector3i& node) const
+void ClearanceField::require(const Eigen::Vector3i& node) const
 {
     const Eigen::Vector3i at = node / ClothTree::k;
     Block& block = block_[(std::size_t(at.z()) * blocks_.y() + at.y()) * blocks_.x() + at.x()];
@@ -71,7 +71,7 @@ void ClothRoom::require(const Eigen::Vector3i& node) const
 }
 
 // The cell's eight nodes lie in one block, or in those of its corners.
-void ClothRoom::require_cell(const Eigen::Vector3i& cell) const
+void ClearanceField::require_cell(const Eigen::Vector3i& cell) const
 {
     constexpr int k = ClothTree::k;
     const bool x = cell.x() % k == k - 1, y = cell.y() % k == k - 1, z = cell.z() % k == k - 1;
@@ -80,9 +80,9 @@ void ClothRoom::require_cell(const Eigen::Vector3i& cell) const
             require(cell + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2));
 }
 
-bool ClothRoom::crosses(const Vec3& from, const Vec3& to) const { return triangles_.is_met(from, to); }
+bool ClearanceField::crosses(const Vec3& from, const Vec3& to) const { return triangles_.is_met(from, to); }
 
-Room ClothRoom::at(const Vec3& point) const
+Clearance ClearanceField::at(const Vec3& point) const
 {
     const Vec3 last = (size_.array() - 1).cast<double>();
     const Vec3 wanted = (point - origin_) / spacing_;

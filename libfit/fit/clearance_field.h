@@ -7,18 +7,18 @@
 
 #include "cloth_tree.h"
 #include "crossing_tree.h"
-#include "room.h"
+#include "clearance.h"
 
 namespace garmentfit {
 
 /// Answers from a grid whose blocks are worked out when they are first asked for, whoever asks: some tens of nanoseconds.
 /// Error of the distance within the garment's box: at most the diagonal of a patch, and of a cell of the grid.
-class ClothRoom {
+class ClearanceField {
 public:
     /// @param outward  from outward_cloth
-    explicit ClothRoom(const TriangleMesh& outward);
+    explicit ClearanceField(const TriangleMesh& outward);
 
-    Room at(const Vec3& point) const;  ///< trilinear
+    Clearance at(const Vec3& point) const;  ///< trilinear
     bool crosses(const Vec3& from, const Vec3& to) const;  ///< asked of the cloth itself, exact
 
     const Vec3& low() const { return low_; }  ///< corners of the garment's box
@@ -32,7 +32,7 @@ private:
         ClothTree tree;
         CrossingTree triangles;
     };
-    ClothRoom(const TriangleMesh& outward, Parts parts);
+    ClearanceField(const TriangleMesh& outward, Parts parts);
     static Parts parts_of(const TriangleMesh& outward);
 
     /// Nodes are worked out ClothTree::k along each axis at a time.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pushed_up.h"
+#include "sleeve_retraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "extremity_skin.h"
-#include "joined_vertices.h"
+#include "disjoint_sets.h"
 #include "nearest.h"
 #include "segment.h"
 
@@ -101,7 +101,7 @@ private:
 /// Vertices that hang together, of those that are marked alike.
 std::map<int, std::vector<int>> pieces_of(const Triangles& triangles, const std::vector<int>& mark, int wanted)
 {
-    JoinedVertices joined(int(mark.size()));
+    DisjointSets joined(int(mark.size()));
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k)
             if (const int a = triangles(f, k), b = triangles(f, (k + 1) % 3); mark[a] == mark[b])
@@ -115,7 +115,7 @@ std::map<int, std::vector<int>> pieces_of(const Triangles& triangles, const std:
 
 }  // namespace
 
-PushedUp::PushedUp(const Skeleton& joints, const GarmentMesh& garment) : positions_(garment.positions)
+SleeveRetraction::SleeveRetraction(const Skeleton& joints, const GarmentMesh& garment) : positions_(garment.positions)
 {
     std::vector<int> limbs(garment.positions.rows());
     for (std::size_t v = 0; v < limbs.size(); ++v)
@@ -161,12 +161,12 @@ PushedUp::PushedUp(const Skeleton& joints, const GarmentMesh& garment) : positio
     }
 }
 
-bool PushedUp::any() const
+bool SleeveRetraction::any() const
 {
     return std::any_of(pushed_.begin(), pushed_.end(), [](bool pushed) { return pushed; });
 }
 
-std::vector<double> PushedUp::freed(const Positions& skin, const SkinWeights& weights, const Skeleton& joints) const
+std::vector<double> SleeveRetraction::freed(const Positions& skin, const SkinWeights& weights, const Skeleton& joints) const
 {
     std::vector<double> result(skin.rows(), 0);
     for (const Extremity end : k_ends) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pushed_up.h"
+#include "sleeve_retraction.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ GarmentMesh with_button(const GarmentMesh& sleeve, const Vec3& middle, const Vec
 TEST_F(Sleeve, ThatReachesBeyondTheWristIsPushedUpBehindIt)
 {
     const GarmentMesh given = sleeve(wrist + 0.1);
-    const PushedUp pushed(joints, given);
+    const SleeveRetraction pushed(joints, given);
     ASSERT_TRUE(pushed.any());
     EXPECT_LT(furthest(pushed.positions()), 0.8 * wrist);
     for (Eigen::Index v = 0; v < given.positions.rows(); ++v) {
@@ -66,7 +66,7 @@ TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
     for (Eigen::Index v = 0; v < given.positions.rows(); ++v)
         if (const double beyond = along(given.positions, v) - wrist; beyond > 0)
             given.positions.row(v) += beyond * side;
-    const PushedUp pushed(joints, given);
+    const SleeveRetraction pushed(joints, given);
     ASSERT_TRUE(pushed.any());
     const TriangleTree cloth({ pushed.positions(), given.triangles });
     EXPECT_FALSE(cloth.is_met(joints.head(lradius), joints.tail(lradius)));
@@ -75,7 +75,7 @@ TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
 TEST_F(Sleeve, ThatEndsBeforeTheWristStays)
 {
     const GarmentMesh given = sleeve(wrist - 0.02);
-    const PushedUp pushed(joints, given);
+    const SleeveRetraction pushed(joints, given);
     EXPECT_FALSE(pushed.any());
     EXPECT_EQ(pushed.positions(), given.positions);
 }
@@ -99,7 +99,7 @@ TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
             const int v = panel.triangles(kept[f], k);
             given.triangles(Eigen::Index(f), k) = v / 24 * 13 + v % 24;
         }
-    EXPECT_FALSE(PushedUp(joints, given).any());
+    EXPECT_FALSE(SleeveRetraction(joints, given).any());
 }
 
 TEST_F(Sleeve, TakesItsButtonsAlong)
@@ -108,7 +108,7 @@ TEST_F(Sleeve, TakesItsButtonsAlong)
     const Vec3 axis = joints.direction(lradius), side = axis.unitOrthogonal();
     const Vec3 on_cuff = joints.head(lradius) + (wrist + 0.08) * axis + 0.064 * side;
     const GarmentMesh given = with_button(plain, on_cuff, axis, axis.cross(side));
-    const PushedUp pushed(joints, given);
+    const SleeveRetraction pushed(joints, given);
     ASSERT_TRUE(pushed.any());
     for (Eigen::Index v = plain.positions.rows(); v < given.positions.rows(); ++v)
         EXPECT_LT(along(pushed.positions(), v), 0.8 * wrist);
@@ -116,7 +116,7 @@ TEST_F(Sleeve, TakesItsButtonsAlong)
 
 TEST_F(Sleeve, SetsFreeTheHandThatItCovered)
 {
-    const PushedUp pushed(joints, sleeve(wrist + 0.1));
+    const SleeveRetraction pushed(joints, sleeve(wrist + 0.1));
     Positions points(4, 3);
     points << joints.tips[lhand_tip].transpose(), joints.head(lradius).transpose(), joints.tips[rhand_tip].transpose(),
         joints.tail(lradius).transpose();

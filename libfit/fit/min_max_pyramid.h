@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cloth_tree.h"
-#include "room.h"
+#include "clearance.h"
 
 namespace garmentfit {
 
@@ -17,12 +17,12 @@ struct RoomRange {
     double most_inside = 0;  ///< no point is more surely inside
 };
 
-class RoomPyramid {
+class MinMaxPyramid {
 public:
     /// Cost: a distance and a winding number for each node of the grid, and an eighth more for the levels above.
-    RoomPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high);
+    MinMaxPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high);
 
-    Room at(const Vec3& point) const;  ///< trilinear
+    Clearance at(const Vec3& point) const;  ///< trilinear
     /// Holds for `at` of every point of the box: what is interpolated lies between the nodes about it.
     RoomRange within(const Vec3& centre, const Vec3& half_size) const;
 

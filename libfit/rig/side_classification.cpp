@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "side_vote.h"
+#include "side_classification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ std::vector<Cue> cues_of(const BodyJoints& joints, const Vec3& up)
 
 }  // namespace
 
-Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front)
+Sides side_classification(const BodyJoints& joints, const std::optional<Vec3>& known_front)
 {
     Sides sides;
     sides.up = (joints.neck_base - joints.pelvis).normalized();

@@ -12,10 +12,10 @@
 
 namespace garmentfit {
 
-class PushedUp {
+class SleeveRetraction {
 public:
     /// @param joints  in the garment's pose
-    PushedUp(const Skeleton& joints, const GarmentMesh& garment);
+    SleeveRetraction(const Skeleton& joints, const GarmentMesh& garment);
 
     bool any() const;
     /// The garment's vertices with its sleeves and legs pushed up, n x 3: along each limb a map without folds. What

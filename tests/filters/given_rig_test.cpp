@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/given_rig.h"
 
 #include "fixtures.h"
 
@@ -8,40 +8,40 @@ namespace {
 
 using namespace fixtures;
 
-struct OwnRig : testing::Test {
+struct GivenRig : testing::Test {
     const Person person = capsule_person();
     const Positions own = person.mesh.positions;
     const Rig rig = rig_on(simple_rig(person), own);
 };
 
-TEST_F(OwnRig, HasItsRadiiMeasured)
+TEST_F(GivenRig, HasItsRadiiMeasured)
 {
     EXPECT_EQ(rig.radii, bone_radii(rig.skeleton, rig.weights, own));
     EXPECT_GT(rig.radii[lfemur], 0.02);
 }
 
-TEST_F(OwnRig, IsKnownAgainOnABodyThatWasKeptAsFloats)
+TEST_F(GivenRig, IsKnownAgainOnABodyThatWasKeptAsFloats)
 {
     const Positions kept = own.cast<float>().cast<double>();
     EXPECT_EQ(rig_on(rig, kept).skeleton.tails, rig.skeleton.tails);
 }
 
-TEST_F(OwnRig, IsNotThatOfABodyOfOtherVertices)
+TEST_F(GivenRig, IsNotThatOfABodyOfOtherVertices)
 {
     expect_invalid([&] { rig_on(rig, own.topRows(9), "man.rig.json"); }, "man.rig.json belongs to a body of");
 }
 
-TEST_F(OwnRig, IsNotThatOfAnotherBodyWithAsManyVertices)
+TEST_F(GivenRig, IsNotThatOfAnotherBodyWithAsManyVertices)
 {
     expect_invalid([&] { rig_on(rig, 1.06 * own); }, "belongs to another body");
 }
 
-TEST_F(OwnRig, IsNotThatOfABodyThatWasMovedSince)
+TEST_F(GivenRig, IsNotThatOfABodyThatWasMovedSince)
 {
     expect_invalid([&] { rig_on(rig, own.rowwise() + Vec3(0.05, 0, 0).transpose()); }, "was moved since");
 }
 
-TEST_F(OwnRig, IsNotOneWhoseDirectionsOrWeightsWereSpoilt)
+TEST_F(GivenRig, IsNotOneWhoseDirectionsOrWeightsWereSpoilt)
 {
     Rig spoilt = rig;
     spoilt.up = spoilt.front = Vec3::Zero();

@@ -6,7 +6,7 @@
 namespace garmentfit {
 
 /// What a garment offers to a point: how far the cloth is, and how surely the point is inside.
-struct Room {
+struct Clearance {
     double distance = 0;  ///< m, to the nearest cloth
     double inside = 0;  ///< 1 inside, 0 outside, between the two on the way through an opening
 };
@@ -30,13 +30,13 @@ inline double inside_value(double distance, double radius)
 }
 
 /// What room is worth to it: equation (3), with the room counted up to what the limb needs.
-inline double room_value(const Room& room, double radius)
+inline double clearance_value(const Clearance& clearance, double radius)
 {
-    return room.inside * inside_value(room.distance, radius)
-        - (1 - room.inside) * std::min(room.distance, k_largest_outside);
+    return clearance.inside * inside_value(clearance.distance, radius)
+        - (1 - clearance.inside) * std::min(clearance.distance, k_largest_outside);
 }
 
 /// No room is worth more.
-inline double most_room_value(double radius) { return (1 + k_surplus) * radius; }
+inline double max_clearance_value(double radius) { return (1 + k_surplus) * radius; }
 
 }  // namespace garmentfit

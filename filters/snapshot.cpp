@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ Positions skinned(const Scene& scene, const Pose& pose)
     return skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, pose));
 }
 
-Moment moment_before_dressing(const Scene& scene)
+Snapshot moment_before_dressing(const Scene& scene)
 {
     if (scene.fits.empty())
         return { {}, scene.body->surface.positions, {}, {} };
@@ -25,9 +25,9 @@ Moment moment_before_dressing(const Scene& scene)
     return { pose, skinned(scene, pose), {}, {} };
 }
 
-Moment end_of(const Dressing& dressing)
+Snapshot end_of(const Dressing& dressing)
 {
-    Moment moment { dressing.pose, dressing.body, {}, dressing.maps };
+    Snapshot moment { dressing.pose, dressing.body, {}, dressing.maps };
     for (const WornGarment& garment : dressing.garments)
         moment.garments.push_back(garment.positions);
     return moment;
@@ -40,9 +40,9 @@ const RecoverFrame& nearest_frame(const std::vector<RecoverFrame>& frames, doubl
     });
 }
 
-Moment moment_of(const Scene& scene, const Dressing& dressing, const RecoverFrame& frame, const ClothOptions& cloth)
+Snapshot snapshot_of(const Scene& scene, const Dressing& dressing, const RecoverFrame& frame, const ClothOptions& cloth)
 {
-    Moment moment { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments,
+    Snapshot moment { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments,
                     std::vector<FitMap>(frame.garments.size()) };
     const TriangleMesh body { frame.body, scene.body->surface.triangles };
     for (const std::size_t i : dressing.worn()) {
@@ -72,14 +72,14 @@ Positions as_left(Positions posed, const Positions& left)
 
 }  // namespace
 
-Moment moment_of(const Scene& scene, double share, const ClothOptions& cloth)
+Snapshot snapshot_of(const Scene& scene, double share, const ClothOptions& cloth)
 {
     const Dressing* end = final_dressing(scene);
     if (!end)
         return moment_before_dressing(scene);
     if (share >= 1 || end->frames.empty())
         return end_of(*end);
-    return moment_of(scene, *end, nearest_frame(end->frames, share), cloth);
+    return snapshot_of(scene, *end, nearest_frame(end->frames, share), cloth);
 }
 
 Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& left, const std::vector<Positions>& worn,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "garmentfit/filters/doubts.h"
+#include "garmentfit/filters/warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -24,15 +24,15 @@ Scene worn_scene()
     return scene;
 }
 
-Lines doubts_about(const Scene& scene) { return doubts_about_scene(scene, { "skirt", "coat" }, set); }
+Lines doubts_about(const Scene& scene) { return warnings_about_scene(scene, { "skirt", "coat" }, set); }
 
-TEST(Doubts, AreNoneWhereEverythingIsSure)
+TEST(Warnings, AreNoneWhereEverythingIsSure)
 {
     EXPECT_EQ(doubts_about(worn_scene()), Lines());
-    EXPECT_EQ(doubts_about_frame("man", { {}, 1, 1, "" }, "", set), Lines());
+    EXPECT_EQ(warnings_about_frame("man", { {}, 1, 1, "" }, "", set), Lines());
 }
 
-TEST(Doubts, SayWhichParameterSettlesThem)
+TEST(Warnings, SayWhichParameterSettlesThem)
 {
     Scene scene = worn_scene();
     scene.rig->side_margin = 0.1;
@@ -41,12 +41,12 @@ TEST(Doubts, SayWhichParameterSettlesThem)
     EXPECT_EQ(doubts_about(scene),
               (Lines { "left and right of the body are hardly more than a guess; look, and set swap_sides",
                        "the type of coat is hardly more than a guess, coat; set type" }));
-    EXPECT_EQ(doubts_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
+    EXPECT_EQ(warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
               (Lines { "the unit of coat is hardly more than a guess (it is wide); set garment_unit",
                        "the up axis of coat is hardly more than a guess (it is wide); set garment_up" }));
 }
 
-TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
+TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
 {
     Scene scene = worn_scene();
     scene.draped->speed = 1.5;
@@ -59,7 +59,7 @@ TEST(Doubts, SayWhatCameOutOtherThanAskedFor)
                        "coat was not put on, for what is under it was not certified" }));
 }
 
-TEST(Doubts, SayThatAGarmentTooSmallIsLeftOut)
+TEST(Warnings, SayThatAGarmentTooSmallIsLeftOut)
 {
     Scene scene = worn_scene();
     scene.draped->garments.pop_back();
@@ -67,7 +67,7 @@ TEST(Doubts, SayThatAGarmentTooSmallIsLeftOut)
     EXPECT_EQ(doubts_about(scene), (Lines { "coat is left out of the result: it does not go over what is under it" }));
 }
 
-TEST(Doubts, SayWhereClothIsOverstretched)
+TEST(Warnings, SayWhereClothIsOverstretched)
 {
     Scene scene = worn_scene();
     scene.draped->overstretches = { { 0, 0.49, "" }, { 3, 17.6, "left forearm" } };
@@ -75,7 +75,7 @@ TEST(Doubts, SayWhereClothIsOverstretched)
               (Lines { "coat is overstretched: 3 edges by more than 50%, the most by 1760%, at left forearm" }));
 }
 
-TEST(Doubts, SayThatFramesAreMissing)
+TEST(Warnings, SayThatFramesAreMissing)
 {
     Scene scene = worn_scene();
     scene.draped->frames_asked = 3;
@@ -85,7 +85,7 @@ TEST(Doubts, SayThatFramesAreMissing)
     EXPECT_EQ(doubts_about(scene), (Lines { "of 3 frames there are 2: those that cannot be certified are left out" }));
 }
 
-TEST(Doubts, SayThatCrossingsAsGivenAreStillThere)
+TEST(Warnings, SayThatCrossingsAsGivenAreStillThere)
 {
     Scene scene = worn_scene();
     scene.draped->garments[1].certificate.input_self_crossings = 9;

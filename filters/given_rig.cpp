@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "garmentfit/filters/own_rig.h"
+#include "garmentfit/filters/given_rig.h"
 
 #include <algorithm>
 #include <cmath>

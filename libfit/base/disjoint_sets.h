@@ -7,9 +7,9 @@
 namespace garmentfit {
 
 /// Which vertices hang together: disjoint sets.
-class JoinedVertices {
+class DisjointSets {
 public:
-    explicit JoinedVertices(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+    explicit DisjointSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
     /// @return whether they were apart
     bool join(int a, int b)

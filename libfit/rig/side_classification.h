@@ -17,6 +17,6 @@ struct Sides {
 /// A human is nearly its own mirror image, so cues vote: toes point forward, knees flex back, hips flex forward, elbows flex
 /// forward, the face is in front of the neck. Each is carried to the trunk along its limb without twist. O(n).
 /// @param known_front  ends the vote: the sides are those that face it best, the margin says how well
-Sides side_vote(const BodyJoints& joints, const std::optional<Vec3>& known_front = {});
+Sides side_classification(const BodyJoints& joints, const std::optional<Vec3>& known_front = {});
 
 }  // namespace garmentfit

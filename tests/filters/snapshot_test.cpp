@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "garmentfit/filters/moment.h"
+#include "garmentfit/filters/snapshot.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ struct Moments : testing::Test {
 
 TEST_F(Moments, BeginWithTheBodyInItsOwnPoseBitForBit)
 {
-    const Moment now = moment_of(scene, 1, {});
+    const Snapshot now = snapshot_of(scene, 1, {});
     EXPECT_EQ(now.body, scene.body->surface.positions);
     EXPECT_TRUE(now.garments.empty());
 }
@@ -47,17 +47,17 @@ TEST_F(Moments, ShowTheNearestFrameAndTheEndAfterIt)
 {
     recover_in_two_frames();
     const Positions& own = scene.body->surface.positions;
-    EXPECT_EQ(moment_of(scene, 0.4, {}).body, Positions(own.array() + 1));
-    EXPECT_EQ(moment_of(scene, 0.6, {}).body, own);
-    EXPECT_EQ(moment_of(scene, 1, {}).body, own);
-    EXPECT_EQ(moment_of(scene, 0.4, {}).maps[0].ease.size(), worn().rows());
+    EXPECT_EQ(snapshot_of(scene, 0.4, {}).body, Positions(own.array() + 1));
+    EXPECT_EQ(snapshot_of(scene, 0.6, {}).body, own);
+    EXPECT_EQ(snapshot_of(scene, 1, {}).body, own);
+    EXPECT_EQ(snapshot_of(scene, 0.4, {}).maps[0].ease.size(), worn().rows());
 }
 
 TEST_F(Moments, OfAFittedBodyShowTheFitsPose)
 {
     scene.fits.push_back({});
     scene.fits[0].pose.root_translation = { 0, 0.25, 0 };
-    const Positions moved = moment_of(scene, 1, {}).body;
+    const Positions moved = snapshot_of(scene, 1, {}).body;
     EXPECT_NEAR((moved - scene.body->surface.positions).col(1).minCoeff(), 0.25, 1e-12);
 }
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "room_pyramid.h"
+#include "min_max_pyramid.h"
 
 namespace garmentfit {
 
@@ -35,11 +35,11 @@ struct Slab {
     }
 };
 
-class RoomSearch {
+class ClearanceSearch {
 public:
     /// @param slope  what a metre along each axis is worth besides, m/m
     /// @param slab  where to look. Keeps a reference to the cloth.
-    RoomSearch(const RoomPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab = {});
+    ClearanceSearch(const MinMaxPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab = {});
 
     double value(const Vec3& at) const;
 
@@ -50,7 +50,7 @@ public:
     std::vector<Place> best(const Vec3& low, const Vec3& high, double spacing, double apart, std::size_t count) const;
 
 private:
-    const RoomPyramid& cloth_;
+    const MinMaxPyramid& cloth_;
     std::vector<RoomSample> samples_;
     Vec3 slope_;
     Slab slab_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rig_gates.h"
+#include "rig_validation.h"
 
 #include <algorithm>
 #include <cmath>
