@@ -134,12 +134,10 @@ std::vector<TooTight> among_all(std::vector<TooTight> parts, const std::vector<s
     return parts;
 }
 
-Dressing dressing_of(const DrapeResult& result, const Pose& pose)
+Dressing dressing_of(const DrapeResult& result)
 {
     Dressing dressing;
-    dressing.garments = result.garments;
-    dressing.body = result.body;
-    dressing.pose = pose;
+    static_cast<DressedBody&>(dressing) = result;
     dressing.size_reached = result.size_reached;
     dressing.held_back = result.held_back;
     dressing.speed = result.speed;
@@ -154,7 +152,7 @@ Dressing moved(const Scene& scene, const Dressing& from, const std::vector<std::
                const RecoverOptions& options, const Progress& progress)
 {
     const RecoverResult result
-        = recover_pose(*scene.rig, scene.body.value(), from.pose, to, from.garments, options, progress, from.body);
+        = recover_pose(*scene.rig, scene.body.value(), from, to, options, progress);
     Dressing next = from;
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
@@ -168,10 +166,8 @@ Dressing moved(const Scene& scene, const Dressing& from, const std::vector<std::
         return next;
     }
     next.too_tight = among_all(result.too_tight, worn);
-    next.garments = result.garments;
-    next.body = result.body;
+    static_cast<DressedBody&>(next) = result;
     next.speed = result.speed;
-    next.pose = slerp(from.pose, to, result.pose_reached);
     return next;
 }
 
@@ -215,12 +211,13 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
             dressing = moved(scene, dressing, order, pose, between_poses, slice.part(0, 0.3));
         if (layer > 0 && !dressing.certified)
             break;
+        dressing.pose = pose;
         const DrapeResult result = for_garment(scene, order[layer], [&](std::size_t i) {
-            return drape_garment(*scene.rig, *scene.body, pose, scene.garments[i].mesh, p.drape,
-                                 slice.part(layer > 0 ? 0.3 : 0, 1), dressing.garments, dressing.body);
+            return drape_garment(*scene.rig, *scene.body, dressing, scene.garments[i].mesh, p.drape,
+                                 slice.part(layer > 0 ? 0.3 : 0, 1));
         });
         const ClothSeconds before = dressing.seconds;
-        dressing = dressing_of(result, pose);
+        dressing = dressing_of(result);
         dressing.too_tight = among_all(result.too_tight, order);
         dressing.outermost = order[layer];
         dressing.seconds += before;

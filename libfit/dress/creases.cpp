@@ -6,8 +6,8 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "garmentfit/mesh.h"
 #include "disjoint_sets.h"
+#include "garmentfit/mesh.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "surface_measures.h"

@@ -15,8 +15,8 @@
 #include "garmentfit/fit_skeleton.h"
 #include "held_back.h"
 #include "layers.h"
-#include "sleeve_retraction.h"
 #include "skin_weights.h"
+#include "sleeve_retraction.h"
 #include "straight_hands.h"
 #include "tightness.h"
 #include "untangle.h"
@@ -273,10 +273,12 @@ bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
     return clean;
 }
 
-DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
-                          const DrapeOptions& options, const Progress& progress, const std::vector<WornGarment>& worn,
-                          const Positions& left)
+DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& wearer, const GarmentMesh& garment,
+                          const DrapeOptions& options, const Progress& progress)
 {
+    const Pose& pose = wearer.pose;
+    const std::vector<WornGarment>& worn = wearer.garments;
+    const Positions& left = wearer.body;
     require_wearable_size(rig, garment);
     const auto [cloth, inside, first] = start(rig, body, pose, garment, worn, left);
 
@@ -287,6 +289,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
     ClothMotion motion(garment, cloth, { inside.at(first), inside.full.triangles }, options.cloth);
 
     DrapeResult result;
+    result.pose = pose;
     result.size_reached = inflate(motion, inside, first, grading, options, progress.part(0, 0.7));
     if (result.size_reached < 1) {
         const PerPart growth

@@ -44,8 +44,7 @@ std::vector<int> vertices_inside(const TriangleMesh& body, const std::vector<int
 
 }  // namespace
 
-std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weights,
-                              const std::vector<char>& near_cloth)
+std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weights, const std::vector<char>& near_cloth)
 {
     std::vector<int> parts = strongest_bones(weights);
     std::transform(parts.begin(), parts.end(), parts.begin(), part_of);

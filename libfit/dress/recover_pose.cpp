@@ -66,7 +66,10 @@ public:
     }
 
     /// The last pose, with what is in creases drawn back from them.
-    Positions withdrawn() const { return creases_.withdrawn(collapse(last_, rig_.weights, pose_skeleton(rig_.skeleton, to_))); }
+    Positions withdrawn() const
+    {
+        return creases_.withdrawn(collapse(last_, rig_.weights, pose_skeleton(rig_.skeleton, to_)));
+    }
 
     /// Metres that the vertex of the cloth with the longest way is carried. Bare hands go further, but they carry nothing.
     double length(const Positions& cloth, const SkinWeights& weights) const
@@ -226,10 +229,12 @@ Gone go(ClothMotion& motion, const Way& way, const SkinWeights& body_weights, co
 
 }  // namespace
 
-RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
-                           const std::vector<WornGarment>& worn, const RecoverOptions& options,
-                           const Progress& progress, const Positions& start_positions)
+RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& to,
+                           const RecoverOptions& options, const Progress& progress)
 {
+    const Pose& from = dressed.pose;
+    const std::vector<WornGarment>& worn = dressed.garments;
+    const Positions& start_positions = dressed.body;
     RecoverResult result;
     result.garments = worn;
     TriangleMesh rest, cloth;
@@ -258,6 +263,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
         motion.advect_obstacle(way.last());
     }
     const double reached = stuck ? gone.in_place : 1;
+    result.pose = slerp(from, to, reached);
     const Positions end = way.at(reached);
     const auto [arrived, speed] = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1));
 
@@ -272,7 +278,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& fro
     if (!stuck)
         result.held_back = held_back(result.body, end, rig.weights);
     result.too_tight = too_tight({ worn, start.positions, pose_skeleton(rig.skeleton, from) },
-                                 { result.garments, result.body, pose_skeleton(rig.skeleton, slerp(from, to, reached)) },
+                                 { result.garments, result.body, pose_skeleton(rig.skeleton, result.pose) },
                                  rig.weights, options.cloth.largest_stretch);
     result.speed = speed;
     result.seconds = motion.seconds();

@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
-#include "extremity_skin.h"
 #include "disjoint_sets.h"
+#include "extremity_skin.h"
 #include "nearest.h"
 #include "segment.h"
 
@@ -166,7 +166,8 @@ bool SleeveRetraction::any() const
     return std::any_of(pushed_.begin(), pushed_.end(), [](bool pushed) { return pushed; });
 }
 
-std::vector<double> SleeveRetraction::freed(const Positions& skin, const SkinWeights& weights, const Skeleton& joints) const
+std::vector<double> SleeveRetraction::freed(const Positions& skin, const SkinWeights& weights,
+                                            const Skeleton& joints) const
 {
     std::vector<double> result(skin.rows(), 0);
     for (const Extremity end : k_ends) {

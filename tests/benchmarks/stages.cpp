@@ -114,17 +114,17 @@ void drape(benchmark::State& state)
     const Fitted coat(state);
     ClothSeconds seconds;
     for (auto _ : state)
-        seconds += drape_garment(coat.rigged, coat.woman, coat.pose, coat.garment).seconds;
+        seconds += drape_garment(coat.rigged, coat.woman, { coat.pose }, coat.garment).seconds;
     count_seconds(state, seconds);
 }
 
 void recover(benchmark::State& state)
 {
     const Fitted coat(state);
-    const DrapeResult draped = drape_garment(coat.rigged, coat.woman, coat.pose, coat.garment);
+    const DrapeResult draped = drape_garment(coat.rigged, coat.woman, { coat.pose }, coat.garment);
     ClothSeconds seconds;
     for (auto _ : state)
-        seconds += recover_pose(coat.rigged, coat.woman, coat.pose, Pose(), draped.garments).seconds;
+        seconds += recover_pose(coat.rigged, coat.woman, draped, Pose()).seconds;
     count_seconds(state, seconds);
 }
 

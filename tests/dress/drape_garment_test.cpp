@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
 #include "garmentfit/error.h"
 #include "garmentfit/fit_skeleton.h"
 #include "garmentfit/io.h"
 #include "garmentfit/recover_pose.h"
 #include "garmentfit/rig_body.h"
-#include "fixtures.h"
 
 namespace {
 
@@ -43,6 +43,9 @@ GarmentMesh trousers(double ease)
     return make_garment(mesh.positions, mesh.triangles);
 }
 
+// In the pose of the input, with a garment on that keeps its rest shape.
+DressedBody wearing(const GarmentMesh& garment) { return { {}, {}, { { garment, garment.positions, {} } } }; }
+
 DrapeOptions short_settling()
 {
     DrapeOptions options;
@@ -54,7 +57,7 @@ TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
 {
     const Dressing d = person();
     const GarmentMesh garment = trousers(0.02);
-    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), garment, short_settling());
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.size_reached, 1);
     EXPECT_TRUE(result.too_tight.empty());
@@ -72,16 +75,15 @@ TEST(DrapeGarment, SaysHowFarAGarmentSlipsThatIsTooWideToStay)
         person_skeleton({}), 0.15, [](const Vec3& p) { return p.y() > 0.75 && p.y() < 1.0 && std::abs(p.x()) < 0.4; });
     DrapeOptions options;
     options.settling_steps = 30;
-    const DrapeResult result
-        = drape_garment(d.rig, d.body, Pose(), make_garment(wide.positions, wide.triangles), options);
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, make_garment(wide.positions, wide.triangles), options);
     EXPECT_GT(result.garments[0].slipped, 0.1);
-    EXPECT_LT(drape_garment(d.rig, d.body, Pose(), trousers(0.02), short_settling()).garments[0].slipped, 0.06);
+    EXPECT_LT(drape_garment(d.rig, d.body, {}, trousers(0.02), short_settling()).garments[0].slipped, 0.06);
 }
 
 TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
 {
     const Dressing d = person();
-    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), trousers(-0.03), short_settling());
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, trousers(-0.03), short_settling());
     EXPECT_FALSE(result.certified);
     EXPECT_LT(result.size_reached, 1);
     ASSERT_FALSE(result.too_tight.empty());
@@ -96,7 +98,7 @@ TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
     const GarmentMesh small = trousers(-0.012);
     DrapeOptions options = short_settling();
     options.cloth.largest_enlargement = 1;
-    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), small, options);
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, small, options);
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.size_reached, 1);
     ASSERT_EQ(result.garments.size(), 1u);
@@ -105,7 +107,7 @@ TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
     EXPECT_LT(size, 1.5);
     EXPECT_EQ(result.garments[0].rest.positions, size * small.positions);
     options.cloth.largest_enlargement = 0.5 * (size - 1);
-    EXPECT_LT(drape_garment(d.rig, d.body, Pose(), small, options).size_reached, 1);
+    EXPECT_LT(drape_garment(d.rig, d.body, {}, small, options).size_reached, 1);
 }
 
 TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
@@ -114,7 +116,7 @@ TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
     GarmentMesh aside = trousers(0.02);
     aside.positions.col(0).array() += 0.12;
     try {
-        drape_garment(d.rig, d.body, Pose(), aside);
+        drape_garment(d.rig, d.body, {}, aside);
         FAIL() << "took a garment beside the body";
     } catch (const InvalidInput& error) {
         EXPECT_NE(std::string(error.what()).find("bone"), std::string::npos) << error.what();
@@ -141,19 +143,19 @@ TEST(DrapeGarment, StartsThinnerWhereClothIsVeryNearToABone)
 {
     const Dressing d = person();
     const GarmentMesh garment = trousers_with_patch(d.rig.skeleton, 3e-4);
-    const DrapeResult result = drape_garment(d.rig, d.body, Pose(), garment, short_settling());
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.size_reached, 1);
-    EXPECT_THROW(drape_garment(d.rig, d.body, Pose(), trousers_with_patch(d.rig.skeleton, 0), short_settling()),
+    EXPECT_THROW(drape_garment(d.rig, d.body, {}, trousers_with_patch(d.rig.skeleton, 0), short_settling()),
                  InvalidInput);
 }
 
 TEST(DrapeGarment, PutsASecondGarmentOverTheFirst)
 {
     const Dressing d = person();
-    const DrapeResult inner = drape_garment(d.rig, d.body, Pose(), trousers(0.012), short_settling());
+    const DrapeResult inner = drape_garment(d.rig, d.body, {}, trousers(0.012), short_settling());
     ASSERT_TRUE(inner.certified);
-    const DrapeResult both = drape_garment(d.rig, d.body, Pose(), trousers(0.04), short_settling(), {}, inner.garments);
+    const DrapeResult both = drape_garment(d.rig, d.body, inner, trousers(0.04), short_settling());
     EXPECT_TRUE(both.certified);
     ASSERT_EQ(both.garments.size(), 2u);
     EXPECT_EQ(both.garments[1].certificate.layer_crossings, 0);
@@ -163,9 +165,8 @@ TEST(DrapeGarment, PutsASecondGarmentOverTheFirst)
 TEST(DrapeGarment, LeavesInnerGarmentsCleanWhereTheOuterOneIsTooSmall)
 {
     const Dressing d = person();
-    const DrapeResult inner = drape_garment(d.rig, d.body, Pose(), trousers(0.012), short_settling());
-    const DrapeResult both
-        = drape_garment(d.rig, d.body, Pose(), trousers(-0.03), short_settling(), {}, inner.garments, inner.body);
+    const DrapeResult inner = drape_garment(d.rig, d.body, {}, trousers(0.012), short_settling());
+    const DrapeResult both = drape_garment(d.rig, d.body, inner, trousers(-0.03), short_settling());
     EXPECT_FALSE(both.certified);
     EXPECT_LT(both.size_reached, 1);
     ASSERT_FALSE(both.too_tight.empty());
@@ -181,7 +182,7 @@ TEST(DrapeGarment, StopsWhenToldTo)
 {
     const Dressing d = person();
     const Progress stop([](double fraction, std::string_view) { return fraction < 0.2; });
-    EXPECT_THROW(drape_garment(d.rig, d.body, Pose(), trousers(0.02), {}, stop), Cancelled);
+    EXPECT_THROW(drape_garment(d.rig, d.body, {}, trousers(0.02), {}, stop), Cancelled);
 }
 
 TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
@@ -190,13 +191,13 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     Pose standing;
     for (const int thigh : { lfemur, rfemur })
         standing.rotations[thigh] = Eigen::Quaterniond(Eigen::AngleAxisd(35 * k_degree, Vec3::UnitX()));
-    const DrapeResult draped = drape_garment(d.rig, d.body, standing, trousers(0.025), short_settling());
+    const DrapeResult draped = drape_garment(d.rig, d.body, { standing }, trousers(0.025), short_settling());
     ASSERT_TRUE(draped.certified);
     std::vector<double> fractions;
     const Progress progress([&](double fraction, std::string_view) { return fractions.push_back(fraction), true; });
     RecoverOptions options;
     options.frames = 5;
-    const RecoverResult result = recover_pose(d.rig, d.body, standing, Pose(), draped.garments, options, progress);
+    const RecoverResult result = recover_pose(d.rig, d.body, draped, Pose(), options, progress);
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.pose_reached, 1);
     EXPECT_EQ(result.body, d.body.surface.positions);
@@ -223,8 +224,7 @@ TEST(RecoverPose, HandsOutAsManyFramesAsAskedForAndOneIsTheEnd)
     options.settling_steps = 2;
     for (const int frames : { 1, 12 }) {  // the body stands in the pose already: one step would do
         options.frames = frames;
-        const RecoverResult result
-            = recover_pose(d.rig, d.body, Pose(), Pose(), { { rest, rest.positions, {} } }, options);
+        const RecoverResult result = recover_pose(d.rig, d.body, wearing(rest), Pose(), options);
         ASSERT_EQ(result.frames.size(), std::size_t(frames));
         for (int i = 0; i < frames; ++i)
             EXPECT_NEAR(result.frames[i].share, frames > 1 ? double(i) / (frames - 1) : 1, 1e-9);
@@ -238,7 +238,7 @@ TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
     GarmentMesh rest = trousers(0.01);
     const Positions worn = rest.positions;
     rest.positions *= 0.75;
-    const RecoverResult result = recover_pose(d.rig, d.body, Pose(), Pose(), { { rest, worn, {} } });
+    const RecoverResult result = recover_pose(d.rig, d.body, { {}, {}, { { rest, worn, {} } } }, Pose());
     EXPECT_FALSE(result.certified);
     ASSERT_FALSE(result.too_tight.empty());
     EXPECT_EQ(result.too_tight[0].garment, 0);
@@ -254,8 +254,9 @@ TEST(RecoverPose, LetsPartsThatWereHeldBackCatchUp)
     const GarmentMesh loose = trousers(0.02);
     const Positions& skin = d.body.surface.positions;
     const Positions held_back = skin - 4e-3 * vertex_normals(skin, d.body.surface.triangles);
-    const RecoverResult result
-        = recover_pose(d.rig, d.body, Pose(), Pose(), { { loose, loose.positions, {} } }, {}, {}, held_back);
+    DressedBody start = wearing(loose);
+    start.body = held_back;
+    const RecoverResult result = recover_pose(d.rig, d.body, start, Pose());
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.body, skin);
 }
@@ -267,7 +268,7 @@ TEST(RecoverPose, TurnsBackWhereThereIsNoRoomForClothOnTheWay)
     Pose crossed;
     crossed.rotations[lfemur] = Eigen::Quaterniond(Eigen::AngleAxisd(-50 * k_degree, Vec3::UnitZ()));
     crossed.rotations[rfemur] = crossed.rotations[lfemur].inverse();
-    const RecoverResult result = recover_pose(d.rig, d.body, Pose(), crossed, { { loose, loose.positions, {} } });
+    const RecoverResult result = recover_pose(d.rig, d.body, wearing(loose), crossed);
     EXPECT_FALSE(result.certified);
     EXPECT_LT(result.pose_reached, 1);
     ASSERT_FALSE(result.held_back.empty());
@@ -294,11 +295,11 @@ TEST_P(RealGarment, IsPutOnAndStaysOn)
     const Rig rig = rig_body(body);
     const GarmentMesh garment = make_garment(cloth.positions(), cloth.triangles());
     const Pose fitted = fit_skeleton(rig, garment).pose;
-    const DrapeResult draped = drape_garment(rig, body, fitted, garment, short_settling());
+    const DrapeResult draped = drape_garment(rig, body, { fitted }, garment, short_settling());
     ASSERT_EQ(draped.size_reached, 1);
     RecoverOptions options;
     options.settling_steps = 10;
-    EXPECT_TRUE(recover_pose(rig, body, fitted, Pose(), draped.garments, options, {}, draped.body).certified);
+    EXPECT_TRUE(recover_pose(rig, body, draped, Pose(), options).certified);
 }
 
 INSTANTIATE_TEST_SUITE_P(Known, RealGarment,
@@ -312,7 +313,7 @@ TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
 {
     const Dressing d = person();
     const GarmentMesh tight = trousers(-0.01);
-    EXPECT_THROW(recover_pose(d.rig, d.body, Pose(), Pose(), { { tight, tight.positions, {} } }), InvalidInput);
+    EXPECT_THROW(recover_pose(d.rig, d.body, wearing(tight), Pose()), InvalidInput);
 }
 
 TEST(RecoverPose, StopsWhenToldTo)
@@ -320,7 +321,7 @@ TEST(RecoverPose, StopsWhenToldTo)
     const Dressing d = person();
     const GarmentMesh loose = trousers(0.02);
     const Progress stop([](double, std::string_view) { return false; });
-    EXPECT_THROW(recover_pose(d.rig, d.body, Pose(), Pose(), { { loose, loose.positions, {} } }, {}, stop), Cancelled);
+    EXPECT_THROW(recover_pose(d.rig, d.body, wearing(loose), Pose(), {}, stop), Cancelled);
 }
 
 }  // namespace

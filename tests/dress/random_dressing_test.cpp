@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <random>
 
+#include "fixtures.h"
 #include "garmentfit/recover_pose.h"
 #include "garmentfit/rig_body.h"
-#include "fixtures.h"
 
 namespace garmentfit {
 namespace {
@@ -104,7 +104,7 @@ TEST_P(RandomDressing, NothingCrosses)
     double ease = whim.between(-0.01, 0.03);
     for (int layer = 0; layer < layers; ++layer, ease += whim.between(0.01, 0.04)) {
         const GarmentMesh garment = random_garment(whim, person.skeleton, ease, whim.between(0, 0.01));
-        dressed = drape_garment(rig, body, Pose(), garment, drape, {}, dressed.garments, dressed.body);
+        dressed = drape_garment(rig, body, dressed, garment, drape);
         expect_no_crossing(dressed.garments, places(dressed.garments), { dressed.body, skin });
         if (dressed.size_reached < 1)
             return;  // too small, and handed out as it is
@@ -112,8 +112,7 @@ TEST_P(RandomDressing, NothingCrosses)
     RecoverOptions recover;
     recover.settling_steps = 5;
     recover.frames = 4;
-    const RecoverResult moved
-        = recover_pose(rig, body, Pose(), random_pose(whim, 35), dressed.garments, recover, {}, dressed.body);
+    const RecoverResult moved = recover_pose(rig, body, dressed, random_pose(whim, 35), recover);
     for (const RecoverFrame& frame : moved.frames)
         expect_no_crossing(dressed.garments, frame.garments, { frame.body, skin });
     expect_no_crossing(moved.garments, places(moved.garments), { moved.body, skin });

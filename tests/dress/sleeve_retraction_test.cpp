@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "nearest.h"
 #include "fixtures.h"
+#include "nearest.h"
 
 namespace garmentfit {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/rig_body.h"
 #include "fixtures.h"
+#include "garmentfit/rig_body.h"
 
 namespace {
 

@@ -38,11 +38,8 @@ struct GarmentInput {
     std::string name = {};  ///< to tell it from others in messages, or empty
 };
 
-/// Garments on the body, in one pose.
-struct Dressing {
-    std::vector<WornGarment> garments;  ///< one for each of the scene's; without positions where it is not worn
-    Positions body;  ///< of the user's vertices
-    Pose pose;
+/// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.
+struct Dressing : DressedBody {
     std::size_t outermost = 0;  ///< which garment was put on last, or was to be
     double size_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
     double pose_reached = 1;  ///< of the last way between two poses

@@ -42,27 +42,30 @@ struct HeldBack {
     double distance;  ///< m; what is left of the way of its furthest vertex
 };
 
-/// A garment on a body, layer upon layer.
+/// A garment on a body.
 struct WornGarment {
     GarmentMesh rest;  ///< as given, or enlarged: edge lengths and folds
     Positions positions;  ///< as worn, n x 3
     Certificate certificate;
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
-    double slipped
-        = 0;  ///< m that it sank along the body since it was put on, by the median of its vertices; much, and it is too
-        ///< wide to stay where it is worn
+    /// m that it sank along the body since it was put on, by the median of its vertices. A large value: the garment is too wide to stay.
+    double slipped = 0;
+};
+
+/// A body in a pose, and the garments on it.
+struct DressedBody {
+    Pose pose = {};  ///< takes the body from the pose of its input into this one
+    /// The body's vertices, n x 3; cloth may hold parts of the body back from the pose, and hands may be stretched out. Empty: exactly the pose.
+    Positions body = {};
+    std::vector<WornGarment> garments = {};  ///< from the inside out
 };
 
 /// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n). @return whether all are clean
 GARMENTFIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
 
-struct DrapeResult {
-    std::vector<WornGarment>
-        garments;  ///< from the inside out; the last one is new, and left out where it is too small to
-        ///< be put on over the others
-    Positions
-        body;  ///< the user's vertices in the fitted pose, at the size reached; hands that would stand across a sleeve are
-    ///< stretched out
+/// The dressed body as draping left it, at the body scale reached. The last garment is the new one. It is left out where it is too small to be
+/// put on over the others. Hands that would stand across a sleeve are stretched out.
+struct DrapeResult : DressedBody {
     double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
@@ -73,12 +76,12 @@ struct DrapeResult {
     ClothSeconds seconds;
 };
 
-/// @param pose    takes the body from its own pose into the garment (from fit_skeleton)
-/// @param worn    garments that the body wears already, in that pose, from the inside out; they move with the body
-/// @param left    the body's vertices as it wears those garments: what draping them gave
+/// Puts one more garment on a body.
+/// @param wearer  the body in the pose of the new garment (FitResult::pose), and the garments that it wears already, which give way with it.
+///                A body that wears nothing: `{ fit.pose }`. Another layer: the DrapeResult of the layer below.
 /// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does. Cancelled.
-GARMENTFIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
-                                  const DrapeOptions& options = {}, const Progress& progress = {},
-                                  const std::vector<WornGarment>& worn = {}, const Positions& left = Positions(0, 3));
+GARMENTFIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& wearer,
+                                         const GarmentMesh& garment, const DrapeOptions& options = {},
+                                         const Progress& progress = {});
 
 }  // namespace garmentfit

@@ -46,6 +46,6 @@ struct Girth {
 /// waist, the waist where it is narrowest, the hips where it is widest below; limbs never count into the trunk.
 /// @param skeleton  in the pose of body and garment
 GARMENTFIT_API std::vector<Girth> girths(const Skeleton& skeleton, const SkinWeights& weights, const TriangleMesh& body,
-                                  const WornGarment& worn);
+                                         const WornGarment& worn);
 
 }  // namespace garmentfit

@@ -20,7 +20,8 @@ GARMENTFIT_API const std::vector<std::string_view>& layer_order_names();
 /// other; where that says nothing either, they stay in the order they are in. O(n log n).
 /// @param body  the user's vertices, metres
 /// @param fits  of each garment, with its type
-GARMENTFIT_API std::vector<int> order_layers(const Rig& rig, const Positions& body, const std::vector<GarmentMesh>& garments,
-                                      const std::vector<FitResult>& fits);
+GARMENTFIT_API std::vector<int> order_layers(const Rig& rig, const Positions& body,
+                                             const std::vector<GarmentMesh>& garments,
+                                             const std::vector<FitResult>& fits);
 
 }  // namespace garmentfit

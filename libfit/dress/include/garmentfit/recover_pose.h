@@ -37,30 +37,31 @@ struct Overlap {
     double depth;  ///< m; the deepest vertex of the one in the other
 };
 
-struct RecoverResult {
-    std::vector<WornGarment> garments;
-    Positions body;  ///< at the pose reached; equal to body.surface.positions, bit for bit, for the own pose
+/// The dressed body at the pose reached. In the pose of the input (Pose()) its vertices equal BodyMesh::surface bit for bit.
+struct RecoverResult : DressedBody {
     std::vector<TooTight> too_tight;  ///< in the pose `to`, worst first
     std::vector<HeldBack>
         held_back;  ///< where cloth had no room, in the pose `to` or where the body got stuck; worst first
-    std::vector<Overlap> overlaps;  ///< why it had none, if it is the body; deepest first; looked for only if not certified
+    std::vector<Overlap>
+        overlaps;  ///< why it had none, if it is the body; deepest first; looked for only if not certified
     std::vector<RecoverFrame>
         frames;  ///< those that are certified, up to where the body got stuck; memory 24 bytes per vertex and frame
     double pose_reached
         = 0;  ///< 1 = the whole way was gone, though parts may be held back; where the body got stuck, with some
-        ///< part more than 8 cm behind, the last share of the way at which all of it was in place:
-        ///< it is left there
+    ///< part more than 8 cm behind, the last share of the way at which all of it was in place:
+    ///< it is left there
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< arrived, nothing too tight, every certificate clean
     ClothSeconds seconds;
 };
 
-/// @param from, to  poses of the rig; Pose() is the body's own
-/// @param start     the body's vertices at the beginning, where cloth holds some back from pose `from` (DrapeResult::body);
-///                  they catch up on the way, and hands that it stretched out are bent back. Empty: all of them as in that pose.
-/// @throws InvalidInput when the garments cross the body at the beginning. Cancelled.
-GARMENTFIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to,
-                                   const std::vector<WornGarment>& worn, const RecoverOptions& options = {},
-                                   const Progress& progress = {}, const Positions& start = Positions(0, 3));
+/// Moves a dressed body to another pose.
+/// @param start   what draping returned, say. Parts that cloth holds back from the pose at the start move to their places on the way, and
+///                hands that were stretched out are bent back on the way to the pose of the input.
+/// @param target  Pose() is the pose of the input
+/// @throws InvalidInput when the garments cross the body at the start. Cancelled.
+GARMENTFIT_API RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& start,
+                                          const Pose& target, const RecoverOptions& options = {},
+                                          const Progress& progress = {});
 
 }  // namespace garmentfit
