@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -23,6 +22,7 @@
 #include "cgal_mesh.h"
 #include "garmentfit/error.h"
 #include "surface_measures.h"
+#include "topology.h"
 #include "winding_number.h"
 #include "wrapped_surface.h"
 
@@ -42,11 +42,6 @@ struct Soup {
     std::vector<CgalKernel::Point_3> points;
     std::vector<std::vector<std::size_t>> triangles;
 };
-
-double diagonal(const TriangleMesh& surface)
-{
-    return (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
-}
 
 /// Finds the first of all points given so far that is no more than a distance away.
 class Welder {
@@ -113,33 +108,17 @@ Soup welded(const TriangleMesh& surface, double distance)
     return soup;
 }
 
-/// For each corner 3 f + k: the corner before which the other triangle on the edge from k to k + 1 begins that edge; empty
-/// where an edge has not exactly one triangle on each side.
-std::vector<int> across_edges(const Triangles& triangles)
+/// Of each side (topology.h) the opposite one; empty where an edge does not have exactly two sides that run in opposite
+/// directions.
+std::vector<int> across_edges(const Triangles& triangles, int vertices)
 {
-    struct Half {
-        int low, high, corner;
-    };
-    std::vector<Half> halves;
-    halves.reserve(3 * triangles.rows());
-    for (int f = 0; f < int(triangles.rows()); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(triangles(f, k), triangles(f, (k + 1) % 3));
-            halves.push_back({ low, high, 3 * f + k });
-        }
-    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
-        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-    });
-    std::vector<int> across(halves.size(), -1);
-    const auto from = [&](const Half& h) { return triangles(h.corner / 3, h.corner % 3); };
-    for (std::size_t i = 0; i < halves.size(); i += 2) {
-        const auto joins = [&](std::size_t j) {
-            return j < halves.size() && halves[j].low == halves[i].low && halves[j].high == halves[i].high;
-        };
-        if (halves[i].low == halves[i].high || !joins(i + 1) || joins(i + 2) || from(halves[i]) == from(halves[i + 1]))
+    const MeshTopology topology(triangles, vertices);
+    std::vector<int> across(triangles.size());
+    const auto from = [&](int side) { return triangles(side / 3, side % 3); };
+    for (int side = 0; side < int(across.size()); ++side) {
+        across[side] = topology.opposite(side);
+        if (across[side] < 0 || from(across[side]) == from(side))
             return {};
-        across[halves[i].corner] = halves[i + 1].corner;
-        across[halves[i + 1].corner] = halves[i].corner;
     }
     return across;
 }
@@ -179,7 +158,7 @@ bool is_one_piece(const std::vector<int>& across)
 /// One piece, closed, a manifold, its faces all turned one way, every vertex used, not all of it shrunk to a point.
 bool is_one_closed_manifold(const TriangleMesh& surface)
 {
-    const std::vector<int> across = across_edges(surface.triangles);
+    const std::vector<int> across = across_edges(surface.triangles, int(surface.positions.rows()));
     return !across.empty() && has_one_fan_a_vertex(surface, across) && is_one_piece(across) && volume(surface) != 0;
 }
 
@@ -338,7 +317,7 @@ TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
         return result;
     }
     repaired = true;
-    const double size = diagonal(surface);
+    const double size = diagonal(surface.positions);
     if (welded(surface, k_welds[0] * size).triangles.empty())
         throw InvalidInput("body: all " + std::to_string(surface.triangles.rows())
                            + " faces are degenerate; give a surface with area");

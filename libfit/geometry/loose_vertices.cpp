@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "loose_vertices.h"
 
-#include <algorithm>
-#include <array>
 #include <vector>
 
 #include "nearest.h"
+#include "surface_measures.h"
+#include "topology.h"
 
 namespace garmentfit {
 namespace {
@@ -23,21 +23,10 @@ struct Surroundings {
 /// Vertices of edges that have a single face.
 std::vector<bool> on_border(const TriangleMesh& surface)
 {
-    std::vector<std::array<int, 2>> edges;
-    edges.reserve(surface.triangles.size());
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(surface.triangles(f, k), surface.triangles(f, (k + 1) % 3));
-            edges.push_back({ low, high });
-        }
-    std::sort(edges.begin(), edges.end());
+    const MeshTopology topology(surface.triangles, int(surface.positions.rows()));
     std::vector<bool> result(surface.positions.rows(), false);
-    for (auto first = edges.begin(); first != edges.end();) {
-        const auto next = std::upper_bound(first, edges.end(), *first);
-        if (next - first == 1)
-            result[(*first)[0]] = result[(*first)[1]] = true;
-        first = next;
-    }
+    for (const int e : topology.border_edges())
+        result[topology.edges()(e, 0)] = result[topology.edges()(e, 1)] = true;
     return result;
 }
 
@@ -72,15 +61,15 @@ Positions brought_to_stumps(const BodyMesh& body)
     if (vertices.none.empty() || vertices.some.empty() || vertices.all.empty())
         return result;
     const Positions& closed = body.closed.positions;
-    const double diagonal = (closed.colwise().maxCoeff() - closed.colwise().minCoeff()).norm();
+    const double size = diagonal(closed);
     const NearestPoint whole(result(vertices.all, Eigen::all));
-    const Positions stumps = torn_and_patched(body.closed, whole, k_same_place * diagonal);
+    const Positions stumps = torn_and_patched(body.closed, whole, k_same_place * size);
     if (stumps.rows() == 0)
         return result;
     const NearestPoint stump(stumps);
     for (const int v : vertices.none)
         if (const Vec3 p = result.row(v);
-            whole.distance(p) > k_same_place * diagonal && stump.distance(p) < k_cut_off * diagonal)
+            whole.distance(p) > k_same_place * size && stump.distance(p) < k_cut_off * size)
             result.row(v) = stumps.row(stump.index(p));
     return result;
 }

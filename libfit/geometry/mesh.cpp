@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/mesh.h"
 
-#include <algorithm>
-#include <array>
 #include <string>
-#include <vector>
 
 #include "closed_surface.h"
 #include "garmentfit/error.h"
 #include "named_vertices.h"
+#include "surface_measures.h"
+#include "topology.h"
 
 namespace garmentfit {
 namespace {
@@ -22,12 +21,6 @@ void check(const char* what, const Positions& positions, const Triangles& triang
         if (!positions.row(v).allFinite())
             throw InvalidInput(name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
     require_named_vertices(name, positions.rows(), triangles);
-}
-
-Vec3 area_vector(const Positions& p, const Triangles& t, Eigen::Index f)
-{
-    const Vec3 a = p.row(t(f, 0)), b = p.row(t(f, 1)), c = p.row(t(f, 2));
-    return 0.5 * (b - a).cross(c - a);
 }
 
 }  // namespace
@@ -68,20 +61,7 @@ Positions vertex_normals(const Positions& positions, const Triangles& triangles)
 
 Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const Triangles& triangles)
 {
-    std::vector<std::array<int, 2>> edges;
-    edges.reserve(3 * triangles.rows());
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const auto [i, j] = std::minmax(triangles(f, k), triangles(f, (k + 1) % 3));
-            if (i != j)
-                edges.push_back({ i, j });
-        }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> result(edges.size(), 2);
-    for (std::size_t e = 0; e < edges.size(); ++e)
-        result.row(e) << edges[e][0], edges[e][1];
-    return result;
+    return triangles.rows() == 0 ? Edges(0, 2) : MeshTopology(triangles, triangles.maxCoeff() + 1).edges();
 }
 
 }  // namespace garmentfit

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "proxy_surface.h"
 
-#include <map>
-#include <utility>
+#include <vector>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include "cgal_mesh.h"
 #include "short_edges.h"
+#include "topology.h"
 
 namespace garmentfit {
 
@@ -27,21 +27,24 @@ constexpr double k_fewest = 0.65;  // of the target: on larger triangles the flo
 /// Each triangle cut into four at the middles of its edges.
 TriangleMesh quartered(const TriangleMesh& mesh)
 {
-    std::map<std::pair<int, int>, int> middles;
+    const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
+    std::vector<int> middle_of(topology.edges().rows(), -1);
     std::vector<Vec3> points;
     for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
         points.push_back(mesh.positions.row(v));
-    const auto middle = [&](int a, int b) {
-        const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), int(points.size()));
-        if (is_new)
-            points.push_back(0.5 * (points[a] + points[b]));
-        return found->second;
+    const auto middle = [&](Eigen::Index f, int k) {
+        int& found = middle_of[topology.edge_of(int(3 * f) + k)];
+        if (found < 0) {
+            found = int(points.size());
+            points.push_back(0.5 * (points[mesh.triangles(f, k)] + points[mesh.triangles(f, (k + 1) % 3)]));
+        }
+        return found;
     };
     TriangleMesh result;
     result.triangles.resize(4 * mesh.triangles.rows(), 3);
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
-        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        const int ab = middle(f, 0), bc = middle(f, 1), ca = middle(f, 2);
         result.triangles.middleRows<4>(4 * f) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
     }
     result.positions.resize(points.size(), 3);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_measures.h"
 
-#include <Eigen/Geometry>
-
 namespace garmentfit {
+
+double diagonal(const Positions& positions)
+{
+    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
 
 double area(const TriangleMesh& mesh)
 {
     double sum = 0;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        const Vec3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
-                   c = mesh.positions.row(mesh.triangles(f, 2));
-        sum += 0.5 * (b - a).cross(c - a).norm();
-    }
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        sum += area_vector(mesh.positions, mesh.triangles, f).norm();
     return sum;
 }
 

@@ -5,6 +5,16 @@
 
 namespace garmentfit {
 
+/// m, of the box about all vertices: the length that relative tolerances refer to.
+double diagonal(const Positions& positions);
+
+/// m^2; the area of triangle `f` times its unit normal.
+inline Vec3 area_vector(const Positions& positions, const Triangles& triangles, Eigen::Index f)
+{
+    const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)), c = positions.row(triangles(f, 2));
+    return 0.5 * (b - a).cross(c - a);
+}
+
 /// m^2. O(n).
 double area(const TriangleMesh& mesh);
 

@@ -7,6 +7,7 @@
 #include <CGAL/alpha_wrap_3.h>
 
 #include "cgal_mesh.h"
+#include "surface_measures.h"
 
 namespace garmentfit {
 namespace {
@@ -25,9 +26,9 @@ TriangleMesh wrapped_surface(const TriangleMesh& surface)
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
         triangles.push_back({ std::size_t(surface.triangles(f, 0)), std::size_t(surface.triangles(f, 1)),
                               std::size_t(surface.triangles(f, 2)) });
-    const double diagonal = (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
+    const double size = diagonal(surface.positions);
     CgalMesh mesh;
-    CGAL::alpha_wrap_3(points, triangles, k_alpha * diagonal, k_offset * diagonal, mesh);
+    CGAL::alpha_wrap_3(points, triangles, k_alpha * size, k_offset * size, mesh);
     return from_cgal(mesh);
 }
 

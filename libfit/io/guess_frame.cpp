@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "garmentfit/units.h"
 #include "known_units.h"
 #include "named_vertices.h"
+#include "number_text.h"
 
 namespace garmentfit {
 namespace {
@@ -152,12 +152,7 @@ Ranked rank_units(double length, double usual, double spread, double least, doub
     return ranked(scores);
 }
 
-std::string text_of_length(double length)
-{
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%.3g", length);
-    return text.data();
-}
+std::string text_of_length(double length) { return rounded_text(length, 3); }
 
 std::string unit_name(double metres)
 {

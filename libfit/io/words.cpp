@@ -37,14 +37,6 @@ std::string quoted(std::string_view word)
     return text + "'";
 }
 
-template <class Number>
-std::string shortest(Number value)
-{
-    std::array<char, 32> buffer;
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return { buffer.data(), end };
-}
-
 }  // namespace
 
 double number_in(const FileBytes& file, Span word)
@@ -62,9 +54,6 @@ long long integer_in(const FileBytes& file, Span word)
         file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not an integer");
     return value;
 }
-
-std::string text_of(double value) { return shortest(value); }
-std::string text_of(float value) { return shortest(value); }
 
 bool Words::done()
 {
@@ -120,11 +109,6 @@ Triple next_finite_triple(Words& words, const FileBytes& file)
     if (!triple.values.allFinite())
         file.fail_at_line_of(triple.span.begin, quoted(file.text(triple.span)) + " is not finite; repair the file");
     return triple;
-}
-
-std::string text_of(const Vec3& values)
-{
-    return text_of(values.x()) + ' ' + text_of(values.y()) + ' ' + text_of(values.z());
 }
 
 }  // namespace garmentfit

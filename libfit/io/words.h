@@ -8,6 +8,7 @@
 
 #include "file_bytes.h"
 #include "garmentfit/types.h"
+#include "number_text.h"
 
 namespace garmentfit {
 
@@ -45,10 +46,6 @@ private:
 double number_in(const FileBytes& file, Span word);
 long long integer_in(const FileBytes& file, Span word);
 
-/// Shortest text that reads back as the same number.
-std::string text_of(double value);
-std::string text_of(float value);
-
 /// Three numbers in a row, with their place.
 struct Triple {
     Vec3 values;
@@ -56,6 +53,5 @@ struct Triple {
 };
 Triple next_triple(Words& words, const FileBytes& file);
 Triple next_finite_triple(Words& words, const FileBytes& file);
-std::string text_of(const Vec3& values);
 
 }  // namespace garmentfit
