@@ -68,7 +68,8 @@ void put_in_layers(Scene& scene, LayerOrder order)
 {
     if (scene.garments.size() < 2)
         return;
-    scene.automatic_layers = order_layers(*scene.rig, scene.body->surface.positions, meshes_of(scene.garments), scene.fits);
+    scene.automatic_layers
+        = order_layers(*scene.rig, scene.body->surface.positions, meshes_of(scene.garments), scene.fits);
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         scene.fits[i].layer = order == LayerOrder::automatic ? scene.automatic_layers[i] : int(i);
 }

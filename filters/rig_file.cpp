@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "garmentfit/filters/joint_names.h"
 #include "garmentfit/error.h"
+#include "garmentfit/filters/joint_names.h"
 #include "garmentfit/io.h"
 
 namespace garmentfit {

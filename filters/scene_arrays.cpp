@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "garmentfit/filters/warnings.h"
+#include "garmentfit/error.h"
+#include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/outcome.h"
-#include "garmentfit/filters/given_rig.h"
-#include "garmentfit/error.h"
+#include "garmentfit/filters/warnings.h"
 
 namespace garmentfit {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "garmentfit/filters/outcome.h"
 #include "garmentfit/error.h"
+#include "garmentfit/filters/outcome.h"
 
 namespace garmentfit {
 namespace {
@@ -43,7 +43,7 @@ const RecoverFrame& nearest_frame(const std::vector<RecoverFrame>& frames, doubl
 Snapshot snapshot_of(const Scene& scene, const Dressing& dressing, const RecoverFrame& frame, const ClothOptions& cloth)
 {
     Snapshot moment { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments,
-                    std::vector<FitMap>(frame.garments.size()) };
+                      std::vector<FitMap>(frame.garments.size()) };
     const TriangleMesh body { frame.body, scene.body->surface.triangles };
     for (const std::size_t i : dressing.worn()) {
         WornGarment worn = dressing.garments[i];

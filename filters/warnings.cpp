@@ -15,11 +15,12 @@ constexpr double k_slipped = 0.15;  // m; cloth that settles sinks by some centi
 
 constexpr const char* k_guess = " hardly more than a guess";
 
-void warn_of_type(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit, const HowToSet& set)
+void warn_of_type(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit,
+                  const HowToSet& set)
 {
     if (fit.type_margin < k_doubt)
         warnings.push_back("the type of " + name + " is" + k_guess + ", " + std::string(name_of(fit.type)) + "; "
-                         + set("type"));
+                           + set("type"));
 }
 
 void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment)
@@ -28,10 +29,10 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
         warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
     if (const std::size_t kept = garment.certificate.kept_self_crossings.size(); kept > 0)
         warnings.push_back(name + " was given with crossings of itself that did not come apart: " + std::to_string(kept)
-                         + " of " + std::to_string(garment.certificate.input_self_crossings) + " are still there");
+                           + " of " + std::to_string(garment.certificate.input_self_crossings) + " are still there");
     if (garment.slipped > k_slipped)
         warnings.push_back(name + " slipped " + std::to_string(std::lround(100 * garment.slipped))
-                         + " cm down: it is too wide for this body to stay where it is worn");
+                           + " cm down: it is too wide for this body to stay where it is worn");
 }
 
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
@@ -45,8 +46,8 @@ std::string overstretched_edges(const std::string& name, const Overstretch& stre
 
 }  // namespace
 
-std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
-                                            const HowToSet& set)
+std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
+                                              const std::string& prefix, const HowToSet& set)
 {
     std::vector<std::string> warnings;
     if (guess.unit_margin < k_doubt)
@@ -57,7 +58,7 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
 }
 
 std::vector<std::string> warnings_about_layers(const Scene& scene, const std::vector<std::string>& names,
-                                             const HowToSet& set)
+                                               const HowToSet& set)
 {
     bool same = true;
     std::vector<std::string> in_order(scene.automatic_layers.size());
@@ -79,7 +80,7 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
     std::vector<std::string> warnings;
     if (end.speed && *end.speed >= k_at_rest)
         warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
-                         + " mm/s); give more settling steps");
+                           + " mm/s); give more settling steps");
     const auto is_too_small = [&](std::size_t i) {
         return (i == end.outermost && end.size_reached < 1)
             || std::any_of(end.too_tight.begin(), end.too_tight.end(),
@@ -97,16 +98,17 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
             warnings.push_back(overstretched_edges(names[i], end.overstretches[i]));
     if (int(end.frames.size()) < end.frames_asked)
         warnings.push_back("of " + std::to_string(end.frames_asked) + " frames there are "
-                         + std::to_string(end.frames.size()) + ": those that cannot be certified are left out");
+                           + std::to_string(end.frames.size()) + ": those that cannot be certified are left out");
     return warnings;
 }
 
 std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vector<std::string>& names,
-                                            const HowToSet& set)
+                                              const HowToSet& set)
 {
     std::vector<std::string> warnings = explain(scene.conflicts, names);
     if (scene.rig && scene.rig->side_margin < k_doubt)
-        warnings.push_back(std::string("left and right of the body are") + k_guess + "; look, and " + set("swap_sides"));
+        warnings.push_back(std::string("left and right of the body are") + k_guess + "; look, and "
+                           + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         warn_of_type(warnings, names[i], scene.fits[i], set);
     const std::vector<std::string> layers = warnings_about_layers(scene, names, set);

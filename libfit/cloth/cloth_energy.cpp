@@ -78,13 +78,14 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
                          const ClothOptions& options) :
     masses_(rest.positions.rows(), k_least_mass)
 {
+    const Material material = material_of(options);
     std::map<std::pair<int, int>, double> area_at_edge;
     for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
         const Vec3 a = rest.positions.row(rest.triangles(f, 0)), b = rest.positions.row(rest.triangles(f, 1)),
                    c = rest.positions.row(rest.triangles(f, 2));
         const double area = 0.5 * (b - a).cross(c - a).norm();
         for (int k = 0; k < 3; ++k) {
-            masses_[rest.triangles(f, k)] += options.density * area / 3;
+            masses_[rest.triangles(f, k)] += material.density * area / 3;
             area_at_edge[std::minmax(rest.triangles(f, k), rest.triangles(f, (k + 1) % 3))] += area;
         }
     }
@@ -94,11 +95,11 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<in
         // a spring stands for the strip of cloth beside it: width = area / length
         if (const double l = length(i, j); l > 0)
             springs_.push_back(
-                { i, j, l, options.stretch_stiffness * std::min(area / (l * l), 1.0 * k_largest_cotangent) });
+                { i, j, l, material.stretch_stiffness * std::min(area / (l * l), 1.0 * k_largest_cotangent) });
     }
     for (const auto& [i, j] : ties)
-        springs_.push_back({ i, j, length(i, j), options.stretch_stiffness });
-    add_hinges(rest, options.bend_stiffness);
+        springs_.push_back({ i, j, length(i, j), material.stretch_stiffness });
+    add_hinges(rest, material.bend_stiffness);
 
     std::vector<Eigen::Triplet<double>> pulls;
     Eigen::VectorXd of_springs(springs_.size()), of_hinges(hinges_.size());

@@ -98,7 +98,7 @@ struct ClothMotion::Touch {
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options) :
-    options_(apply_fabric(options)),
+    options_(options), material_(material_of(options)),
     weld_(rest), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
     off_itself_(std::min(options_.contact_distance, k_off_itself * mean_edge(rest_))),
     contact_(rest_.triangles, cloth_vertices_, obstacle.triangles,
@@ -189,8 +189,8 @@ std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) co
 std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const Positions& wished,
                                         const MotionStep& step) const
 {
-    const double contact_stiffness = step.contact_stiffness * options_.stretch_stiffness;
-    const double friction = step.friction_share * options_.friction;
+    const double contact_stiffness = step.contact_stiffness * material_.stretch_stiffness;
+    const double friction = step.friction_share * material_.friction;
     std::vector<Press> result;
     for (const Touch& touch : touches) {
         Press press { touch.pair->vertices, touch.pair->at.weights, Vec3::Zero(), touch.normal, contact_stiffness, 0 };

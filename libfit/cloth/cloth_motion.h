@@ -74,6 +74,7 @@ private:
                                const MotionStep& step) const;
 
     ClothOptions options_;
+    Material material_;
     Weld weld_;
     GarmentMesh rest_;  // welded
     int cloth_vertices_;

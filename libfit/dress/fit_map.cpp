@@ -153,8 +153,8 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
     const Weld weld(worn.rest);
     const GarmentMesh rest = weld.gathered(worn.rest);
     const Positions x = weld.gathered(worn.positions);
-    const ClothOptions made = apply_fabric(options);
-    const ClothEnergy energy(rest, {}, made);
+    const double density = material_of(options).density;
+    const ClothEnergy energy(rest, {}, options);
     const Positions forces = energy.elastic_forces(x);
     const TriangleTree skin(body);
 
@@ -166,7 +166,7 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
         const Vec3 force = forces.row(v).transpose() - mass * k_gravity * Vec3::UnitY();
         const double inwards = ease > 0 ? -force.dot(out) / ease : 0;
         cloth(v, 0) = ease;
-        cloth(v, 2) = ease < k_leans * made.contact_distance ? std::max(inwards, 0.0) / (mass / made.density) : 0;
+        cloth(v, 2) = ease < k_leans * options.contact_distance ? std::max(inwards, 0.0) / (mass / density) : 0;
     });
     const Positions result = weld.spread(cloth);
     return { result.col(0), result.col(1), result.col(2) };

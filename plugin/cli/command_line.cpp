@@ -53,15 +53,16 @@ public:
         if (command_.get_option_no_throw(flag))
             return;
         const std::string help = std::string(about.help) + " (" + range_of<Value>(about) + ")";
+        const std::string group = about.group == Group::research ? "Research" : "Parameters";
         if constexpr (std::is_same_v<Value, bool>)
-            command_.add_flag(flag, value, help)->group("Parameters");
+            command_.add_flag(flag, value, help)->group(group);
         else
             command_
                 .add_option_function<std::string>(
                     flag, [&value, about](const std::string& text) { set_from_text(value, about, text); }, help)
                 ->default_str(text_of(value, about))
                 ->type_name("")
-                ->group("Parameters");
+                ->group(group);
     }
 
 private:
@@ -118,8 +119,6 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
     command.add_option("-o,--output", call.out, "Folder for the results")->required();
     command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
         ->check(CLI::Range(0, 1024))
-        ->default_str("0");
-    command.add_option("--seed", call.seed, "Seed of random choices, kept in the report. No step draws any today")
         ->default_str("0");
     command.add_flag("--quiet", call.quiet, "Say nothing but errors");
     command.add_flag("--json", call.json, "Print report.json on standard output");

@@ -22,7 +22,6 @@ struct Call {
     std::string front;  ///< an axis of the body's file; empty: found
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
-    unsigned seed = 0;
     bool reconstruct = false;  ///< the body may be a point cloud
     bool quiet = false, json = false;
 };

@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 #include "command_line.h"
+#include "garmentfit/error.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
-#include "garmentfit/error.h"
 #include "interruption.h"
 #include "output_folder.h"
 #include "progress_bar.h"

@@ -117,12 +117,13 @@ Json overstretched_of(const Overstretch& stretch)
 /// What the garments were taken to be made of, SI units.
 Json cloth_of(const Call& call)
 {
-    const ClothOptions cloth = apply_fabric(call.filter->cloth(call.parameters));
+    const ClothOptions& cloth = call.filter->cloth(call.parameters);
+    const Material material = material_of(cloth);
     return { { "fabric", fabric_names()[static_cast<int>(cloth.fabric)] },
-             { "density", cloth.density },
-             { "stretch_stiffness", cloth.stretch_stiffness },
-             { "bend_stiffness", cloth.bend_stiffness },
-             { "friction", cloth.friction } };
+             { "density", material.density },
+             { "stretch_stiffness", material.stretch_stiffness },
+             { "bend_stiffness", material.bend_stiffness },
+             { "friction", material.friction } };
 }
 
 Json held_back_of(const Dressing& dressing, double metres_per_unit)
@@ -137,8 +138,7 @@ Json overlaps_of(const Dressing& dressing, double metres_per_unit)
 {
     Json pairs = Json::array();
     for (const Overlap& overlap : dressing.overlaps)
-        pairs.push_back(
-            { { "parts", { overlap.part, overlap.other } }, { "depth", overlap.depth / metres_per_unit } });
+        pairs.push_back({ { "parts", { overlap.part, overlap.other } }, { "depth", overlap.depth / metres_per_unit } });
     return pairs;
 }
 
@@ -170,10 +170,7 @@ Json conflicts_of(const Session& session)
     return conflicts;
 }
 
-int frames_asked(const Call& call)
-{
-    return call.filter->makes(Data::recovered) ? call.parameters.recover.frames : 0;
-}
+int frames_asked(const Call& call) { return call.filter->makes(Data::recovered) ? call.parameters.recover.frames : 0; }
 
 std::size_t frames_written(const Dressing& dressing)
 {
@@ -229,7 +226,6 @@ Json json_of(const Call& call, const Session& session)
     }
     json["stages"] = stages_of(session);
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    json["seed"] = call.seed;
     json["peak_memory_bytes"] = peak_memory_bytes();
     json["body"] = body_of(session);
     json["garments"] = Json::array();

@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "garmentfit/filters/warnings.h"
+#include "garmentfit/animated_gltf.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
-#include "garmentfit/animated_gltf.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 

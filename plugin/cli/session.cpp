@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "garmentfit/filters/snapshot.h"
+#include "garmentfit/error.h"
 #include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/rig_file.h"
-#include "garmentfit/error.h"
+#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/reconstruct.h"
 #include "garmentfit/skinned_gltf.h"
 #include "garmentfit/stopwatch.h"

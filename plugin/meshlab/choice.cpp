@@ -45,7 +45,9 @@ public:
     void operator()(Value& value, const About& about) const
     {
         const QString name = text(about.name);
-        if constexpr (std::is_enum_v<Value>)
+        if constexpr (is_optional<Value>)
+            set_from_text(value, about, list_.getString(name).toStdString());
+        else if constexpr (std::is_enum_v<Value>)
             value = read_number<Value>(list_, name, about.choices->size());
         else if constexpr (std::is_same_v<Value, bool>)
             value = list_.getBool(name);

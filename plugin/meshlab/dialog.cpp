@@ -90,7 +90,9 @@ public:
     void operator()(const Value& value, const About& about) const
     {
         const QString name = text(about.name), label = label_of(about), tip = tip_of(about, range_of<Value>(about));
-        if constexpr (std::is_enum_v<Value>)
+        if constexpr (is_optional<Value>)
+            list_.addParam(RichString(name, QString::fromStdString(text_of(value, about)), label, tip));
+        else if constexpr (std::is_enum_v<Value>)
             list_.addParam(RichEnum(name, int(value), list_of(*about.choices), label, tip));
         else if constexpr (std::is_same_v<Value, bool>)
             list_.addParam(RichBool(name, value, label, tip));

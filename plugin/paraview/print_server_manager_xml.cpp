@@ -54,17 +54,38 @@ public:
     template <class Value>
     void operator()(const Value& value, const About& about)
     {
+        if constexpr (is_optional<Value>)
+            print_text(text_of(value, about), range_of<Value>(about), about);
+        else
+            print_number(value, about);
+    }
+
+private:
+    /// A number that may be left to something else: a text, as a number cannot be empty.
+    void print_text(const std::string& value, const std::string& range, const About& about)
+    {
+        const std::string name = in_camel_case(about.name);
+        out_ << "      <StringVectorProperty name=\"" << name << "\" label=\"" << label_of(name)
+             << "\" command=\"SetParameter\" initial_string=\"" << about.name
+             << "\" number_of_elements=\"1\" default_values=\"" << escaped(value)
+             << "\" panel_visibility=\"default\">\n        <Documentation>" << escaped(about.help) << " ("
+             << escaped(range) << ", or " << escaped(about.otherwise)
+             << ").</Documentation>\n      </StringVectorProperty>\n";
+    }
+
+    template <class Value>
+    void print_number(const Value& value, const About& about)
+    {
         const char* type = std::is_same_v<Value, double> ? "DoubleVectorProperty" : "IntVectorProperty";
         const std::string name = in_camel_case(about.name);
         out_ << "      <" << type << " name=\"" << name << "\" label=\"" << label_of(name) << "\" command=\"Set" << name
-             << "\" number_of_elements=\"1\" default_values=\"" << number_of(value)
-             << "\" panel_visibility=\"default\">\n";
+             << "\" number_of_elements=\"1\" default_values=\"" << number_of(value) << "\" panel_visibility=\""
+             << (about.group == Group::research ? "advanced" : "default") << "\">\n";
         print_domain(value, about);
         out_ << "        <Documentation>" << escaped(about.help) << " (" << escaped(range_of<Value>(about))
              << ").</Documentation>\n      </" << type << ">\n";
     }
 
-private:
     template <class Value>
     static auto number_of(const Value& value)
     {

@@ -19,9 +19,22 @@ std::string text_of(const nb::handle& value)
     return nb::str(value).c_str();
 }
 
+/// Whether a parameter may be None.
+bool may_be_none(const Filter& filter, const std::string& name)
+{
+    bool may_be = false;
+    const Parameters defaults;
+    describe(filter, defaults, [&](const auto& value, const About& about) {
+        may_be = may_be || (about.name == name && is_optional<decltype(value)>);
+    });
+    return may_be;
+}
+
 /// @throws InvalidInput naming the parameter.
 void set_parameter(const Filter& filter, Parameters& parameters, const std::string& name, const nb::handle& value)
 {
+    if (value.is_none() && may_be_none(filter, name))
+        return;
     SetByName set { name, text_of(value) };
     describe(filter, parameters, set);
     if (set.found)
@@ -44,7 +57,9 @@ Parameters parameters_from(const Filter& filter, const nb::dict& given)
 template <class Value>
 nb::object object_of(const Value& value, const About& about)
 {
-    if constexpr (std::is_enum_v<Value>)
+    if constexpr (is_optional<Value>)
+        return value ? nb::object(nb::cast(*value)) : nb::object(nb::none());
+    else if constexpr (std::is_enum_v<Value>)
         return nb::str(garmentfit::text_of(value, about).c_str());
     else
         return nb::cast(value);
@@ -54,7 +69,9 @@ nb::object object_of(const Value& value, const About& about)
 template <class Value>
 std::string type_of(const About& about)
 {
-    if constexpr (std::is_same_v<Value, bool>)
+    if constexpr (is_optional<Value>)
+        return type_of<typename Value::value_type>(about) + " | None";
+    else if constexpr (std::is_same_v<Value, bool>)
         return "bool";
     else if constexpr (std::is_integral_v<Value>)
         return "int";

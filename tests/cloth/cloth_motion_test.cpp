@@ -128,7 +128,7 @@ TEST(ClothMotion, AClothLaidOnABallRestsOnItWithItsWeight)
     for (const int v : cloth.triangles.reshaped()) {
         const double upwards = x(v, 1) / x.row(v).norm();
         carried += share * map.pressure[v] * upwards;
-        expected += share * options.density * 9.81 * upwards * upwards;
+        expected += share * material_of(options).density * 9.81 * upwards * upwards;
     }
     EXPECT_NEAR(carried / expected, 1, 0.1);
 }

@@ -16,7 +16,12 @@ struct Numbers {
     template <class Value>
     void operator()(const Value& value, const About&)
     {
-        values.push_back(static_cast<double>(value));
+        if constexpr (is_optional<Value>) {
+            values.push_back(value.has_value());
+            values.push_back(value.value_or(0));
+        } else {
+            values.push_back(static_cast<double>(value));
+        }
     }
 };
 
@@ -88,7 +93,7 @@ std::vector<double> FilterState::numbers_of(Stage stage) const
     case Stage::drape:
         describe(p.drape, numbers);
         if (known_.scene.garments.size() > 1)
-            describe_way(p.recover, numbers);
+            describe_pose_path(p.recover, numbers);
         break;
     case Stage::recover: describe(p.recover, numbers); break;
     }

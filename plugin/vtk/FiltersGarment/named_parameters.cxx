@@ -2,6 +2,8 @@
 #include "named_parameters.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace garmentfit {
 namespace {
@@ -58,7 +60,12 @@ double number_of(const Filter& filter, const Parameters& parameters, const char*
 {
     double number = 0;
     with_parameter(filter, parameters, name,
-                   [&](const auto& value, const About&) { number = static_cast<double>(value); });
+                   [&](const auto& value, const About&) {
+                       if constexpr (is_optional<decltype(value)>)
+                           number = value.value_or(std::numeric_limits<double>::quiet_NaN());
+                       else
+                           number = static_cast<double>(value);
+                   });
     return number;
 }
 
@@ -78,6 +85,11 @@ bool set_number(const Filter& filter, Parameters& parameters, const char* name, 
     bool changed = false;
     with_parameter(filter, parameters, name, [&](auto& value, const About& about) {
         using Value = std::decay_t<decltype(value)>;
+        if constexpr (is_optional<Value>)
+            if (std::isnan(number)) {
+                changed = assign(value, Value());
+                return;
+            }
         const double clamped = std::min(std::max(number, smallest<Value>(about)), largest<Value>(about));
         changed = assign(value, static_cast<Value>(clamped));
     });

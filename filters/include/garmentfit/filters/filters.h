@@ -120,7 +120,7 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
     }
     if (filter.has(Stage::drape)) {
         describe(p.drape, visit);
-        describe_way(p.recover, visit);  // garments already worn move on to the pose of the next one
+        describe_pose_path(p.recover, visit);  // garments already worn move on to the pose of the next one
         if (filter.has(Stage::recover))
             describe_frames(p.recover, visit);
     } else if (filter.has(Stage::recover)) {

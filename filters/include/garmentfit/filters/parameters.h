@@ -3,10 +3,12 @@
 
 // What hosts know about a parameter, and the visitors that all of them share.
 //
-// A visitor is called once for each parameter: visit(value, about). The value is a double, an int, a bool or an enum whose
-// names are about.choices, in order. Its default is what the options struct holds before anybody changes it.
+// A visitor is called once for each parameter: visit(value, about). The value is a double, an int, a bool, an enum whose
+// names are about.choices, in order, or an optional of one of these. Its default is what the options struct holds before
+// anybody changes it; an optional is empty then, and about.otherwise says what holds instead.
 
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -18,6 +20,12 @@
 
 namespace garmentfit {
 
+/// Who needs a parameter. Hosts show research after the everyday ones, or hide it.
+enum class Group {
+    everyday,
+    research  ///< to compare published methods; none of them makes a garment fit better
+};
+
 struct About {
     std::string_view name;  ///< "contact_distance": unique among all filters; a host's spelling is made from it
     std::string_view label;  ///< "Contact distance"
@@ -26,13 +34,27 @@ struct About {
     double max = std::numeric_limits<double>::infinity();
     std::string_view help;  ///< one sentence, no full stop
     const std::vector<std::string_view>* choices = nullptr;  ///< names of an enum's values
+    Group group = Group::everyday;
+    std::string_view otherwise = {};  ///< of an optional value: "of the fabric"; the text of an empty one, too
 };
 
-/// The value as a host would write it: "0.0025", "on", "tshirt".
+template <class Value>
+struct IsOptional : std::false_type {
+};
+template <class Value>
+struct IsOptional<std::optional<Value>> : std::true_type {
+};
+/// Whether a parameter may be left empty.
+template <class Value>
+constexpr bool is_optional = IsOptional<std::decay_t<Value>>::value;
+
+/// The value as a host would write it: "0.0025", "on", "tshirt", "of the fabric".
 template <class Value>
 std::string text_of(const Value& value, const About& about)
 {
-    if constexpr (std::is_enum_v<Value>) {
+    if constexpr (is_optional<Value>) {
+        return value ? text_of(*value, about) : std::string(about.otherwise);
+    } else if constexpr (std::is_enum_v<Value>) {
         return std::string(about.choices->at(static_cast<std::size_t>(value)));
     } else if constexpr (std::is_same_v<Value, bool>) {
         return value ? "on" : "off";
@@ -48,7 +70,9 @@ template <class Value>
 std::string range_of(const About& about)
 {
     std::ostringstream text;
-    if constexpr (std::is_enum_v<Value>) {
+    if constexpr (is_optional<Value>) {
+        return range_of<typename Value::value_type>(about);
+    } else if constexpr (std::is_enum_v<Value>) {
         for (const std::string_view choice : *about.choices)
             text << (text.tellp() > 0 ? ", " : "") << choice;
     } else if constexpr (std::is_same_v<Value, bool>) {
@@ -63,25 +87,32 @@ std::string range_of(const About& about)
 template <class Value>
 void set_from_text(Value& value, const About& about, const std::string& text)
 {
-    const auto refuse = [&] {
-        throw InvalidInput(std::string(about.name) + ": \"" + text + "\" is none of: " + range_of<Value>(about));
+    const auto refuse = [&](ErrorCode code) {
+        throw InvalidInput(code,
+                           std::string(about.name) + ": \"" + text + "\" is not possible; give "
+                               + (std::is_enum_v<Value> ? "one of " : "") + range_of<Value>(about));
     };
-    if constexpr (std::is_enum_v<Value>) {
+    if constexpr (is_optional<Value>) {
+        if (text == about.otherwise)
+            value.reset();
+        else
+            set_from_text(value.emplace(), about, text);
+    } else if constexpr (std::is_enum_v<Value>) {
         for (std::size_t i = 0; i < about.choices->size(); ++i)
             if ((*about.choices)[i] == text) {
                 value = static_cast<Value>(i);
                 return;
             }
-        refuse();
+        refuse(ErrorCode::unknown_name);
     } else if constexpr (std::is_same_v<Value, bool>) {
         if (text != "on" && text != "off")
-            refuse();
+            refuse(ErrorCode::unknown_name);
         value = text == "on";
     } else {
         std::istringstream in(text);
         Value read {};
         if (!(in >> read) || in.peek() != std::istringstream::traits_type::eof())
-            refuse();
+            refuse(ErrorCode::out_of_range);
         value = read;
     }
 }
@@ -91,10 +122,15 @@ struct CheckRanges {
     template <class Value>
     void operator()(const Value& value, const About& about) const
     {
-        if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>)
+        if constexpr (is_optional<Value>) {
+            if (value)
+                operator()(*value, about);
+        } else if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
             if (!(value >= about.min && value <= about.max))  // also refuses NaN
-                throw InvalidInput(std::string(about.name) + ": " + text_of(value, about) + " is out of range; give "
-                                   + range_of<Value>(about));
+                throw InvalidInput(ErrorCode::out_of_range,
+                                   std::string(about.name) + ": " + text_of(value, about) + " is out of range; give "
+                                       + range_of<Value>(about));
+        }
     }
 };
 

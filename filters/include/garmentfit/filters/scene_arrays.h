@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
-#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/rig_arrays.h"
+#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/units.h"
 
 namespace garmentfit {

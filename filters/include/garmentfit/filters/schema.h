@@ -7,8 +7,8 @@
 
 #include <type_traits>
 
-#include "garmentfit/filters/parameters.h"
 #include "garmentfit/drape_garment.h"
+#include "garmentfit/filters/parameters.h"
 #include "garmentfit/fit_skeleton.h"
 #include "garmentfit/layer_order.h"
 #include "garmentfit/recover_pose.h"
@@ -24,10 +24,10 @@ void describe(Options& o, Visitor&& visit)
 {
     visit(o.proxy_vertices,
           About { "proxy_vertices", "Proxy vertices", "", 1000, 50000,
-                  "The skeleton is read from a surface decimated to about this many vertices" });
+                  "The skeleton is found on a copy of the body that is simplified to about this many vertices" });
     visit(o.swap_sides,
           About { "swap_sides", "Swap sides", "", 0, 1,
-                  "Exchange left and right where the program's vote is known to be wrong" });
+                  "Exchange left and right, where the program mistook one for the other" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, FitOptions>* = nullptr>
@@ -35,21 +35,21 @@ void describe(Options& o, Visitor&& visit)
 {
     visit(o.type,
           About { "type", "Garment type", "", 0, 0,
-                  "What the garment is, which tells the bones it covers; auto finds it from the openings",
+                  "What the garment is, which decides the bones that it covers; auto finds it from the openings",
                   &garment_type_names() });
-    visit(
-        o.method,
-        About {
-            "method", "Method", "", 0, 0,
-            "fast; or, for comparison and slow: paper, Wu et al. 2018 to the letter, tisserand, Tisserand et al. 2017",
-            &fit_method_names() });
+    visit(o.method,
+          About { "method", "Method", "", 0, 0,
+                  "How the pose is searched for: fast, or slowly by a published method, for comparison: paper "
+                  "(Wu et al. 2018), tisserand (Tisserand et al. 2017)",
+                  &fit_method_names(), Group::research });
     visit(o.iterations,
           About { "iterations", "Iterations", "", 1, 20,
-                  "Rounds of translation, rotation and bones of the methods paper and tisserand" });
+                  "Of the methods paper and tisserand: rounds of moving the body, turning it and turning its bones",
+                  nullptr, Group::research });
     visit(o.nearest,
           About { "nearest", "Nearest vertex", "", 0, 0,
-                  "How the methods paper and tisserand look for the nearest vertex; the answers are the same",
-                  &nearest_search_names() });
+                  "Of the methods paper and tisserand: how the nearest vertex is looked for; the result is the same",
+                  &nearest_search_names(), Group::research });
 }
 
 /// How several garments are worn together.
@@ -58,8 +58,8 @@ void describe_layers(Order& layer_order, Visitor&& visit)
 {
     visit(layer_order,
           About { "layer_order", "Layer order", "", 0, 0,
-                  "Which of several garments goes over which: given, from the inside out, or found by type and width: "
-                  "coats over jackets, the wider of two shirts over the narrower",
+                  "Which of several garments goes over which: given (from the inside out), or auto (by type and width: "
+                  "coats over jackets, the wider of two shirts over the narrower)",
                   &layer_order_names() });
 }
 
@@ -68,22 +68,27 @@ template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nu
 void describe_cloth(Options& o, Visitor&& visit)
 {
     visit(o.fabric,
-          About { "fabric", "Fabric", "", 0, 0,
-                  "Gives density, stiffness and friction, as far as they are left at their defaults",
+          About { "fabric", "Fabric", "", 0, 0, "Sets density, stiffness and friction, where they are not given",
                   &fabric_names() });
     visit(o.contact_distance,
           About { "contact_distance", "Contact distance", "m", 5e-4, 0.02,
-                  "Cloth is pushed off body and cloth when nearer than this" });
+                  "Cloth nearer than this to the body, or to other cloth, is pushed away from it" });
     visit(o.min_distance,
-          About { "min_distance", "Minimum distance", "m", 1e-6, 5e-4, "Motion is cut before a gap falls below this" });
-    visit(o.density, About { "density", "Density", "kg/m^2", 0.01, 5, "Mass of the cloth by area" });
+          About { "min_distance", "Minimum distance", "m", 1e-6, 5e-4, "No motion makes a gap smaller than this" });
+    constexpr std::string_view fabric = "of the fabric";
+    visit(o.density,
+          About { "density", "Density", "kg/m^2", 0.01, 5, "Mass of the cloth by area", nullptr, Group::everyday,
+                  fabric });
     visit(o.stretch_stiffness,
-          About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5,
-                  "Resistance of the cloth to being stretched" });
+          About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5, "Resistance of the cloth to being stretched",
+                  nullptr, Group::everyday, fabric });
     visit(o.bend_stiffness,
           About { "bend_stiffness", "Bend stiffness", "N m", 0, 1,
-                  "Resistance of the cloth to being bent away from its own folds" });
-    visit(o.friction, About { "friction", "Friction", "", 0, 2, "Coefficient of friction of cloth on body" });
+                  "Resistance of the cloth to being bent away from the folds that it was given with", nullptr,
+                  Group::everyday, fabric });
+    visit(o.friction,
+          About { "friction", "Friction", "", 0, 2, "Coefficient of friction of cloth on body", nullptr,
+                  Group::everyday, fabric });
     visit(o.largest_stretch,
           About { "largest_stretch", "Largest stretch", "", 0.01, 2,
                   "A garment is too small where the body would stretch it by more than this share" });
@@ -104,42 +109,41 @@ void describe(Options& o, Visitor&& visit)
     describe(o.cloth, visit);
     visit(o.inflation_steps,
           About { "inflation_steps", "Inflation steps", "", 4, 1000,
-                  "Steps from the body collapsed on its bones to its full size" });
+                  "Steps in which the body grows from its bones to its full size" });
     visit(o.settling_steps,
           About { "settling_steps", "Settling steps", "", 0, 10000,
-                  "Time steps under gravity once the body has its size" });
+                  "Time steps under gravity, once the body has its full size" });
 }
 
-/// How garments that are worn go from one pose to another.
+/// How worn garments move from one pose to another.
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
-void describe_way(Options& o, Visitor&& visit)
+void describe_pose_path(Options& o, Visitor&& visit)
 {
     visit(o.largest_steps,
           About { "recovery_steps", "Recovery steps", "", 1, 100000,
-                  "Give up recovering the pose after this many steps" });
+                  "The return to the input pose is given up after this many steps" });
     visit(o.step_length,
           About { "recovery_step_length", "Recovery step length", "m", 1e-4, 0.1,
                   "No part of the body near the cloth moves further than this in a step" });
     visit(o.settling_steps,
           About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
-                  "Time steps under gravity once the pose is recovered" });
+                  "Time steps under gravity, once the input pose is reached" });
 }
 
-/// What recovering the body's own pose adds to cloth and way, which it shares with draping.
+/// What the return to the input pose adds to cloth and pose path, which it shares with draping.
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
 void describe_frames(Options& o, Visitor&& visit)
 {
     visit(o.frames,
           About { "frames", "Frames", "", 0, 1000,
-                  "States on the way back to the body's own pose to hand out, evenly spread; 1 for the end alone, 0 "
-                  "for none" });
+                  "States to keep on the return to the input pose, evenly spread; 1 for the end alone, 0 for none" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
 void describe(Options& o, Visitor&& visit)
 {
-    describe_cloth(o.cloth, visit);  // a garment that is on is not made larger
-    describe_way(o, visit);
+    describe_cloth(o.cloth, visit);  // a worn garment is not made larger
+    describe_pose_path(o, visit);
     describe_frames(o, visit);
 }
 

@@ -18,18 +18,18 @@ namespace garmentfit {
 using HowToSet = std::function<std::string(std::string_view parameter)>;
 
 /// Of a mesh's unit and axes. @param prefix  of the parameters that settle them: "" or "garment_"
-std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess, const std::string& prefix,
-                                            const HowToSet& set);
+std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
+                                              const std::string& prefix, const HowToSet& set);
 
 /// Where types and widths of garments say another order than they are worn in.
 std::vector<std::string> warnings_about_layers(const Scene& scene, const std::vector<std::string>& names,
-                                             const HowToSet& set);
+                                               const HowToSet& set);
 
 /// Of how the garments ended up: where cloth is overstretched, moves still, slipped, crosses itself as it was given.
 std::vector<std::string> warnings_about_dressing(const Dressing& dressing, const std::vector<std::string>& names);
 
 /// Of sides, garment types, poses and of how the garments ended up. Garments are called by their `names`.
 std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vector<std::string>& names,
-                                            const HowToSet& set);
+                                              const HowToSet& set);
 
 }  // namespace garmentfit

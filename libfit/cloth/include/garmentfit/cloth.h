@@ -3,6 +3,7 @@
 
 // What a garment is made of.
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,23 +17,30 @@ enum class Fabric { cotton, denim, jersey, silk, wool };
 /// "cotton", "denim", ..., in the order of the values.
 GARMENTFIT_API const std::vector<std::string_view>& fabric_names();
 
+/// What the solver knows of a fabric.
+struct Material {
+    double density;  ///< kg/m^2
+    double stretch_stiffness;  ///< N/m
+    double bend_stiffness;  ///< N m
+    double friction;  ///< of cloth on body, dimensionless
+};
+
 /// Units: metres, kilograms, seconds.
 struct ClothOptions {
     Fabric fabric = Fabric::cotton;
     double contact_distance = 2.5e-3;  ///< m; contact force begins below this gap
     double min_distance = 1e-4;  ///< m; motion is cut before a gap falls below this
-    double density = 0.2;  ///< kg/m^2
-    double stretch_stiffness = 400;  ///< N/m
-    double bend_stiffness = 2e-5;  ///< N m
-    double friction = 0.4;  ///< of cloth on body, dimensionless
+    std::optional<double> density {};  ///< kg/m^2; this and the next three: of the fabric where not given
+    std::optional<double> stretch_stiffness {};  ///< N/m
+    std::optional<double> bend_stiffness {};  ///< N m
+    std::optional<double> friction {};  ///< of cloth on body, dimensionless
     double largest_stretch
         = 0.15;  ///< a garment is too small where a part of the body stretches it by more, on the mean
     double largest_enlargement = 0;  ///< share by which a garment that is too small may be made larger, all of it alike
 };
 
-/// Density, stiffness and friction that are still the defaults above (cotton's) become those of `options.fabric`; what was
-/// set stays.
-GARMENTFIT_API ClothOptions apply_fabric(ClothOptions options);
+/// The figures of the fabric, replaced by those that `options` gives.
+GARMENTFIT_API Material material_of(const ClothOptions& options);
 
 /// Cloth counts as settled when no vertex is faster than this, m/s.
 constexpr double k_at_rest = 0.02;
