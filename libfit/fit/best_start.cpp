@@ -212,7 +212,7 @@ bool has_failed(const SkeletonSearch& search, const Posture& posture)
 {
     if (search.bones_through_cloth(posture) > 0)
         return true;
-    const Skeleton joints = placed(search.own(), posture).joints;
+    const Skeleton joints = place_bones(search.own(), posture).joints;
     return std::any_of(k_limbs.begin(), k_limbs.end(), [&](const Limb& limb) {
         const int upper = limb.bones[0];
         return is_worn(search, limb) && search.metric().samples_inside(joints.head(upper), joints.tail(upper)) == 0;

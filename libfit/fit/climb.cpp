@@ -48,7 +48,7 @@ Posture with_bare_limbs_along(const SkeletonSearch& search, const Posture& befor
 Posture with_limbs_kept(const Skeleton& own, const PlacedBones& before, Posture after)
 {
     const Skeleton& from = before.joints;
-    Skeleton to = placed(own, after, before).joints;
+    Skeleton to = place_bones(own, after, before).joints;
     for (const Limb& limb : k_limbs)
         for (const int b : limb.bones)
             if (limb.end != head_top) {
@@ -119,7 +119,7 @@ Vec3 on_bone(const Skeleton& joints, int bone, double share)
 // Skin cuts the corner between neck and shoulders, and a neckline may come between.
 int corners_through_cloth(const SkeletonSearch& search, const Posture& posture)
 {
-    const Skeleton joints = placed(search.own(), posture).joints;
+    const Skeleton joints = place_bones(search.own(), posture).joints;
     int count = 0;
     for (const int clavicle : { lclavicle, rclavicle })
         for (const double out : { 0.3, 0.5, 0.7 })
@@ -162,7 +162,7 @@ auto sum_over(const std::vector<const SkeletonSearch*>& searches, const std::vec
 class ClearanceKept {
 public:
     ClearanceKept(const SkeletonSearch& search, const Posture& start) :
-        search_(search), joints_(placed(search.own(), start).joints),
+        search_(search), joints_(place_bones(search.own(), start).joints),
         least_energy_(search.total(start) - k_energy_lost), corners_(corners_through_cloth(search, start))
     {
         for (int b = 0; b < bone_count; ++b)
@@ -171,7 +171,7 @@ public:
 
     bool holds(const Posture& posture) const
     {
-        const Skeleton joints = placed(search_.own(), posture).joints;
+        const Skeleton joints = place_bones(search_.own(), posture).joints;
         for (int b = 0; b < bone_count; ++b)
             if (search_.metric().figure().covered[b]
                 && (is_far(joints.head(b), joints_.head(b)) || is_far(joints.tail(b), joints_.tail(b))
@@ -256,12 +256,12 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
     double score = parts.energy - search.crossing_cost(present);
     const double least = score - k_energy_lost;
     const int corners = corners_through_cloth(search, start);
-    paper.is_above(placed(search.own(), start).joints, 0);
+    paper.is_above(place_bones(search.own(), start).joints, 0);
     paper.accept();
     climb_in_cloth(search, present, parts.bones, steps, [&](const Posture& next) {
         const double bound = search.energy(next, parts);  // crossings only cost
         if (bound < least
-            || !paper.is_above(placed(search.own(), next, parts.bones).joints, score - bound + k_least_gain))
+            || !paper.is_above(place_bones(search.own(), next, parts.bones).joints, score - bound + k_least_gain))
             return false;
         const double next_score = bound - search.crossing_cost(next);
         if (next_score < least || paper.gain() + next_score <= score + k_least_gain
@@ -279,10 +279,10 @@ Posture raised(const SkeletonSearch& search, const Posture& start, PaperClimb& p
 Posture raised_alone(const SkeletonSearch& search, const Posture& start, PaperClimb& paper, const Steps& steps)
 {
     Posture present = start;
-    PlacedBones bones = placed(search.own(), start);
+    PlacedBones bones = place_bones(search.own(), start);
     const ClearanceKept clearance(search, start);
     climb_in_cloth(search, present, bones, steps, [&](const Posture& next) {
-        const PlacedBones next_bones = placed(search.own(), next, bones);
+        const PlacedBones next_bones = place_bones(search.own(), next, bones);
         if (!paper.is_above(next_bones.joints, k_least_gain) || !clearance.holds(next))
             return false;
         present = next;

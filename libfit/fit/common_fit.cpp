@@ -23,9 +23,9 @@ public:
     OwnFit(const Rig& rig, const JointLimits& limits, const GarmentMesh& garment, const FitResult& fit,
            const std::array<bool, bone_count>& worn) :
         turn_(shortest_arc(fit.up, Vec3::UnitY())),
-        outward_(turned(outward_cloth(garment), turn_)), cloth_(outward_), metric_(cloth_, figure(rig, fit, worn)),
+        outward_(rotate(outward_cloth(garment), turn_)), cloth_(outward_), metric_(cloth_, figure(rig, fit, worn)),
         search_(rig, limits, metric_, cues_of(openings_of(outward_))),
-        posture_(turned(posture_of(rig.skeleton, fit.pose), turn_)), joints_(placed(rig.skeleton, posture_).joints)
+        posture_(rotate(posture_of(rig.skeleton, fit.pose), turn_)), joints_(place_bones(rig.skeleton, posture_).joints)
     {
     }
 
@@ -37,7 +37,7 @@ public:
     /// Bones that lack room which they have in the own fit, or that pass through cloth, or the head does. Hands and feet may.
     std::vector<int> bones_lacking(const Posture& posture) const
     {
-        const Skeleton joints = placed(search_.own(), posture).joints;
+        const Skeleton joints = place_bones(search_.own(), posture).joints;
         std::vector<int> lacking;
         for (int b = 0; b < bone_count; ++b)
             if (cloth_.crosses(joints.head(b), joints.tail(b)) || lacks_clearance(b, joints)
@@ -49,10 +49,10 @@ public:
     /// The own fit's result with another pose, of which only place and turn of the root are this garment's.
     FitResult moved(FitResult result, const Posture& posture, const Pose& bones) const
     {
-        result.pose = pose_of(search_.own(), turned(posture, turn_.conjugate()));
+        result.pose = pose_of(search_.own(), rotate(posture, turn_.conjugate()));
         result.pose.rotations = bones.rotations;
         result.scores = search_.scores(posture);
-        result.clearance = metric_.clearance_shares(placed(search_.own(), posture).joints);
+        result.clearance = metric_.clearance_shares(place_bones(search_.own(), posture).joints);
         result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);
         return result;
     }

@@ -39,7 +39,7 @@ constexpr double k_same_way = 0.7;  // cosine; ways up nearer to each other than
 // The evidence: of the bones that the type names, those that have at least so many of their five samples inside.
 std::vector<Bone> bones_inside(const SkeletonSearch& search, const Posture& posture, int samples)
 {
-    const Skeleton joints = placed(search.own(), posture).joints;
+    const Skeleton joints = place_bones(search.own(), posture).joints;
     std::vector<Bone> inside;
     for (int b = 0; b < bone_count; ++b)
         if (search.metric().figure().covered[b]
@@ -88,7 +88,7 @@ void require_fit(const SkeletonSearch& search, const Posture& posture, const std
 
 void require_clear(const SkeletonSearch& search, const Posture& posture)
 {
-    const Skeleton joints = placed(search.own(), posture).joints;
+    const Skeleton joints = place_bones(search.own(), posture).joints;
     const auto require = [&](const std::string& name, const Vec3& from, const Vec3& to) {
         if (!search.metric().cloth().crosses(from, to))
             return;
@@ -178,8 +178,8 @@ Seen seen(const TriangleMesh& outward)
 
 Seen turned(const Seen& garment, const Eigen::Quaterniond& turn)
 {
-    Seen result { turned(garment.outward, turn), {}, {} };
-    result.openings = turned(garment.openings, result.outward, turn);
+    Seen result { rotate(garment.outward, turn), {}, {} };
+    result.openings = rotate(garment.openings, result.outward, turn);
     result.clearance = std::make_unique<const ClearanceField>(result.outward);
     return result;
 }
@@ -214,9 +214,9 @@ public:
         result.type_margin = guess_.margin;
         result.front_margin = start_.front_margin;
         result.covered = bones_inside(search, fitted, k_mostly_inside);
-        result.pose = pose_of(rig_.skeleton, turned(fitted, back));
+        result.pose = pose_of(rig_.skeleton, rotate(fitted, back));
         result.scores = search.scores(fitted);
-        result.clearance = metric.clearance_shares(placed(rig_.skeleton, fitted).joints);
+        result.clearance = metric.clearance_shares(place_bones(rig_.skeleton, fitted).joints);
         result.scores_before = search.scores(at_barycentre(rig_, search));
         return result;
     }

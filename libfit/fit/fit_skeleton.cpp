@@ -79,8 +79,8 @@ FitResult relaxed_fit(const Rig& rig, const TriangleMesh& body, const GarmentMes
     result.pose = pose_of(rig.skeleton, found.posture);
     result.evaluations = found.evaluations;
     result.bone_evaluations = found.bone_evaluations;
-    result.scores_before = scores(*metric, placed(rig.skeleton, relaxation.start), result.covered);
-    const PlacedBones bones = placed(rig.skeleton, found.posture);
+    result.scores_before = scores(*metric, place_bones(rig.skeleton, relaxation.start), result.covered);
+    const PlacedBones bones = place_bones(rig.skeleton, found.posture);
     result.scores = scores(*metric, bones, result.covered);
     const ClearanceField cloth(outward);
     result.clearance = BoneMetric(cloth, figure_of(rig, result.covered)).clearance_shares(bones.joints);

@@ -91,7 +91,8 @@ double SkeletonSearch::posture_cost(int bone, const Vec3& direction, const Eigen
     const bool in_trunk = is_trunk(bone);
     const bool worn = metric_.figure().covered[bone] || metric_.figure().worn_elsewhere[bone];
     const Vec3 wish
-        = worn || in_trunk ? limits_.at_ease(bone, parent_turn) : parent_turn * rig_.skeleton.direction(bone);
+        = worn || in_trunk ? limits_.comfort_direction(bone, parent_turn)
+                           : parent_turn * rig_.skeleton.direction(bone);
     const double ease = in_trunk ? (worn ? k_trunk_ease : k_bare_trunk) : worn ? k_ease : k_own_pose;
     const double angle = angle_between(direction, wish);
     return ease * angle * angle + k_limit * limits_.excess(bone, parent_turn, direction);
@@ -192,7 +193,7 @@ double SkeletonSearch::sum_of(const Posture& posture, const BoneEnergy& by_bone,
 
 EnergyParts SkeletonSearch::parts(const Posture& posture) const
 {
-    EnergyParts parts { placed(rig_.skeleton, posture), {}, {}, {}, 0 };
+    EnergyParts parts { place_bones(rig_.skeleton, posture), {}, {}, {}, 0 };
     const Skeleton& joints = parts.bones.joints;
     for (int b = 0; b < bone_count; ++b) {
         parts.by_bone[b] = bone_energy(b, joints.head(b), joints.tail(b), parts.bones.parent_turn(b), joints);
@@ -209,7 +210,7 @@ EnergyParts SkeletonSearch::parts(const Posture& posture) const
 
 double SkeletonSearch::energy(const Posture& posture, const EnergyParts& near) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, posture, near.bones);
+    const PlacedBones bones = place_bones(rig_.skeleton, posture, near.bones);
     const Skeleton &joints = bones.joints, &before = near.bones.joints;
     std::array<bool, bone_count> moved, turned;
     for (int b = 0; b < bone_count; ++b) {
@@ -250,7 +251,7 @@ double SkeletonSearch::crossing_cost(const PlacedBones& bones, Extremity extremi
 
 int SkeletonSearch::bones_through_cloth(const Posture& posture) const
 {
-    const Skeleton joints = placed(rig_.skeleton, posture).joints;
+    const Skeleton joints = place_bones(rig_.skeleton, posture).joints;
     int count = 0;
     for (int b = 0; b < bone_count; ++b)
         count += metric_.cloth().crosses(joints.head(b), joints.tail(b));
@@ -259,7 +260,7 @@ int SkeletonSearch::bones_through_cloth(const Posture& posture) const
 
 std::array<double, bone_count> SkeletonSearch::scores(const Posture& posture) const
 {
-    const Skeleton joints = placed(rig_.skeleton, posture).joints;
+    const Skeleton joints = place_bones(rig_.skeleton, posture).joints;
     std::array<double, bone_count> result {};
     for (int b = 0; b < bone_count; ++b)
         if (metric_.figure().covered[b])
@@ -269,7 +270,7 @@ std::array<double, bone_count> SkeletonSearch::scores(const Posture& posture) co
 
 double SkeletonSearch::crossing_cost(const Posture& posture) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, posture);
+    const PlacedBones bones = place_bones(rig_.skeleton, posture);
     double cost = k_crossing * bones_through_cloth(posture);
     for (int e = 0; e < extremity_count; ++e)
         cost += crossing_cost(bones, Extremity(e));
@@ -278,7 +279,7 @@ double SkeletonSearch::crossing_cost(const Posture& posture) const
 
 double SkeletonSearch::stuck_cost(const Posture& posture) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, posture);
+    const PlacedBones bones = place_bones(rig_.skeleton, posture);
     double cost = 0;
     for (int e = 0; e < extremity_count; ++e)
         cost += may_stick(Extremity(e)) ? crossing_cost(bones, Extremity(e)) : 0;
@@ -287,7 +288,7 @@ double SkeletonSearch::stuck_cost(const Posture& posture) const
 
 double SkeletonSearch::crossing_cost(const Posture& posture, const Limb& limb) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, posture);
+    const PlacedBones bones = place_bones(rig_.skeleton, posture);
     double cost = crossing_cost(bones, limb.end);
     for (const int b : limb.bones)
         cost += metric_.cloth().crosses(bones.joints.head(b), bones.joints.tail(b)) ? k_crossing : 0;
@@ -300,7 +301,7 @@ Posture SkeletonSearch::at_ease(const Vec3& root, const Eigen::Quaterniond& turn
     std::array<Eigen::Quaterniond, bone_count> turns;
     for (int b = 0; b < bone_count; ++b) {
         const Eigen::Quaterniond parent_turn = parent_of(b) < 0 ? turn : turns[parent_of(b)];
-        posture.directions[b] = limits_.at_ease(b, parent_turn);
+        posture.directions[b] = limits_.comfort_direction(b, parent_turn);
         turns[b] = bone_turn(rig_.skeleton, b, parent_turn, posture.directions[b]);
     }
     return posture;
@@ -311,7 +312,7 @@ std::vector<Place> SkeletonSearch::trunk_places(const MinMaxPyramid& clearance, 
 {
     Posture at_origin = posture;
     at_origin.root = Vec3::Zero();
-    const Skeleton joints = placed(rig_.skeleton, at_origin).joints;
+    const Skeleton joints = place_bones(rig_.skeleton, at_origin).joints;
     std::vector<RoomSample> samples;
     for (const int b : k_placed)
         for (int i = 0; i < k_samples && metric_.figure().covered[b]; i += 2)  // both ends and the middle tell enough
@@ -335,7 +336,7 @@ Slab SkeletonSearch::between_legs() const
 // About the middle of the trunk: a turn about the root would swing the shoulders out of the garment.
 Posture SkeletonSearch::turned(const Posture& present, const Vec3& rotation_vector) const
 {
-    const Skeleton joints = placed(rig_.skeleton, present).joints;
+    const Skeleton joints = place_bones(rig_.skeleton, present).joints;
     const Vec3 centre = hangs_from_shoulders_ ? joints.tail(thorax) : joints.root;
     const Eigen::Quaterniond turn = turned_by(rotation_vector);
     Posture moved = present;
@@ -413,7 +414,7 @@ double SkeletonSearch::tip_energy(const Limb& limb, const Chain& chain) const
 
 Posture SkeletonSearch::limb_moved(const Posture& present, const Limb& limb, const Reach& reach) const
 {
-    const PlacedBones bones = placed(rig_.skeleton, present);
+    const PlacedBones bones = place_bones(rig_.skeleton, present);
     const auto [upper, lower] = limb.bones;
     const auto better = [](const Chain& a, const Chain& b) { return a.score > b.score; };
     const auto crosses

@@ -296,7 +296,7 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
     return openings;
 }
 
-std::vector<Opening> turned(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn)
+std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn)
 {
     const std::vector<Range> ranges = ranges_of(cloth.positions, pieces_of(cloth));
     for (Opening& opening : openings) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which side of cloth that has thickness is the outer one. Such cloth is closed all round, but for tunnels: two sheets that run beside
-// each other, sewn together along rims.
+// The outer sheet of cloth with thickness. Such cloth is a closed surface of genus above 0: two parallel sheets, joined
+// along rims.
 
 #include <vector>
 
@@ -10,11 +10,11 @@
 
 namespace garmentfit {
 
-/// Those of the faces that belong to the outer sheet. A face is of the same sheet as its neighbours, and of another one than the face close
-/// behind it; the surest of these statements come first, and those that contradict them are left out: where folds pass through each other by the
-/// thickness of the cloth, or along a rim.
-/// @param faces  of `cloth`, turned outwards: away from what is between the sheets
-/// @param opposite  the other edge at each edge, 3 f + k; -1 for none
+/// The faces that belong to the outer sheet. A face belongs to the same sheet as its neighbours, and to the other sheet
+/// than the face close behind it. These relations are taken in order of their reliability, and relations that
+/// contradict earlier ones are ignored: where folds intersect within the thickness, or along a rim.
+/// @param faces  of `cloth`, oriented outwards: away from the space between the sheets
+/// @param opposite  for each half-edge 3 f + k the other half-edge; -1 for none
 /// @param thickness  m, between the sheets
 /// Cost O(n log n).
 std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<int>& opposite,

@@ -303,7 +303,7 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     return without_inner_sheets(cloth, patches);
 }
 
-TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn)
+TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)
 {
     cloth.positions = (cloth.positions * turn.toRotationMatrix().transpose()).eval();
     return cloth;

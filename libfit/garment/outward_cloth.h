@@ -5,10 +5,11 @@
 
 namespace garmentfit {
 
-/// The garment as the fit looks at it: equal vertices welded, equal faces dropped, and every patch turned outwards whatever
-/// way its faces were given. Cost O(n log n).
+/// The garment prepared for analysis: equal vertices welded, equal faces dropped, inner sheets of thick cloth removed,
+/// and every patch oriented outwards, independent of the orientation of the input. Cost O(n log n).
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
-TriangleMesh turned(TriangleMesh cloth, const Eigen::Quaterniond& turn);
+/// About the origin.
+TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn);
 
 }  // namespace garmentfit

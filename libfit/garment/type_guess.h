@@ -3,28 +3,28 @@
 
 #include <vector>
 
-#include "garmentfit/garment_type.h"
 #include "garment_openings.h"
+#include "garmentfit/garment_type.h"
 
 namespace garmentfit {
 
-/// As guess_garment_type, from its openings.
+/// As guess_garment_type, from the openings.
 TypeGuess guess_type(const std::vector<Opening>& openings);
-/// The given type, or for `automatic` the one that is found. @throws InvalidInput when there is none.
+/// The given type, or for `automatic` the guessed one. @throws InvalidInput when no type can be guessed.
 TypeGuess resolve_type(GarmentType given, const std::vector<Opening>& openings);
 
-/// How clearly the openings say that the garment hangs upright: 0 (not at all) to 1.
+/// Evidence of the openings that the garment is upright: 0 (none) to 1.
 double uprightness(const std::vector<Opening>& openings);
 
-/// The bones that a garment of this type covers; where a type may come with any sleeves, its openings tell.
+/// The bones that a garment covers. Where the type does not determine the sleeves, the openings do.
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
 
-/// What a garment's openings say about how it is worn.
+/// Evidence of the openings on how the garment is worn.
 struct GarmentCues {
-    Vec3 across = Vec3::Zero();  // horizontal, from sleeve to sleeve or leg to leg of the tallest piece that has two
-    Vec3 front = Vec3::Zero();  // horizontal; where openings face, longer the more of them agree
-    std::vector<Vec3> hems;  // middles of two legs', or none
-    std::vector<Vec3> cuffs;  // middles of two, of the longest sleeves, or none: where hands come out
+    Vec3 across = Vec3::Zero();  // horizontal: from sleeve to sleeve or leg to leg of the tallest piece that has two
+    Vec3 front = Vec3::Zero();  // horizontal: sum of the normals of openings, longer the better they agree
+    std::vector<Vec3> hems;  // centroids of the two leg openings, or empty
+    std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
 };
 GarmentCues cues_of(const std::vector<Opening>& openings);
 

@@ -155,7 +155,7 @@ std::vector<Vec3> likely_ups(const TriangleMesh& outward, const std::vector<Open
 double uprightness_turned(const TriangleMesh& outward, const std::vector<Opening>& openings,
                           const Eigen::Quaterniond& turn)
 {
-    return uprightness(turned(openings, turned(outward, turn), turn));
+    return uprightness(rotate(openings, rotate(outward, turn), turn));
 }
 
 // Less what speaks for the way that is upside down.

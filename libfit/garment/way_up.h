@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which way up a garment may be worn that was given turned in some way.
+// Rotations that may make a garment upright.
 
 #include <vector>
 
@@ -10,12 +10,13 @@
 namespace garmentfit {
 
 struct WayUp {
-    Eigen::Quaterniond turn;  ///< makes the garment upright
-    double evidence = 0;  ///< how clearly its openings speak for it, at most 1; below 0 they speak against it
+    Eigen::Quaterniond turn;  ///< rotation that makes the garment upright
+    double evidence = 0;  ///< of the openings, at most 1; negative: evidence against it
 };
 
-/// The ways worth trying, best evidence first. Only as given where the openings speak for it; else with each axis of the room for the vertical, and
-/// each line along which the garment is spread, or its openings follow each other; what is nearly an axis of the room is taken for it.
+/// The rotations worth trying, best evidence first. Only the identity where the openings are evidence for it. Otherwise
+/// the candidates for the vertical are the coordinate axes, the lines from opening to opening, and the principal axes
+/// of the garment. A candidate close to a coordinate axis is replaced by that axis.
 /// @param outward  from outward_cloth. Cost O(n).
 std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Opening>& openings);
 

@@ -129,7 +129,7 @@ private:
 class Translation {
 public:
     Translation(const FileBytes& file, const FileSkin& skin) :
-        file_(file), skin_(skin), joints_(named_joints(skin.names))
+        file_(file), skin_(skin), joints_(recognize_joints(skin.names))
     {
     }
 

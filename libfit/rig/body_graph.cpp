@@ -277,7 +277,7 @@ std::vector<BodyGraph::Place> places(const BodyGraph& graph, const CurveSkeleton
 
 BodyGraph body_graph(const CurveSkeleton& skeleton)
 {
-    const auto [tree, labels] = named_tree(opened(skeleton));
+    const auto [tree, labels] = named_tree(open_loops(skeleton));
     const int* end = labels.ends.data() + labels.ends.size() - 4;
     const int hand0 = end[0], hand1 = end[1], foot0 = end[2], foot1 = end[3];
 

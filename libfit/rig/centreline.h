@@ -9,20 +9,21 @@
 
 namespace garmentfit {
 
-/// The line through the middle of a limb or of the trunk, from where it leaves the body outwards, with the girths along it.
+/// The line through the middle of a limb or of the trunk, from where it leaves the body outwards, with the girths along
+/// it.
 struct Centreline {
-    std::vector<Vec3> points;    ///< about evenly spaced
-    std::vector<Vec3> axes;      ///< unit tangents, outwards
+    std::vector<Vec3> points;  ///< about evenly spaced
+    std::vector<Vec3> axes;  ///< unit tangents, outwards
     std::vector<double> girths;  ///< m; 0 where the plane across finds no outline
-    std::vector<bool> free;      ///< the outline there belongs to this limb alone
-    std::vector<bool> across;    ///< and is about round: the plane does not run along the limb
-    std::vector<double> arcs;    ///< m from the first point
+    std::vector<bool> free;  ///< the outline there belongs to this limb alone
+    std::vector<bool> across;  ///< and is about round: the plane does not run along the limb
+    std::vector<double> arcs;  ///< m from the first point
 
-    int first_free = 0;          ///< from here outwards the limb is clear of the trunk
+    int first_free = 0;  ///< from here outwards the limb is clear of the trunk
 
     int size() const { return int(points.size()); }
     double length() const { return arcs.back(); }
-    Vec3 at(double arc) const;   ///< by linear interpolation, the ends' points beyond the ends
+    Vec3 at(double arc) const;  ///< by linear interpolation, the ends' points beyond the ends
     int nearest_row(const Vec3& point) const;
 };
 
@@ -37,6 +38,7 @@ bool is_free(const CrossSection& section, const IsForeign& is_foreign);
 
 /// @param curve    through the inside, e.g. from a curve skeleton
 /// @param spacing  m between cuts
-Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, const IsForeign& is_foreign);
+Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing,
+                      const IsForeign& is_foreign);
 
 }  // namespace garmentfit

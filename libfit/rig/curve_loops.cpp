@@ -110,7 +110,7 @@ CurveSkeleton without(CurveSkeleton skeleton, const Edge& edge)
     return skeleton;
 }
 
-void open_loops(CurveSkeleton skeleton, const Eigen::AlignedBox3d& box, std::vector<CurveSkeleton>& ways)
+void cut_loops(CurveSkeleton skeleton, const Eigen::AlignedBox3d& box, std::vector<CurveSkeleton>& ways)
 {
     for (;;) {
         const Neighbours neighbours = neighbours_of(skeleton);
@@ -122,7 +122,7 @@ void open_loops(CurveSkeleton skeleton, const Eigen::AlignedBox3d& box, std::vec
         if (length(skeleton, loop) > k_short_loop * box.diagonal().norm()) {
             for (const Edge& place : places_to_cut(loop, neighbours))
                 if (ways.size() < k_most_ways)
-                    open_loops(without(skeleton, place), box, ways);
+                    cut_loops(without(skeleton, place), box, ways);
             return;
         }
         skeleton = without(std::move(skeleton), outermost(skeleton, loop, box.center()));
@@ -131,13 +131,13 @@ void open_loops(CurveSkeleton skeleton, const Eigen::AlignedBox3d& box, std::vec
 
 }  // namespace
 
-std::vector<CurveSkeleton> opened(const CurveSkeleton& skeleton)
+std::vector<CurveSkeleton> open_loops(const CurveSkeleton& skeleton)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& node : skeleton.nodes)
         box.extend(node);
     std::vector<CurveSkeleton> ways;
-    open_loops(skeleton, box, ways);
+    cut_loops(skeleton, box, ways);
     return ways;
 }
 

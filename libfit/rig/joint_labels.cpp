@@ -330,7 +330,7 @@ void require_hands_or_feet(const BodyJoints& joints)
 
 }  // namespace
 
-BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph)
+BodyJoints label_joints(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph)
 {
     const Surface surface { proxy, skeleton, graph };
     const Slicer slicer(proxy);

@@ -28,6 +28,6 @@ struct BodyJoints {
 /// Places joints on the curves: where a limb bends, where its girth is smallest, where it leaves the trunk; and where
 /// nothing of that shows, by the segment lengths of [deleva_1996_segments].
 /// @throws InvalidInput when a limb has no outline of its own.
-BodyJoints joint_labels(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph);
+BodyJoints label_joints(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph);
 
 }  // namespace garmentfit

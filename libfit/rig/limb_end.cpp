@@ -57,7 +57,7 @@ double free_length(const Centreline& line) { return line.length() - line.arcs[li
 
 }  // namespace
 
-Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach)
+Narrowest narrowest(const Centreline& line, const Vec3& tip, const ReachRange& reach)
 {
     Narrowest best;
     int wider_in_a_row = 0;

@@ -7,7 +7,7 @@
 
 namespace garmentfit {
 
-struct Reach {
+struct ReachRange {
     double least, usual, most, spread;  ///< m, straight to the limb's tip
 };
 
@@ -18,7 +18,7 @@ struct Narrowest {
 };
 
 /// A reach unlike the usual one counts as a larger girth.
-Narrowest narrowest(const Centreline& line, const Vec3& tip, const Reach& reach);
+Narrowest narrowest(const Centreline& line, const Vec3& tip, const ReachRange& reach);
 
 /// @param size  stature, m
 bool has_hand(const Centreline& line, double size);

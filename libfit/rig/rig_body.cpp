@@ -110,8 +110,8 @@ FoundBones found_bones(const TriangleMesh& proxy, const RigOptions& options, con
 {
     const CurveSkeleton curves = curve_skeleton(proxy, progress);
     const BodyGraph graph = body_graph(curves);
-    const BodyJoints joints = joint_labels(proxy, curves, graph);
-    Sides sides = side_classification(joints, options.front);
+    const BodyJoints joints = label_joints(proxy, curves, graph);
+    Sides sides = classify_sides(joints, options.front);
     if (options.swap_sides) {
         sides.left_arm = 1 - sides.left_arm;
         sides.left_leg = 1 - sides.left_leg;

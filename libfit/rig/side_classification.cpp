@@ -72,7 +72,7 @@ std::vector<Cue> cues_of(const BodyJoints& joints, const Vec3& up)
 
 }  // namespace
 
-Sides side_classification(const BodyJoints& joints, const std::optional<Vec3>& known_front)
+Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_front)
 {
     Sides sides;
     sides.up = (joints.neck_base - joints.pelvis).normalized();

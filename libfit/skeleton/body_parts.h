@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The parts of a body by the names that people use: what a report says.
+// Everyday names of body parts, for reports.
 
 #include "garmentfit/skeleton.h"
 
@@ -9,7 +9,7 @@ namespace garmentfit {
 
 constexpr int k_body_parts = 14;
 
-/// @return in [0, k_body_parts), or -1 for a bone that no part is named after
+/// @return in [0, k_body_parts); -1 for a bone that belongs to no named part
 int part_of(int bone);
 const char* part_name(int part);
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which skin belongs to a hand or foot: no bone of its own moves it, it hangs on the bone before.
+// Which skin belongs to a hand or foot. These have no bone: their skin is weighted to the bone before them.
 
 #include <algorithm>
 
 #include "garmentfit/skeleton.h"
+#include "tuning.h"
 
 namespace garmentfit {
 
@@ -19,19 +20,18 @@ inline double weight_of(const SkinWeights& weights, Eigen::Index v, int bone)
     return sum;
 }
 
-/// A hand or foot, and the bone before it.
+/// The plane that separates the skin of a hand or foot from the skin of the bone before it.
 struct ExtremityBend {
     Vec3 joint, tip;
-    Vec3 across;  ///< unit normal of the plane that halves the bend, towards the tip
-    bool is_stump;  ///< too short for a hand or foot
-    double blend;  ///< m; so far about the joint, skin belongs partly to it
+    Vec3 across;  ///< unit normal of the plane that bisects the bend, towards the tip
+    bool is_stump;  ///< shorter than a hand or foot
+    double blend;  ///< m; within this distance of the plane the share fades
 
     ExtremityBend(const Skeleton& joints, Extremity end) : joint(joints.tail(bone_before(end))), tip(joints.tips[end])
     {
-        constexpr double k_least = 0.15, k_blend = 0.12;  // of the bone before
         const double length = joints.length(bone_before(end));
-        is_stump = (tip - joint).norm() < k_least * length;
-        blend = k_blend * length;
+        is_stump = (tip - joint).norm() < skeleton_tuning::k_shortest_extremity * length;
+        blend = skeleton_tuning::k_extremity_blend * length;
         across = ((tip - joint).normalized() + joints.direction(bone_before(end))).normalized();
     }
 
@@ -39,7 +39,7 @@ struct ExtremityBend {
     double share(const Vec3& p) const
     {
         const double t = std::clamp(0.5 + 0.5 * (p - joint).dot(across) / blend, 0.0, 1.0);
-        return t * t * (3 - 2 * t);
+        return t * t * (3 - 2 * t);  // smoothstep
     }
 };
 

@@ -66,24 +66,24 @@ Vec3 across_of(const Vec3& zero, const Vec3& direction)
 }
 
 // Where bones point when the body stands at ease; own axes of the trunk.
-Vec3 standing(int bone, const Skeleton& own, const Anatomy& a)
+Vec3 standing(int bone, const Skeleton& rest, const Anatomy& a)
 {
     const Vec3 out = mirror_of(bone) == bone ? Vec3(Vec3::Zero()) : is_left(bone) ? a.left : Vec3(-a.left);
     switch (bone) {
-    case lhipjoint: case rhipjoint: return own.direction(bone);
+    case lhipjoint: case rhipjoint: return rest.direction(bone);
     case lfemur: case rfemur: return (-a.up + 0.08 * out).normalized();
     case ltibia: case rtibia: return (-a.up + 0.08 * out).normalized();
-    case lowerneck: case upperneck: return within(k_straight_neck, (a.up + 0.2 * a.front).normalized(), own.direction(bone));
-    case lclavicle: case rclavicle: return within(k_level_clavicle, out, own.direction(bone));
+    case lowerneck: case upperneck: return within(k_straight_neck, (a.up + 0.2 * a.front).normalized(), rest.direction(bone));
+    case lclavicle: case rclavicle: return within(k_level_clavicle, out, rest.direction(bone));
     case lhumerus: case rhumerus: case lradius: case rradius: return (out - a.up).normalized();
-    default: return within(k_straight_spine, a.up, own.direction(bone));
+    default: return within(k_straight_spine, a.up, rest.direction(bone));
     }
 }
 
 // Into which side a knee or elbow bends, own axes. A bent one shows it; a straight one is told by the trunk.
-Vec3 hinge_direction(int bone, const Skeleton& own, const Anatomy& a)
+Vec3 hinge_direction(int bone, const Skeleton& rest, const Anatomy& a)
 {
-    const Vec3 upper = own.direction(parent_of(bone)), lower = own.direction(bone);
+    const Vec3 upper = rest.direction(parent_of(bone)), lower = rest.direction(bone);
     if (angle_between(upper, lower) > k_bent_limb)
         return across_of(upper, lower);
     if (bone == ltibia || bone == rtibia)
@@ -95,19 +95,19 @@ Vec3 hinge_direction(int bone, const Skeleton& own, const Anatomy& a)
 
 JointLimits::JointLimits(const Rig& rig)
 {
-    const Skeleton& own = rig.skeleton;
+    const Skeleton& rest = rig.skeleton;
     const Anatomy a = anatomy_of(rig);
     std::array<Eigen::Quaterniond, bone_count> turns;
     for (int b = 0; b < bone_count; ++b) {
         const int p = parent_of(b);
         const Eigen::Quaterniond parent_turn = p < 0 ? Eigen::Quaterniond::Identity() : turns[p];
-        const Vec3 direction = standing(b, own, a);
-        turns[b] = bone_turn(own, b, parent_turn, direction);
+        const Vec3 direction = standing(b, rest, a);
+        turns[b] = bone_turn(rest, b, parent_turn, direction);
 
         const bool hinge = b == ltibia || b == rtibia || b == lradius || b == rradius;
         Range& range = ranges_[b];
-        range.zero = hinge ? own.direction(p) : Vec3(parent_turn.conjugate() * direction);
-        range.bend = hinge ? hinge_direction(b, own, a) : across_of(range.zero, parent_turn.conjugate() * a.front);
+        range.zero = hinge ? rest.direction(p) : Vec3(parent_turn.conjugate() * direction);
+        range.bend = hinge ? hinge_direction(b, rest, a) : across_of(range.zero, parent_turn.conjugate() * a.front);
         range.across = range.bend.cross(range.zero);
         const Vec3 away = is_left(b) ? a.left : Vec3(-a.left);
         const bool raises = b == lhumerus || b == rhumerus;

@@ -82,7 +82,7 @@ std::optional<NamedJoint> named(const std::string& name)
 
 }  // namespace
 
-std::vector<std::optional<NamedJoint>> named_joints(const std::vector<std::string>& names)
+std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names)
 {
     std::vector<std::optional<NamedJoint>> joints;
     const auto is_shoulder = [](const std::optional<NamedJoint>& j) { return j && j->kind == JointKind::shoulder; };

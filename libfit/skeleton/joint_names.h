@@ -7,7 +7,7 @@
 
 namespace garmentfit {
 
-/// What a joint of a rig is, whatever its maker called it.
+/// The anatomical meaning of a joint, independent of its name in a file.
 enum class JointKind { pelvis, spine, neck, head, clavicle, shoulder, elbow, wrist, hip, knee, ankle };
 
 struct NamedJoint {
@@ -15,8 +15,9 @@ struct NamedJoint {
     int side = 0;  ///< 0 none, 1 left, 2 right
 };
 
-/// Reads names as Mixamo, Unreal, VRM, MakeHuman, SMPL and this program give them; nothing for fingers, toes, helpers.
-/// All names of a rig at once: "LeftShoulder" is a clavicle where there is a "LeftArm", else a shoulder.
-std::vector<std::optional<NamedJoint>> named_joints(const std::vector<std::string>& names);
+/// Reads the joint names of Mixamo, Unreal, VRM, MakeHuman, SMPL and this program; empty for fingers, toes and helper
+/// joints. Needs all names of a rig at once: "LeftShoulder" is a clavicle if there is a "LeftArm", otherwise a
+/// shoulder.
+std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names);
 
 }  // namespace garmentfit

@@ -19,15 +19,15 @@ Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
     return Eigen::Quaterniond(w, axis.x(), axis.y(), axis.z()).normalized();
 }
 
-Eigen::Quaterniond bone_turn(const Skeleton& own, int bone, const Eigen::Quaterniond& parent_turn, const Vec3& direction)
+Eigen::Quaterniond bone_turn(const Skeleton& rest, int bone, const Eigen::Quaterniond& parent_turn, const Vec3& direction)
 {
-    return (shortest_arc(parent_turn * own.direction(bone), direction) * parent_turn).normalized();
+    return (shortest_arc(parent_turn * rest.direction(bone), direction) * parent_turn).normalized();
 }
 
 namespace {
 
 template <class Turn>
-PlacedBones placed(const Skeleton& own, const Posture& posture, const Turn& turn_of)
+PlacedBones place_bones(const Skeleton& rest, const Posture& posture, const Turn& turn_of)
 {
     PlacedBones result;
     result.root_turn = posture.turn;
@@ -35,54 +35,54 @@ PlacedBones placed(const Skeleton& own, const Posture& posture, const Turn& turn
     result.directions = posture.directions;
     for (int b = 0; b < bone_count; ++b) {
         result.turns[b] = turn_of(b, result.parent_turn(b));
-        result.joints.tails[b] = result.joints.head(b) + own.length(b) * posture.directions[b];
+        result.joints.tails[b] = result.joints.head(b) + rest.length(b) * posture.directions[b];
     }
     for (int e = 0; e < extremity_count; ++e) {
         const int b = bone_before(Extremity(e));
-        result.joints.tips[e] = result.joints.tail(b) + result.turns[b] * (own.tips[e] - own.tail(b));
+        result.joints.tips[e] = result.joints.tail(b) + result.turns[b] * (rest.tips[e] - rest.tail(b));
     }
     return result;
 }
 
 }  // namespace
 
-PlacedBones placed(const Skeleton& own, const Posture& posture)
+PlacedBones place_bones(const Skeleton& rest, const Posture& posture)
 {
-    return placed(own, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
-        return bone_turn(own, b, parent_turn, posture.directions[b]);
+    return place_bones(rest, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
+        return bone_turn(rest, b, parent_turn, posture.directions[b]);
     });
 }
 
-PlacedBones placed(const Skeleton& own, const Posture& posture, const PlacedBones& near)
+PlacedBones place_bones(const Skeleton& rest, const Posture& posture, const PlacedBones& near)
 {
-    return placed(own, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
+    return place_bones(rest, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
         const bool is_same = posture.directions[b] == near.directions[b]
             && parent_turn.coeffs() == near.parent_turn(b).coeffs();
-        return is_same ? near.turns[b] : bone_turn(own, b, parent_turn, posture.directions[b]);
+        return is_same ? near.turns[b] : bone_turn(rest, b, parent_turn, posture.directions[b]);
     });
 }
 
-Pose pose_of(const Skeleton& own, const Posture& posture)
+Pose pose_of(const Skeleton& rest, const Posture& posture)
 {
-    const PlacedBones bones = placed(own, posture);
+    const PlacedBones bones = place_bones(rest, posture);
     Pose pose;
-    pose.root_translation = posture.root - own.root;
+    pose.root_translation = posture.root - rest.root;
     pose.root_rotation = posture.turn;
     for (int b = 0; b < bone_count; ++b)
         pose.rotations[b] = (bones.parent_turn(b).conjugate() * bones.turns[b]).normalized();
     return pose;
 }
 
-Posture posture_of(const Skeleton& own, const Pose& pose)
+Posture posture_of(const Skeleton& rest, const Pose& pose)
 {
-    const Skeleton joints = pose_skeleton(own, pose);
+    const Skeleton joints = pose_skeleton(rest, pose);
     Posture posture { joints.root, pose.root_rotation, {} };
     for (int b = 0; b < bone_count; ++b)
         posture.directions[b] = joints.direction(b);
     return posture;
 }
 
-Posture turned(Posture posture, const Eigen::Quaterniond& turn)
+Posture rotate(Posture posture, const Eigen::Quaterniond& turn)
 {
     posture.root = turn * posture.root;
     posture.turn = (turn * posture.turn).normalized();

@@ -74,7 +74,7 @@ bool is_same(const Pose& a, const Pose& b)
     return a.root_translation == b.root_translation && a.root_rotation.coeffs() == b.root_rotation.coeffs();
 }
 
-BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose)
+BoneTransforms bone_transforms(const Skeleton& rest, const Pose& pose)
 {
     const auto about = [](const Vec3& from, const Vec3& to, const Eigen::Quaterniond& rotation) {
         Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
@@ -87,22 +87,22 @@ BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose)
     for (int b = 0; b < bone_count; ++b) {
         const int p = parent_of(b);
         world[b] = (p < 0 ? pose.root_rotation : world[p]) * pose.rotations[b];
-        const Vec3 head = own.head(b);
-        const Vec3 posed_head = p < 0 ? Vec3(own.root + pose.root_translation) : Vec3(transforms[p] * head);
+        const Vec3 head = rest.head(b);
+        const Vec3 posed_head = p < 0 ? Vec3(rest.root + pose.root_translation) : Vec3(transforms[p] * head);
         transforms[b] = about(head, posed_head, world[b]);
     }
     return transforms;
 }
 
-Skeleton pose_skeleton(const Skeleton& own, const Pose& pose)
+Skeleton pose_skeleton(const Skeleton& rest, const Pose& pose)
 {
-    const auto transforms = bone_transforms(own, pose);
-    Skeleton result = own;
-    result.root = own.root + pose.root_translation;
+    const auto transforms = bone_transforms(rest, pose);
+    Skeleton result = rest;
+    result.root = rest.root + pose.root_translation;
     for (int b = 0; b < bone_count; ++b)
-        result.tails[b] = transforms[b] * own.tails[b];
+        result.tails[b] = transforms[b] * rest.tails[b];
     for (int e = 0; e < extremity_count; ++e)
-        result.tips[e] = transforms[bone_before(Extremity(e))] * own.tips[e];
+        result.tips[e] = transforms[bone_before(Extremity(e))] * rest.tips[e];
     return result;
 }
 
@@ -119,7 +119,7 @@ Pose slerp(const Pose& from, const Pose& to, double t)
 }
 
 // Kavan et al. 2008, algorithm 1; antipodal quaternions are flipped towards the vertex's first bone.
-Positions skin(const Positions& own_positions, const SkinWeights& weights,
+Positions skin(const Positions& rest_positions, const SkinWeights& weights,
                const BoneTransforms& transforms)
 {
     std::array<DualQuaternion, bone_count> dual;
@@ -128,9 +128,9 @@ Positions skin(const Positions& own_positions, const SkinWeights& weights,
         dual[b] = dual_quaternion(transforms[b]);
         still[b] = is_identity(transforms[b]);
     }
-    Positions result(own_positions.rows(), 3);
-    for (Eigen::Index v = 0; v < own_positions.rows(); ++v) {
-        const Vec3 p = own_positions.row(v);
+    Positions result(rest_positions.rows(), 3);
+    for (Eigen::Index v = 0; v < rest_positions.rows(); ++v) {
+        const Vec3 p = rest_positions.row(v);
         Eigen::Vector4d real = Eigen::Vector4d::Zero(), d = Eigen::Vector4d::Zero();
         bool moves = false;
         const Eigen::Vector4d& first = dual[weights.bones(v, 0)].real;
@@ -158,17 +158,17 @@ Positions skin(const Positions& own_positions, const SkinWeights& weights,
     return result;
 }
 
-std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights, const Positions& own_positions)
+std::array<double, bone_count> bone_radii(const Skeleton& rest, const SkinWeights& weights, const Positions& rest_positions)
 {
     std::array<std::vector<double>, bone_count> distances;
-    for (Eigen::Index v = 0; v < own_positions.rows(); ++v) {
+    for (Eigen::Index v = 0; v < rest_positions.rows(); ++v) {
         int slot = 0;
         weights.weights.row(v).maxCoeff(&slot);
         const int b = weights.bones(v, slot);
-        const Vec3 from_head = Vec3(own_positions.row(v)) - own.head(b);
-        const double along = from_head.dot(own.direction(b));
-        if (along > 0 && along < own.length(b))  // beside the bone: neither hand nor foot
-            distances[b].push_back((from_head - along * own.direction(b)).norm());
+        const Vec3 from_head = Vec3(rest_positions.row(v)) - rest.head(b);
+        const double along = from_head.dot(rest.direction(b));
+        if (along > 0 && along < rest.length(b))  // beside the bone: neither hand nor foot
+            distances[b].push_back((from_head - along * rest.direction(b)).norm());
     }
     std::array<double, bone_count> radii {};
     for (int b = 0; b < bone_count; ++b)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From the vertices that were weighed to the user's own.
+// Transfers skin weights from the proxy surface to the vertices of the user's mesh.
 
 #include <vector>
 
@@ -10,18 +10,20 @@
 
 namespace garmentfit {
 
-/// Carries weights (n x 17) to the body's own vertices by the nearest points that face the same way, and keeps the four largest of each row.
-/// Where fingers touch other skin the nearest point may belong to that: skin which hangs on a bone far along the skeleton from what its
-/// neighbours hang on is carried anew, from points that suit the neighbours.
+/// Transfers weights (n x 17) to the body's vertices from the nearest points with a similar normal, and keeps the four
+/// largest of each row. Where fingers touch other skin, the nearest point may belong to that skin. Patches whose bone
+/// is far along the skeleton from the bones of the surrounding skin are therefore transferred again, from points of the
+/// surrounding bones.
 SkinWeights transfer_skin_weights(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to);
 
-/// Skin that hangs on other bones than all the skin around it, and no way along the skeleton leads there.
+/// A patch of skin whose bones are far along the skeleton from the bones of all skin around it.
 struct StrayPatch {
     std::vector<int> vertices;
-    std::array<bool, bone_count> near_bones {};  ///< those of the skin around it, and the bones next to them
+    std::array<bool, bone_count> near_bones {};  ///< bones of the skin around it, and their neighbours
 };
 
-/// Patches of vertices cut off from the largest part of their surface by edges whose ends hang on bones more than two steps apart. O(n).
+/// Finds patches that are separated from the largest part of their surface by edges whose ends belong to bones three or
+/// more steps apart. O(n).
 std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vector<int>& bone_of_vertex);
 
 }  // namespace garmentfit

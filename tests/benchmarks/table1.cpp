@@ -126,7 +126,7 @@ double surface_seconds(const Rig& rig, const TriangleMesh& body, const GarmentMe
     Posture posture { rig.skeleton.root, Eigen::Quaterniond::Identity(), {} };
     for (int b = 0; b < bone_count; ++b)
         posture.directions[b] = rig.skeleton.direction(b);
-    const PlacedBones bones = placed(rig.skeleton, posture);
+    const PlacedBones bones = place_bones(rig.skeleton, posture);
     std::vector<double> found(k_timed_surfaces);
     const double total
         = seconds([&] { parallel_for(k_timed_surfaces, [&](int i) { found[i] = metric.total(bones); }); }, clock);

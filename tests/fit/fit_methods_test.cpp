@@ -249,8 +249,8 @@ TEST(PaperMethod, FindsTheSameByScanAndByTree)
     EXPECT_EQ(found.posture.root, scanned.posture.root);
     EXPECT_EQ(found.posture.directions, scanned.posture.directions);
     EXPECT_EQ(found.bone_evaluations, scanned.bone_evaluations);
-    EXPECT_GT(by_tree.total(placed(rig.skeleton, found.posture)),
-              by_tree.total(placed(rig.skeleton, relaxation.start)));
+    EXPECT_GT(by_tree.total(place_bones(rig.skeleton, found.posture)),
+              by_tree.total(place_bones(rig.skeleton, relaxation.start)));
 }
 
 TEST(SurfaceMetric, IsBestWhereTheBodyLiesInItsOwnSkin)
@@ -264,12 +264,12 @@ TEST(SurfaceMetric, IsBestWhereTheBodyLiesInItsOwnSkin)
         posture.directions[b] = rig.skeleton.direction(b);
     const SurfaceMetric by_tree(rig, body.surface, garment, NearestSearch::kd_tree);
     const SurfaceMetric by_scan(rig, body.surface, garment, NearestSearch::scan);
-    const double at_home = by_tree.total(placed(rig.skeleton, posture));
+    const double at_home = by_tree.total(place_bones(rig.skeleton, posture));
     EXPECT_NEAR(at_home, 0, 1e-6 * double(garment.positions.rows()));
     posture.root.x() += 0.02;
-    const double moved = by_tree.total(placed(rig.skeleton, posture));
+    const double moved = by_tree.total(place_bones(rig.skeleton, posture));
     EXPECT_LT(moved, at_home - 1);
-    EXPECT_EQ(moved, by_scan.total(placed(rig.skeleton, posture)));
+    EXPECT_EQ(moved, by_scan.total(place_bones(rig.skeleton, posture)));
 }
 
 TEST(SurfaceMethod, FindsItsWayBackIntoTheSkin)

@@ -77,33 +77,33 @@ TEST(Skeleton, BoneBeginsWhereItsParentEnds)
 
 TEST(Posed, KeepsTheLengthOfEveryBone)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton, there = pose_skeleton(own, some_pose());
+    const Skeleton rest = fixtures::capsule_person().skeleton, there = pose_skeleton(rest, some_pose());
     for (int b = 0; b < bone_count; ++b)
-        EXPECT_NEAR(there.length(b), own.length(b), k_tiny) << bone_name(b);
+        EXPECT_NEAR(there.length(b), rest.length(b), k_tiny) << bone_name(b);
     for (int e = 0; e < extremity_count; ++e) {
         const int b = bone_before(Extremity(e));
-        EXPECT_NEAR((there.tips[e] - there.tail(b)).norm(), (own.tips[e] - own.tail(b)).norm(), k_tiny);
+        EXPECT_NEAR((there.tips[e] - there.tail(b)).norm(), (rest.tips[e] - rest.tail(b)).norm(), k_tiny);
     }
 }
 
 TEST(Posed, InTheOwnPoseIsTheSameBitForBit)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton, there = pose_skeleton(own, Pose());
-    EXPECT_EQ(there.root, own.root);
-    EXPECT_EQ(there.tails, own.tails);
-    EXPECT_EQ(there.tips, own.tips);
+    const Skeleton rest = fixtures::capsule_person().skeleton, there = pose_skeleton(rest, Pose());
+    EXPECT_EQ(there.root, rest.root);
+    EXPECT_EQ(there.tails, rest.tails);
+    EXPECT_EQ(there.tips, rest.tips);
 }
 
 TEST(Posed, BendsAnElbowAndLeavesTheRest)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton;
+    const Skeleton rest = fixtures::capsule_person().skeleton;
     Pose pose;
     pose.rotations[lradius] = turn(1.0, Vec3::UnitY());
-    const Skeleton there = pose_skeleton(own, pose);
-    EXPECT_NEAR(there.direction(lradius).dot(pose.rotations[lradius] * own.direction(lradius)), 1, k_tiny);
+    const Skeleton there = pose_skeleton(rest, pose);
+    EXPECT_NEAR(there.direction(lradius).dot(pose.rotations[lradius] * rest.direction(lradius)), 1, k_tiny);
     for (int b = 0; b < bone_count; ++b)
-        EXPECT_TRUE(b == lradius || (there.tail(b) - own.tail(b)).norm() < k_tiny) << bone_name(b);
-    EXPECT_GT((there.tips[lhand_tip] - own.tips[lhand_tip]).norm(), 0.1);
+        EXPECT_TRUE(b == lradius || (there.tail(b) - rest.tail(b)).norm() < k_tiny) << bone_name(b);
+    EXPECT_GT((there.tips[lhand_tip] - rest.tips[lhand_tip]).norm(), 0.1);
 }
 
 TEST(Slerp, BeginsAndEndsExactly)
@@ -130,19 +130,19 @@ TEST(Slerp, IsHalfTheTurnHalfWay)
 
 TEST(Skin, ComesBackBitForBitInTheOwnPose)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton;
-    const Skin s = some_skin(own, 0.37);
-    EXPECT_EQ(skin(s.positions, s.weights, bone_transforms(own, Pose())), s.positions);
+    const Skeleton rest = fixtures::capsule_person().skeleton;
+    const Skin s = some_skin(rest, 0.37);
+    EXPECT_EQ(skin(s.positions, s.weights, bone_transforms(rest, Pose())), s.positions);
 }
 
 TEST(Skin, MovesRigidlyWithTheWholeBody)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton;
-    const Skin s = some_skin(own, 0.37);
+    const Skeleton rest = fixtures::capsule_person().skeleton;
+    const Skin s = some_skin(rest, 0.37);
     Pose pose;
     pose.root_translation = Vec3(1, 2, 3);
     pose.root_rotation = turn(2.5, Vec3(1, -1, 2));
-    const auto transforms = bone_transforms(own, pose);
+    const auto transforms = bone_transforms(rest, pose);
     const Positions there = skin(s.positions, s.weights, transforms);
     for (Eigen::Index v = 0; v < there.rows(); ++v)
         EXPECT_LT((transforms[0] * Vec3(s.positions.row(v)) - Vec3(there.row(v))).norm(), 1e-12);
@@ -150,9 +150,9 @@ TEST(Skin, MovesRigidlyWithTheWholeBody)
 
 TEST(Skin, OnOneBoneFollowsThatBone)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton;
-    const Skin s = some_skin(own, 1);
-    const auto transforms = bone_transforms(own, some_pose());
+    const Skeleton rest = fixtures::capsule_person().skeleton;
+    const Skin s = some_skin(rest, 1);
+    const auto transforms = bone_transforms(rest, some_pose());
     const Positions there = skin(s.positions, s.weights, transforms);
     for (Eigen::Index v = 0; v < there.rows(); ++v)
         EXPECT_LT((transforms[v / 4] * Vec3(s.positions.row(v)) - Vec3(there.row(v))).norm(), 1e-12);
@@ -160,19 +160,19 @@ TEST(Skin, OnOneBoneFollowsThatBone)
 
 TEST(Skin, KeepsItsDistanceFromATwistedBone)
 {
-    const Skeleton own = fixtures::capsule_person().skeleton;
+    const Skeleton rest = fixtures::capsule_person().skeleton;
     Pose pose;
-    pose.rotations[lradius] = turn(3.0, own.direction(lradius));  // linear blending would collapse here
+    pose.rotations[lradius] = turn(3.0, rest.direction(lradius));  // linear blending would collapse here
     Positions point(1, 3);
-    const Vec3 side = own.direction(lradius).unitOrthogonal();
-    point.row(0) = own.head(lradius) + 0.04 * side;
+    const Vec3 side = rest.direction(lradius).unitOrthogonal();
+    point.row(0) = rest.head(lradius) + 0.04 * side;
     SkinWeights weights;
     weights.bones.resize(1, 4);
     weights.weights.resize(1, 4);
     weights.bones << lhumerus, lradius, 0, 0;
     weights.weights << 0.5, 0.5, 0, 0;
-    const Positions there = skin(point, weights, bone_transforms(own, pose));
-    EXPECT_NEAR((Vec3(there.row(0)) - own.head(lradius)).norm(), 0.04, 1e-9);
+    const Positions there = skin(point, weights, bone_transforms(rest, pose));
+    EXPECT_NEAR((Vec3(there.row(0)) - rest.head(lradius)).norm(), 0.04, 1e-9);
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ private:
     {
         std::vector<double> scores(grid.size());
         parallel_for<std::size_t>(
-            grid.size(), [&](std::size_t i) { scores[i] = metric_.total(placed(own_, moved(grid[i]))); }, 16);
+            grid.size(), [&](std::size_t i) { scores[i] = metric_.total(place_bones(own_, moved(grid[i]))); }, 16);
         const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();
         return { best == 0 ? present : moved(grid[best]), static_cast<long long>(grid.size()) };
     }
@@ -145,10 +145,10 @@ private:
     Relaxed bone_turned(const Posture& present, int bone, double scale) const
     {
         Relaxed best { present };
-        double best_score = metric_.of_bone(bone, placed(own_, present));
+        double best_score = metric_.of_bone(bone, place_bones(own_, present));
         const double spacing = scale * r_.bone_spacing / own_.length(bone);
         for (const Vec3& direction : directions_about(present.directions[bone], scale * r_.bone_extent, spacing)) {
-            const PlacedBones bones = placed(own_, with_bone_along(present, bone, direction));
+            const PlacedBones bones = place_bones(own_, with_bone_along(present, bone, direction));
             if (!is_human(bone, bones))
                 continue;
             ++best.bone_evaluations;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a garment is, and which bones it covers.
+// The type of a garment, and which bones a type covers.
 
 #include <string_view>
 #include <vector>
@@ -29,7 +29,7 @@ enum class GarmentType {
     suit
 };
 
-/// "auto", "tshirt", ... all of them, in the order of GarmentType.
+/// All names in the order of GarmentType: "auto", "tshirt", ...
 GARMENTFIT_API const std::vector<std::string_view>& garment_type_names();
 /// @throws InvalidInput listing the known names.
 GARMENTFIT_API GarmentType garment_type_of(std::string_view name);
@@ -37,11 +37,11 @@ GARMENTFIT_API std::string_view name_of(GarmentType type);
 
 struct TypeGuess {
     GarmentType type = GarmentType::automatic;
-    double margin = 0;  ///< 0 (a toss-up) to 1 (all evidence agrees)
+    double margin = 0;  ///< of the evidence: 0 = low confidence, 1 = far from every limit. Not a probability.
 };
 
-/// Reads the type off the garment's openings and tubes; `automatic` with margin 0 when it has none that a body fits through.
-/// Cost O(n log n).
+/// Guesses the type from openings and the tubes that lead to them. Returns `automatic` with margin 0 when a body does
+/// not fit through the openings. Cost O(n log n).
 GARMENTFIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
 
 /// The bones that a type covers.

@@ -3,9 +3,9 @@
 
 // Finds the skeleton of a body and how the skin hangs on it.
 //
-// Method   curve skeleton by mean curvature flow [tagliasacchi_2012_skeletons] on a decimated proxy, its five ends labelled
-//          head, hands and feet, joints along its limbs; heat weights [baran_2007_pinocchio] kept to each limb's own
-//          stretch of the surface.
+// Method   curve skeleton by mean curvature flow [tagliasacchi_2012_skeletons] on a decimated proxy, its five ends
+//          labelled head, hands and feet, joints along its limbs; heat weights [baran_2007_pinocchio] kept to each
+//          limb's own stretch of the surface.
 // Units    metres, +y up.
 // Cost     about linear in the proxy (5 to 15 thousand vertices); the user's vertices only take part in the transfer.
 // Promise  all joints lie inside the closed surface; turning or mirroring the body turns or mirrors the rig.

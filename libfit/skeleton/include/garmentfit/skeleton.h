@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The skeleton of 17 bones, its poses, and the skin that hangs on it.
+// The skeleton of 17 bones, its poses, and the skin weights.
 //
 // Skeleton  the CMU motion-capture (ASF) skeleton without hands, feet and head, as in [wu_2018_garment_fitting].
 // Skinning  dual quaternions [kavan_2008_dual_quaternions].
-// Spaces    "own" = the pose in which the body was given; a Pose turns bones away from it, so the identity Pose is the own pose.
+// Spaces    rest = the rest pose of the input body: the pose in which it was given. A Pose rotates bones away from it,
+//           so the identity Pose is the rest pose. world = after a Pose was applied.
 
 #include <array>
 #include <string_view>
@@ -42,7 +43,7 @@ enum Bone : int {
 GARMENTFIT_API std::string_view bone_name(int bone);
 /// -1 when there is no bone of that name.
 GARMENTFIT_API int bone_of(std::string_view name);
-/// The bone at whose tail this one begins; -1 for the three that hang on the root.
+/// The bone at whose tail this one begins; -1 for the three bones that begin at the root.
 GARMENTFIT_API int parent_of(int bone);
 /// lfemur <-> rfemur ...; bones of the spine are their own mirror.
 GARMENTFIT_API int mirror_of(int bone);
@@ -51,7 +52,7 @@ constexpr bool is_arm(int bone) { return bone == lhumerus || bone == lradius || 
 /// Of the femur and tibia of either side.
 constexpr bool is_leg(int bone) { return bone == lfemur || bone == ltibia || bone == rfemur || bone == rtibia; }
 
-/// What lies beyond the last joints: not bones (they never bend), but the body reaches there.
+/// Ends of the body beyond the last joints. They are not bones, because they never bend.
 enum Extremity : int { head_top, lhand_tip, rhand_tip, lfoot_tip, rfoot_tip, extremity_count };
 
 /// The bone at whose tail an extremity begins: upperneck, lradius, rradius, ltibia, rtibia.
@@ -69,28 +70,28 @@ struct Skeleton {
     double length(int bone) const { return (tail(bone) - head(bone)).norm(); }
 };
 
-/// Turns of the bones away from the own pose.
+/// Rotations of the bones away from the rest pose.
 struct Pose {
-    Vec3 root_translation = Vec3::Zero();  ///< metres, added to the root
-    Eigen::Quaterniond root_rotation = Eigen::Quaterniond::Identity();  ///< about the root, of the whole body
-    std::array<Eigen::Quaterniond, bone_count> rotations;  ///< of each bone about its head, in the axes of the own
-        ///< pose: world rotation = parent's world rotation * this
-    GARMENTFIT_API Pose();  ///< the own pose
+    Vec3 root_translation = Vec3::Zero();  ///< m, added to the root
+    Eigen::Quaterniond root_rotation = Eigen::Quaterniond::Identity();  ///< of the whole body, about the root
+    /// Of each bone about its head, in the axes of the rest pose: world rotation = parent's world rotation * this.
+    std::array<Eigen::Quaterniond, bone_count> rotations;
+    GARMENTFIT_API Pose();  ///< the rest pose
 };
 
-/// Whether two poses are alike, bit for bit.
+/// Whether two poses are equal bit for bit.
 GARMENTFIT_API bool is_same(const Pose& a, const Pose& b);
 
-/// Where each bone goes: world-from-own rigid transforms.
+/// World-from-rest rigid transform of each bone.
 using BoneTransforms = std::array<Eigen::Isometry3d, bone_count>;
 
-/// Parents composed in. O(1).
-GARMENTFIT_API BoneTransforms bone_transforms(const Skeleton& own, const Pose& pose);
+/// Transforms of the parents are included. O(1).
+GARMENTFIT_API BoneTransforms bone_transforms(const Skeleton& rest, const Pose& pose);
 
-/// The joints in a pose.
-GARMENTFIT_API Skeleton pose_skeleton(const Skeleton& own, const Pose& pose);
+/// The joints in a pose, world space.
+GARMENTFIT_API Skeleton pose_skeleton(const Skeleton& rest, const Pose& pose);
 
-/// Interpolates every joint by spherical linear interpolation, the root linearly; t in [0, 1].
+/// Interpolates rotations by spherical linear interpolation and the root linearly; t in [0, 1].
 GARMENTFIT_API Pose slerp(const Pose& from, const Pose& to, double t);
 
 /// At most four bones a vertex; weights are non-negative and sum to 1, unused slots carry weight 0.
@@ -100,23 +101,25 @@ struct SkinWeights {
 };
 
 /// Poses vertices by dual quaternion blending; n x 3 in, n x 3 out. O(n).
-/// Vertices come back bit for bit when every transform is exactly the identity.
-GARMENTFIT_API Positions skin(const Positions& own_positions, const SkinWeights& weights, const BoneTransforms& transforms);
+/// Returns the same bits when every transform is exactly the identity.
+GARMENTFIT_API Positions skin(const Positions& rest_positions, const SkinWeights& weights,
+                              const BoneTransforms& transforms);
 
-/// Everything that rigging a body finds out.
+/// The result of rigging a body.
 struct Rig {
-    Skeleton skeleton;  ///< in the body's own pose
-    SkinWeights weights;  ///< of the user's own vertices, all of them
-    Vec3 up = Vec3::UnitY();  ///< of the trunk: pelvis towards neck
-    Vec3 front = Vec3::UnitZ();  ///< of the trunk: where the chest faces
-    double side_margin = 0;  ///< how sure left and right are, 0 (a guess) to 1 (every cue agrees)
-    std::array<double, bone_count>
-        radii {};  ///< m, room that a bone needs, from bone_radii; 0: unknown, taken from the leg's length
+    Skeleton skeleton;  ///< in the rest pose
+    SkinWeights weights;  ///< of all vertices of the user's mesh
+    Vec3 up = Vec3::UnitY();  ///< of the trunk, unit: from pelvis to neck
+    Vec3 front = Vec3::UnitZ();  ///< of the trunk, unit: where the chest faces
+    /// Evidence for left and right: 0 = low confidence, 1 = all cues agree. Not a probability.
+    double side_margin = 0;
+    /// m, radius of the limb around each bone, from bone_radii; 0 = unknown, then estimated from the leg's length.
+    std::array<double, bone_count> radii {};
 };
 
-/// How far the skin is from each bone, m: the lower quartile over the vertices that hang mostly on it, so that a flat part
-/// counts with its thin side; 0 for a bone on which nothing hangs. O(n log n).
-GARMENTFIT_API std::array<double, bone_count> bone_radii(const Skeleton& own, const SkinWeights& weights,
-                                                  const Positions& own_positions);
+/// Distance of the skin from each bone, m: the lower quartile over the vertices whose largest weight is on the bone, so
+/// that a flat part counts with its thin side; 0 for a bone without vertices. O(n log n).
+GARMENTFIT_API std::array<double, bone_count> bone_radii(const Skeleton& rest, const SkinWeights& weights,
+                                                         const Positions& rest_positions);
 
 }  // namespace garmentfit

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Fitted numbers of garment analysis.
+//
+// Units  m is metres on a body of human size. Girths are lengths around, in metres unless they are shares.
+// Data   "garments": the garments of the house data and closed, cut and turned copies of them. Score: number of
+//        garments with the correct type, the correct sides outwards, or the correct vertical axis.
+// A number "fitted: guess" was tried by hand on these data, without a record of the score. No script fits them again.
+
+#include <cstddef>
+
+namespace garmentfit::garment_tuning {
+
+// ---- openings and their tubes (garment_openings.cpp) --------------------------------------------------------------
+
+/// fitted: guess, on the garments. Girth as a share of the garment's diagonal: a cuff has 0.12, a buttonhole 0.03.
+inline constexpr double k_smallest_girth = 0.07;
+/// fitted: guess. Width of a tube's slices as a share of the garment's diagonal: two or three edges.
+inline constexpr double k_slice = 0.02;
+/// fitted: guess, on the garments. A tube ends where its girth exceeds the median of its slices by this factor.
+inline constexpr double k_tube_widening = 1.5;
+/// fitted: guess. Number of slices of a hem, which may be turned in or gathered. They neither end a tube nor count as
+/// its waist.
+inline constexpr std::size_t k_hem_slices = 3;
+/// fitted: guess, on the garments. Cosine between one opening and the mirror image of another: cloth that hangs is not
+/// symmetric.
+inline constexpr double k_facing_alike = 0.7;
+
+// ---- outward orientation (outward_cloth.cpp) ----------------------------------------------------------------------
+
+/// fitted: on the garments. Volume / area^1.5 of a patch: a sphere has 0.094, a sleeve 0.03, a pocket 0.002.
+inline constexpr double k_flat_patch = 0.01;
+/// fitted: guess. m, largest distance between the two sheets of cloth with thickness, padding included.
+inline constexpr double k_thickest = 0.02;
+/// fitted: guess. m, distance on both sides of a flat patch at which the winding number is compared.
+inline constexpr double k_side_step = 0.02;
+
+// ---- outer sheet (outer_sheet.cpp) --------------------------------------------------------------------------------
+
+/// fitted: guess, on the garments. Thicknesses: the other sheet is closer than this. Along a rim the next cloth is
+/// farther away.
+inline constexpr double k_backing = 3;
+/// fitted: guess, on the garments. Share of the sheet's area: a smaller connected part is a strip of a rim or a fold.
+inline constexpr double k_small_part = 0.05;
+/// fitted: guess, on the garments. Cosine between two faces: below it the face behind is not the other sheet.
+inline constexpr double k_back_cosine = 0.5;
+
+// ---- vertical axis (way_up.cpp) -----------------------------------------------------------------------------------
+
+/// fitted: guess, on the garments. rad: a worn garment's axes deviate from the vertical by up to 15 degrees.
+inline constexpr double k_nearly_along = 0.26;
+/// fitted: guess. rad: smallest angle between two axes that are both tried.
+inline constexpr double k_apart = 0.17;
+/// fitted: guess. Ratio of girths of two sleeves or two legs.
+inline constexpr double k_twin_girths = 1.4;
+/// fitted: guess. Smallest distance between two sleeves or legs, in girths.
+inline constexpr double k_twin_distance = 0.5;
+/// fitted: guess. Share of the largest distance between openings: a shorter line is no evidence for an axis.
+inline constexpr double k_long_line = 0.4;
+/// fitted: guess. Sine between such a line and the line from one sleeve or leg to the other.
+inline constexpr double k_line_across = 0.8;
+
+// ---- sleeves and legs (type_guess.cpp) ----------------------------------------------------------------------------
+// fitted: guesses, on the garments. "Height" is the vertical component of a unit normal, or a share of the piece's
+// height.
+
+/// Two openings are a pair: ratio of girths, difference of heights, horizontal distance in girths.
+inline constexpr double k_pair_girths = 1.4, k_pair_lift = 0.15, k_pair_distance = 0.25;
+/// Height of the normals of legs, of a hem, and of the highest opening above legs. A jacket on its back fails the last
+/// test.
+inline constexpr double k_leg_normal = -0.5, k_hem_between_legs = -0.8, k_waist_normal = -0.3;
+/// Girth of an arm's opening as a share of the widest other opening.
+inline constexpr double k_narrow = 0.9;
+/// Sleeve opposite an armhole: smallest length in girths, ratios of girth and length, height of a hem's normal, cosine
+/// to the line across, height of that line.
+inline constexpr double k_sleeve_tube = 0.25, k_stub_girth = 1.25, k_stub_length = 2, k_hem_below = -0.6,
+                        k_sleeve_facing = 0.5, k_across_lift = 0.6;
+/// Share of a piece's height, hood included: arms are above.
+inline constexpr double k_arm_height = 0.45;
+
+// ---- type (type_guess.cpp) ----------------------------------------------------------------------------------------
+// fitted: guesses, on the garments. Most garments are far from each limit, see the figures.
+
+/// Result of armhole_likeness: sleeves have 0.1 to 0.4, a vest 0.7.
+inline constexpr double k_armhole = 0.55;
+/// Its change with the height of the normals.
+inline constexpr double k_armhole_normal = 0.15;
+/// Length in girths: an armhole has less, a T-shirt's sleeve 0.35.
+inline constexpr double k_armhole_length = 0.25;
+/// Length in girths: a sleeve to the elbow has 0.5, to the wrist 1.4.
+inline constexpr double k_long_sleeve = 0.9;
+/// Relative distance from a limit at which the margin of a decision is 1 (a reciprocal).
+inline constexpr double k_margin_slope = 2;
+/// Height of a jumpsuit in lengths of its legs; length in girths of the legs of trousers.
+inline constexpr double k_jumpsuit_height = 1.5, k_trouser_length = 1.0;
+/// Length of a coat's skirts below the arms in widths of the chest; horizontal part of the normal of a jacket's open
+/// front.
+inline constexpr double k_coat_skirts = 1.5, k_jacket_front = 0.3;
+/// Height of a dress in girths of its hem's waist; height of the normal of a hood's opening.
+inline constexpr double k_dress_height = 1.1, k_hood_normal = 0.5;
+/// Height of an opening that is an open front, as a share of the piece's height.
+inline constexpr double k_open_front = 0.6;
+
+// ---- upright or not (type_guess.cpp) ------------------------------------------------------------------------------
+// fitted: guesses, on the garments.
+
+/// Sines: normals below the first are horizontal, above the second vertical.
+inline constexpr double k_level = 0.25, k_plumb = 0.6;
+/// Difference of girths of waist and hem as a share of the hem's: limit, and full evidence.
+inline constexpr double k_least_narrower = 0.05, k_clearly_narrower = 0.3;
+/// A hem: height of its normal, and its own height as a share of the piece's. Above legs an opening is evidence for the
+/// front only below the second share.
+inline constexpr double k_hem_normal = -0.8, k_hem_share = 0.5, k_level_share = 0.25;
+
+}  // namespace garmentfit::garment_tuning

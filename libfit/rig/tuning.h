@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Fitted numbers of rigging.
+//
+// Units  lengths are shares of stature unless a comment says otherwise, so these numbers are dimensionless; angles are
+//        in radians. Nothing here is in metres.
+// Data   "bodies": MakeHuman bodies with known joints, ten in set poses and 160 of other shapes and poses (docs/rig.md,
+//        Accuracy). "dirty bodies": the same with 165 kinds of damage. Score: mean distance of the twelve limb joints
+//        from MakeHuman's, as a share of stature; for the rejection limits the number of bodies judged correctly.
+// A number "fitted: guess" was tried by hand on these data, without a record of the score. No script fits them again.
+
+#include <cstddef>
+#include <numbers>
+
+namespace garmentfit::rig_tuning {
+
+// ---- loops of the curve skeleton (curve_loops.cpp) ----------------------------------------------------------------
+
+/// fitted: guess, on the dirty bodies. Share of the diagonal of the curves' bounding box. A shorter loop is two fingers
+/// that touch, a longer one an arm that touches the trunk.
+inline constexpr double k_short_loop = 0.15;
+
+// ---- names of the ends (body_graph.cpp) ---------------------------------------------------------------------------
+
+/// fitted: on the dirty bodies. Standard deviation of the logarithms of length ratios. Real bodies have about 0.1, most
+/// of all children with large heads; other shapes have far more.
+inline constexpr double k_largest_spread = 0.30;
+/// fitted: on the bodies without heads. The same where the head is missing: fewer lengths must agree better.
+inline constexpr double k_largest_headless_spread = 0.15;
+/// fitted: guess, on the dirty bodies. Length ratio: a limb is at least this much longer than the longest finger, ear
+/// or toe.
+inline constexpr double k_limb_over_finger = 1.25;
+/// fitted: guess, on the bodies without heads. The same for a body without head, where a neck or a finger was pruned.
+inline constexpr double k_limb_over_stump = 2.5;
+
+// ---- centre lines (centreline.cpp) --------------------------------------------------------------------------------
+
+/// fitted: guess. Number of cuts on each side from which a tangent is computed.
+inline constexpr int k_half_window = 3;
+/// fitted: guess. Number of times that the line is moved to the centroids of its cuts.
+inline constexpr int k_centring_rounds = 2;
+/// fitted: guess, on the bodies. Isoperimetric quotient of an outline, 1 = circle. A plane that runs along a bent limb
+/// cuts a long outline, with a smaller quotient.
+inline constexpr double k_roundness = 0.6;
+/// fitted: guess. Number of consecutive free cuts with which a limb begins.
+inline constexpr int k_free_in_a_row = 4;
+/// fitted: guess. Share of an outline that may belong to another part: labels of vertices are ragged where curves meet.
+inline constexpr double k_foreign_share = 0.1;
+/// fitted: guess. Distance between cuts.
+inline constexpr double k_spacing = 0.01;
+
+// ---- ends of limbs (limb_end.cpp, limb_joints.cpp) ----------------------------------------------------------------
+
+/// fitted: on the bodies. Relative standard deviation of girth at the wrist and the shin.
+inline constexpr double k_girth_spread = 0.10;
+/// fitted: on the bodies. Girth ratio from wrist to palm and from shin to heel.
+inline constexpr double k_limb_widening = 1.15;
+/// fitted: guess. Number of consecutive wider cuts that show a hand or heel: a single cut may be wrong.
+inline constexpr int k_wider_in_a_row = 3;
+/// fitted: on the bodies with and without hands. Girth at the end of the curve: fingers have 0.035, stumps of arms
+/// 0.08.
+inline constexpr double k_thin_hand = 0.045;
+/// fitted: on the bodies with and without feet. The same for legs: toes have at most 0.07, stumps at least 0.12.
+inline constexpr double k_thin_foot = 0.09;
+/// fitted: on the bodies with and without hands and feet. Girth ratio: fists and shoes are wider than the wrist or shin
+/// before them, by 1.15 in nearly all bodies; a stump reaches at most 1.02.
+inline constexpr double k_wider_end = 1.08;
+/// fitted: on the bodies with mittens. Distances from the end between which the taper is measured, and the smallest
+/// ratio of girths that is a mitten. Forearms without hand taper to 0.73 to 0.83.
+inline constexpr double k_taper_from = 0.12, k_taper_to = 0.04, k_most_tapered = 0.9;
+/// fitted: on the bodies with and without hands. Free length of an arm: at least 0.33 with a mitten, at most 0.31
+/// without hand.
+inline constexpr double k_arm_with_hand = 0.32;
+/// fitted: guess. Distances from the end of a limb's curve: where the search for its end begins, and the extent of palm
+/// and instep.
+inline constexpr double k_limb_end = 0.16, k_palm = 0.1, k_instep = 0.14;
+
+/// fitted: on the bodies. Straight distance from the fingertips to the wrist: limits and standard deviation. The usual
+/// distance is from the literature (joint_labels.cpp).
+inline constexpr double k_least_hand = 0.05, k_most_hand = 0.19, k_hand_spread = 0.02;
+/// fitted: on the bodies. Straight distance from the toes to the narrowest part of the shin: limits, usual, standard
+/// deviation.
+inline constexpr double k_least_foot = 0.08, k_usual_foot = 0.15, k_most_foot = 0.22, k_foot_spread = 0.04;
+/// fitted: guess. Lengths of the ends of curves on whose skin fingertips, crown, and toes and heel are searched.
+inline constexpr double k_hand_skin = 0.12, k_crown_skin = 0.12, k_foot_skin = 0.25;
+/// fitted: guess. Share of an arm's length: from here to its end an arm's direction is measured.
+inline constexpr double k_last_of_arm = 0.6;
+/// fitted: guess, on the bodies without hands or feet. Distances from the end of a stump between which its axis is
+/// measured.
+inline constexpr double k_stump = 0.06, k_stump_cap = 0.02;
+/// fitted: guess. Radius of the cylinder about the shin's axis that contains the heel.
+inline constexpr double k_heel_radius = 0.05;
+/// fitted: on the bodies. Largest distance from the narrowest part of the shin to the ankle: for a pointed foot the
+/// toes are the sole.
+inline constexpr double k_ankle_below_shin = 0.05;
+/// fitted: guess. Smallest number of cuts of a free limb, and between its beginning and its last joint.
+inline constexpr int k_fewest_free_cuts = 10, k_fewest_limb_cuts = 4;
+/// fitted: on closed clothes and bodies without heads. Number of limbs that must widen to a hand or foot if the head is
+/// missing.
+inline constexpr int k_fewest_without_head = 2;
+
+// ---- elbows and knees (bend.cpp) ----------------------------------------------------------------------------------
+
+/// fitted: on the bodies. Standard deviation of the ratio of upper bone to limb.
+inline constexpr double k_ratio_spread = 0.03;
+/// fitted: on the bodies. Standard deviation of the centroids of cuts from a straight bone.
+inline constexpr double k_straight_spread = 0.006;
+/// fitted: guess, on the bodies. rad: between these angles the joint moves from the line of cuts to the intersection of
+/// the axes.
+inline constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
+/// fitted: guess, on the bodies. Largest distance between the axes, and from their intersection to the line of cuts.
+inline constexpr double k_corner_gap = 0.03, k_corner_reach = 0.06;
+/// fitted: guess. Residuals of cuts are limited to this distance: in a deep bend some cuts are wrong.
+inline constexpr double k_outlier = 0.06;
+/// fitted: guess. Number of cuts of a bone from which an axis is fitted.
+inline constexpr int k_fewest_cuts = 6;
+/// fitted: guess. Tenths of the cuts of a bone that are left out of the fit of its axis: at the trunk, and at the bend.
+inline constexpr int k_trunk_tenths = 2, k_bend_tenths = 3;
+
+// ---- hips and shoulders (limb_joints.cpp) -------------------------------------------------------------------------
+
+/// fitted: on the bodies. The midpoint of the hips from the midpoint of the legs' first free outlines: along the
+/// thighs, and down.
+inline constexpr double k_hips_along_thighs = 0.04, k_hips_below_rings = 0.009;
+/// fitted: on the bodies. Distance between the hips. The skin hardly shows it.
+inline constexpr double k_hip_width = 0.123;
+/// fitted: guess. Length of the thigh from which the direction to the hip is measured.
+inline constexpr double k_first_of_thigh = 0.12;
+/// fitted: on the bodies. The shoulder from the centroid of the arm's first free outline: up, out, and inwards along
+/// the upper arm. The inwards distance is reduced by k_shoulder_back times the cosine between upper arm and sideways.
+inline constexpr double k_shoulder_up = 0.012, k_shoulder_out = 0.007, k_shoulder_inwards = 0.0135,
+                        k_shoulder_back = 0.03;
+/// fitted: on the bodies. Length ratio from hip to knee and from hip to the narrowest part of the shin.
+inline constexpr double k_knee_above_shin = 0.545;
+/// fitted: on the bodies. Share of the measured length in the length of an upper bone; the rest is expected from the
+/// lower bone.
+inline constexpr double k_measured_share = 0.5;
+
+// ---- lengths of limbs (limb_joints.cpp) ---------------------------------------------------------------------------
+
+/// fitted: on the bodies. Length of an arm and of a leg. The stature is here BodyGraph::size or size_by_legs.
+inline constexpr double k_arm = 0.294, k_whole_leg = 0.495;
+/// fitted: on the dirty bodies. Logarithms of the length ratio between which a limb counts as more and more shortened,
+/// by flesh or by filled holes of a scan that bridge it to the trunk.
+inline constexpr double k_short_from = 0.08, k_short_to = 0.16;
+/// fitted: on the dirty bodies. Share of the missing length that is added, of a normal limb and of a shortened one.
+inline constexpr double k_usual_share = 0.3, k_short_share = 0.85;
+/// fitted: on the dirty bodies. rad: between these angles the middle joint moves less and less when a limb is
+/// lengthened.
+inline constexpr double k_bent_from = 0.26, k_bent_to = 0.7;
+
+// ---- spine, neck and head (joint_labels.cpp) ----------------------------------------------------------------------
+
+/// fitted: guess. Length above the pelvis in which centroids of cuts are ignored, and spacing of the spine's line, in
+/// k_spacing.
+inline constexpr double k_pelvis_cuts = 2, k_spine_spacing = 0.5;
+/// fitted: on the bodies, by the number with correct sides. Distances below the end of the spine's line: end of the
+/// head, beginning and end of the neck.
+inline constexpr double k_head = 0.09, k_jaw = 0.13, k_neck = 0.2;
+/// fitted: guess, on the bodies without heads. Share of neck and head that remains.
+inline constexpr double k_neck_stub = 0.25;
+
+// ---- left and right (side_classification.cpp) ---------------------------------------------------------------------
+// fitted: guesses, on the bodies, by the number with correct sides. A weight is between 0 and 1 unless a largest one is
+// named.
+
+/// Distance of the foot's end from the shin's axis: legs without feet stay below, toes reach twice as far and weigh 1.
+inline constexpr double k_foot_stump = 0.03;
+/// Weight of a knee's flexion per offset from the leg's line; the offset is a share of the leg's length.
+inline constexpr double k_knee_weight = 6;
+/// Weight of a hip's flexion per excess over the sine between thigh and vertical: a hip flexes by 120 degrees and
+/// extends by 20, whose sine is 0.34.
+inline constexpr double k_hip_weight = 2, k_hip_extension = 0.35;
+/// Weight of an elbow's flexion per offset from the arm's line, and its largest weight.
+inline constexpr double k_elbow_weight = 2, k_most_elbow_weight = 0.5;
+/// Weight of the head's offset from the neck, and its largest weight.
+inline constexpr double k_head_weight = 25, k_most_head_weight = 0.5;
+
+// ---- rig validation (rig_validation.cpp) --------------------------------------------------------------------------
+
+/// fitted: guess, on the bodies. Smallest share of samples on bones inside the body: mouth, armpit and crotch come
+/// close to bones.
+inline constexpr double k_inside_share = 0.85;
+/// fitted: on the bodies and on blocks. Isoperimetric quotient: 1 = ball, 0.52 = cube; humans have 0.04, fat ones who
+/// curl up 0.13.
+inline constexpr double k_most_compact = 0.3;
+/// fitted: on the bodies. Relative difference between a left and a right length; correct rigs have less than 0.05.
+inline constexpr double k_side_tolerance = 0.2;
+
+/// Interval of a ratio of lengths.
+struct Proportion {
+    double least, most;
+};
+/// fitted: guesses, wide enough for all bodies, children included, and narrow enough to refuse wrong labels.
+inline constexpr Proportion k_upper_arm_to_forearm { 0.6, 1.7 }, k_thigh_to_shin { 0.6, 1.6 },
+    k_arm_to_leg { 0.4, 0.85 }, k_trunk_to_leg { 0.4, 1.25 }, k_hip_width_to_leg { 0.05, 0.5 },
+    k_shoulder_width_to_leg { 0.15, 0.8 }, k_collarbone_to_leg { 0.1, 0.65 };
+
+// ---- attempts (rig_body.cpp) --------------------------------------------------------------------------------------
+
+/// fitted: guess, on the dirty bodies. Number of proxy vertices of the second and third attempt, as shares of the
+/// first.
+inline constexpr double k_coarser_proxy = 2.0 / 3, k_finer_proxy = 1.5;
+
+}  // namespace garmentfit::rig_tuning

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Fitted numbers of skin weights and joint limits.
+//
+// Units  lengths are shares of a length of the same body, so these numbers are dimensionless; angles are in radians.
+// Data   "bodies": ten MakeHuman bodies with known joints and known skin weights (docs/rig.md, Accuracy).
+//        "pairs": the twelve pairs of body and garment of the house data.
+// A number "fitted: guess" was tried by hand on these data. No score was recorded and no script fits it again.
+
+#include <numbers>
+
+namespace garmentfit::skeleton_tuning {
+
+constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+// ---- heat weights (heat_weights.cpp) ----------------------------------------------------------------------------
+
+/// fitted: on the bodies, by the difference of their skin weights from MakeHuman's in nine segments. The constant c of
+/// [baran_2007_pinocchio], where it is 1. A larger value makes the skin stiffer between joints.
+inline constexpr double k_heat = 18;
+/// fitted: as k_heat. For arms: with k_heat their weights reach far down the flank, which the spine should hold.
+inline constexpr double k_heat_of_arms = 1.5;
+/// fitted: guess, on the bodies. Smallest cosine between skin normal and direction from the bone. It limits the ball of
+/// a bone that does not lie behind the skin, so that such a bone counts as up to ten times farther away, but remains
+/// possible.
+inline constexpr double k_least_facing = 0.1;
+
+// ---- transfer of weights (skin_transfer.cpp) ----------------------------------------------------------------------
+
+/// fitted: guess, on the bodies. Share of the diagonal of the bounding box. Points with opposite normals seem farther
+/// apart by twice this length.
+inline constexpr double k_normal_weight = 0.015;
+/// fitted: guess. Number of points from which a weight is interpolated.
+inline constexpr int k_neighbours = 4;
+
+// ---- skin of hands and feet (extremity_skin.h) --------------------------------------------------------------------
+
+/// fitted: guess, on the bodies with hands or feet removed. Share of the bone before: a shorter extremity is a stump.
+inline constexpr double k_shortest_extremity = 0.15;
+/// fitted: guess, on the pairs. Share of the bone before: half width of the transition at wrist or ankle.
+inline constexpr double k_extremity_blend = 0.12;
+
+// ---- bone radii (skeleton.cpp) ------------------------------------------------------------------------------------
+
+/// fitted: guess, on the pairs. One in this many distances is smaller than the radius: the lower quartile.
+inline constexpr int k_radius_quantile = 4;
+
+// ---- joint limits (joint_limits.cpp) ------------------------------------------------------------------------------
+
+/// fitted: guess, on the pairs. rad from the vertical: a spine bent further counts as straightened to this angle.
+inline constexpr double k_straight_spine = radians(15.0);
+/// fitted: guess, on the pairs. rad: the same of the neck, from its line in a standing body.
+inline constexpr double k_straight_neck = radians(25.0);
+/// fitted: guess, on the pairs. rad from sideways: the same of the clavicle. Raised arms lift it further in the rest
+/// pose.
+inline constexpr double k_level_clavicle = radians(25.0);
+/// fitted: guess, on the bodies. rad: a knee or elbow bent further shows in which direction it bends.
+inline constexpr double k_bent_limb = radians(15.0);
+/// fitted: guess. Tangent of the angle between a leg of the standing body and the vertical, outwards.
+inline constexpr double k_leg_spread = 0.08;
+/// fitted: guess. Tangent of the angle between the neck of the standing body and the vertical, forwards.
+inline constexpr double k_neck_lean = 0.2;
+/// fitted: guess. Cosine: an upper arm closer to the front axis takes the trunk's vertical for the direction of elbow
+/// flexion.
+inline constexpr double k_arm_to_front = 0.9;
+
+}  // namespace garmentfit::skeleton_tuning
