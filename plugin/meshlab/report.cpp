@@ -4,15 +4,12 @@
 #include <iomanip>
 #include <sstream>
 
-#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/warnings.h"
 
 namespace garmentfit::meshlab {
 
-void Report::warn(const std::vector<std::string>& warnings)
-{
-    warnings.insert(warnings.end(), warnings.begin(), warnings.end());
-}
+void Report::warn(const std::vector<std::string>& more) { warnings.insert(warnings.end(), more.begin(), more.end()); }
 
 std::string set_field(std::string_view parameter) { return "set " + std::string(parameter); }
 

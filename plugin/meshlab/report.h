@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a filter tells its user.
+// Log lines, warnings and numbers that a filter returns.
 
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "garmentfit/fit_map.h"
 #include "fitting.h"
+#include "garmentfit/fit_map.h"
 
 namespace garmentfit::meshlab {
 
@@ -17,13 +17,13 @@ struct Report {
     std::vector<std::string> lines, warnings;
     std::map<std::string, double> numbers;  ///< for scripts; lengths in the body's unit
 
-    void warn(const std::vector<std::string>& warnings);
+    void warn(const std::vector<std::string>& more);
 };
 
-/// "set swap_sides", for warnings.
+/// "set swap_sides": how warnings name a parameter.
 std::string set_field(std::string_view parameter);
 
-/// How fitting or dressing ended.
+/// Reports the results of fitting and dressing.
 void report_scene(Report& report, const Fitting& fitting);
 
 void report_girths(Report& report, const std::vector<Girth>& girths, double metres_per_unit);
