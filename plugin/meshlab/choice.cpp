@@ -12,9 +12,9 @@
 namespace garmentfit::meshlab {
 namespace {
 
-/// The number that a user typed, and that the command line would read: all MeshLabs hand parameters on as floats, also
-/// those whose layers have doubles, so that 0.2 arrives as 0.2000000030. A share of the body's size, or another unit, and
-/// back costs no more.
+/// The number that a user typed, and that the command line would read. All MeshLabs pass parameters as floats, also
+/// those whose layers have doubles: 0.2 arrives as 0.2000000030. The conversion from a share of the body's size or from
+/// another unit loses no further digits.
 double as_typed(double value)
 {
     char digits[32];
@@ -26,7 +26,7 @@ double as_typed(double value)
     return typed;
 }
 
-/// A choice by its number: in a dialog it is one of those shown, a script may say anything.
+/// A choice by its number. A dialog shows valid ones only; a script may hold any number.
 template <class Enum>
 Enum read_number(const RichParameterList& list, const QString& name, std::size_t choices)
 {
@@ -77,7 +77,7 @@ MeshModel* read_layer(const RichParameterList& list, const QString& name, MeshDo
 {
     MeshModel* layer = chosen_layer(list, name, document);
     if (!layer)
-        throw InvalidInput(name.toStdString() + ": there is no such layer; choose one of the document");
+        throw InvalidInput(name.toStdString() + ": this layer does not exist; choose a layer of the document");
     return layer;
 }
 
@@ -92,12 +92,13 @@ void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& 
         MeshModel* garment = read_layer(list, k_garments[i], document);
         if (garment == choice.body)
             throw InvalidInput(k_garments[i].toStdString() + ": " + name_of(*garment)
-                               + " is the body already; choose the garment's layer");
+                               + " is already chosen as the body; choose the garment's layer");
         if (i > 0 && garment == choice.garments.front())
             continue;
         if (std::find(choice.garments.begin(), choice.garments.end(), garment) != choice.garments.end())
-            throw InvalidInput(k_garments[i].toStdString() + ": " + name_of(*garment)
-                               + " is worn already; choose the first garment again for none");
+            throw InvalidInput(
+                k_garments[i].toStdString() + ": " + name_of(*garment)
+                + " is already chosen as another garment; choose the first garment again for no further one");
         choice.garments.push_back(garment);
         choice.types.push_back(entry.filter->has(Stage::fit)
                                    ? read_number<GarmentType>(list, k_types[i], garment_type_names().size())
@@ -116,14 +117,14 @@ void read_frames(Choice& choice, const RichParameterList& list, const MenuEntry&
             = { read_word(list, k_garment_unit, unit_choices()), read_word(list, k_garment_up, axis_choices()) };
 }
 
-/// MeshLab's own dialog begins without a name, whatever the default.
+/// MeshLab's file dialog starts with an empty name, whatever the default.
 std::filesystem::path read_file_name(const RichParameterList& list, const MenuEntry& entry, const MeshModel& body)
 {
     const QString name = entry.task == Task::save_rig ? list.getSaveFileName(k_file) : list.getOpenFileName(k_file);
     const std::filesystem::path path
         = name.isEmpty() ? rig_file_beside(body) : std::filesystem::path(name.toStdString());
     if (path.empty())
-        throw InvalidInput("file: " + name_of(body) + " was not saved yet; give a name that ends in .rig.json");
+        throw InvalidInput("file: " + name_of(body) + " has no file yet; give a file name that ends in .rig.json");
     return path;
 }
 
@@ -132,7 +133,7 @@ std::filesystem::path read_file_name(const RichParameterList& list, const MenuEn
 Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDocument& document)
 {
     if (layers_of(document).empty())
-        throw InvalidInput("there is no layer; open a body first");
+        throw InvalidInput("the document has no layer; open a body first");
     Choice choice;
     choice.body = read_layer(list, k_body, document);
     if (entry.reads(Data::garments))

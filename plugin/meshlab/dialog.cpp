@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "fields.h"
+#include "fitting.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/units.h"
-#include "fitting.h"
 #include "layers.h"
 
 namespace garmentfit::meshlab {
@@ -28,10 +28,10 @@ std::vector<std::string_view> bone_names()
     return names;
 }
 
-// ---- what a dialog begins with -----------------------------------------------------------------------------------
+// ---- defaults -----------------------------------------------------------------------------------------------------
 
 struct Defaults {
-    std::vector<const MeshModel*> layers;  ///< with faces: body, garment, worn garment; all of them are there
+    std::vector<const MeshModel*> layers;  ///< with faces: body, garment, worn garment; never null
     double metres_per_unit = 1;
     double diagonal = 1;  ///< of the body
 };
@@ -48,7 +48,7 @@ double metres_per_unit_of(const TriangleMesh& body)
     return body.triangles.rows() > 0 ? guess_body_frame(body.positions, body.triangles).frame.metres_per_unit : 1;
 }
 
-/// The body and garment of the filter before; else the first layer is the body and the next one with faces the garment.
+/// Body and garment of the newest result; else the first layer is the body and the next one with faces the garment.
 Defaults defaults_for(const MeshDocument& document)
 {
     const std::vector<const MeshModel*> layers = layers_of(document);
@@ -101,7 +101,7 @@ public:
         else if (is_length(about))
             list_.addParam(LengthParameter(name, Scalarm(value / defaults_.metres_per_unit), 0,
                                            Scalarm(defaults_.diagonal), label,
-                                           tip + "; in the body's own unit, or as a share of the body's diagonal"));
+                                           tip + "; in the body's unit, or as a share of the body's diagonal"));
         else
             list_.addParam(RichFloat(name, Scalarm(value), label, tip));
     }
@@ -119,12 +119,13 @@ void add_choice(RichParameterList& list, const QString& name, const std::vector<
 
 void add_garments(RichParameterList& list, const Defaults& defaults, ShownDocument& document, const MenuEntry& entry)
 {
-    const char* labels[] = { "Garment", "Second garment, over it", "Third garment, over both" };
+    const char* labels[] = { "Garment", "Second garment (optional)", "Third garment (optional)" };
     const char* type_labels[] = { "", "Type of the second garment", "Type of the third garment" };
     for (int i = 0; i < 3; ++i) {
-        list.addParam(layer_parameter(k_garments[i], *defaults.layers[1], document, labels[i],
-                                      i == 0 ? "The layer with the garment as it was given"
-                                             : "From the inside out; choose the first garment again for none"));
+        list.addParam(layer_parameter(
+            k_garments[i], *defaults.layers[1], document, labels[i],
+            i == 0 ? "The layer with the garment as it was given"
+                   : "From the inside out, unless Layer order is auto; choose the first garment again for none"));
         if (i > 0 && entry.filter->has(Stage::fit))
             add_choice(list, k_types[i], garment_type_names(), type_labels[i], "auto finds it from the openings");
     }
@@ -134,15 +135,16 @@ void add_frames(RichParameterList& list, const MenuEntry& entry)
 {
     if (entry.begins_with_body()) {
         add_choice(list, k_unit, unit_choices(), "Unit of the body",
-                   "MeshLab has no units; auto guesses from the body's size");
-        add_choice(list, k_up, axis_choices(), "Up axis of the body", "auto guesses from the body's shape");
-        add_choice(list, k_front, axis_choices(), "Front of the body", "Where the chest faces, roughly; auto finds it");
+                   "MeshLab has no units; auto guesses the unit from the body's size");
+        add_choice(list, k_up, axis_choices(), "Up axis of the body", "auto guesses the axis from the body's shape");
+        add_choice(list, k_front, axis_choices(), "Front of the body",
+                   "The axis that the chest faces, roughly; auto finds it");
     }
     if (entry.filter && entry.filter->has(Stage::fit)) {
         add_choice(list, k_garment_unit, unit_choices(), "Unit of the garments",
-                   "auto takes the body's unless their size speaks against it");
+                   "auto takes the body's unit unless the garment's size contradicts it");
         add_choice(list, k_garment_up, axis_choices(), "Up axis of the garments",
-                   "auto takes the body's unless their shape speaks against it");
+                   "auto takes the body's axis unless the garment's shape contradicts it");
     }
 }
 
@@ -150,14 +152,13 @@ void add_file(RichParameterList& list, const MenuEntry& entry, const MeshModel& 
 {
     const QString beside = QString::fromStdString(rig_file_beside(body).string());
     if (entry.task == Task::save_rig)
-        list.addParam(SaveFileParameter(k_file, beside, "*.rig.json", "Rig file",
-                                        "Without a name it is called like the body's file, man.rig.json beside "
-                                        "man.ply; filters find it there by themselves"));
-    if (entry.task == Task::load_rig)
         list.addParam(
-            OpenFileParameter(k_file, beside, { "*.json" }, "Rig file",
-                              "What Save Rig wrote, or rig.json by the program garmentfit; without a name the "
-                              "one beside the body's file"));
+            SaveFileParameter(k_file, beside, "*.rig.json", "Rig file",
+                              "Without a name: man.rig.json beside man.ply, where filters find it by themselves"));
+    if (entry.task == Task::load_rig)
+        list.addParam(OpenFileParameter(k_file, beside, { "*.json" }, "Rig file",
+                                        "A file of Save Rig, or rig.json of the program garmentfit; without a name the "
+                                        "file beside the body's file"));
 }
 
 void add_shown(RichParameterList& list, const MenuEntry& entry)
@@ -188,7 +189,7 @@ RichParameterList dialog_for(const MenuEntry& entry, ShownDocument& document)
         list.addParam(layer_parameter(k_garments[0], *defaults.layers[1], document, "Garment",
                                       "The layer with the garment as it was given"));
         list.addParam(layer_parameter(k_worn, *defaults.layers[2], document, "Garment as worn",
-                                      "The layer with the same garment on the body, in the body's own pose"));
+                                      "The layer with the same garment on the body, in the body's input pose"));
     }
     add_file(list, entry, *defaults.layers[0]);
     add_frames(list, entry);

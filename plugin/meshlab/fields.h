@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The fields of dialogs and scripts: their names are keys of scripts and never change, their words stand in this order.
+// The fields of dialogs and scripts. Their names are keys of scripts and never change; choices are numbered in this
+// order.
 
 #include <string_view>
 #include <vector>
@@ -22,7 +23,7 @@ inline const std::vector<std::string_view> k_maps { "ease", "strain", "pressure"
 
 inline QString text(std::string_view words) { return QString::fromUtf8(words.data(), int(words.size())); }
 
-/// In the body's own unit.
+/// Lengths are shown in the body's unit.
 inline bool is_length(const About& about) { return about.unit == "m"; }
 
 /// Calls the visitor for each parameter of the schema that an entry shows.

@@ -15,7 +15,7 @@ bool is_same(const TriangleMesh& kept, const TriangleMesh& given, const Frame& f
         && kept.triangles == given.triangles && kept.positions == frame.to_metres(given.positions);
 }
 
-/// Which layers carry which fitting. Not an attribute of the mesh: MeshLab 2020.09 never frees those.
+/// The fitting of each layer. It is no attribute of the mesh, because MeshLab 2020.09 never frees those.
 class Registry {
 public:
     void add(MeshDocument& document, int layer, const SharedFitting& fitting)
@@ -58,7 +58,7 @@ private:
 
     std::mutex mutex_;  // PyMeshLab may run filters in several threads
     std::map<const QObject*, std::map<int, SharedFitting>> fittings_;  // by document, then by layer
-    QObject context_;  // ends the connections with the plugin
+    QObject context_;  // ends the connections when the plugin is unloaded
 };
 
 Registry& registry()
@@ -83,7 +83,7 @@ bool Fitting::is_of_garments(const std::vector<TriangleMesh>& garments) const
     return true;
 }
 
-void hand_on(MeshDocument& document, const MeshModel& layer, const SharedFitting& fitting)
+void attach(MeshDocument& document, const MeshModel& layer, const SharedFitting& fitting)
 {
     registry().add(document, layer.id(), fitting);
 }
@@ -93,11 +93,11 @@ bool is_result(const MeshDocument& document, const MeshModel& layer)
     return registry().of(document, layer.id()) != nullptr;
 }
 
-SharedFitting find_fitting(const MeshDocument& document, const std::function<bool(const Fitting&)>& will_do)
+SharedFitting find_fitting(const MeshDocument& document, const std::function<bool(const Fitting&)>& is_suitable)
 {
     const std::vector<const MeshModel*> layers = layers_of(document);
     for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
-        if (const SharedFitting fitting = registry().of(document, (*layer)->id()); fitting && will_do(*fitting))
+        if (const SharedFitting fitting = registry().of(document, (*layer)->id()); fitting && is_suitable(*fitting))
             return fitting;
     return nullptr;
 }

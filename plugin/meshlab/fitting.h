@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is known about a body, handed on from filter to filter: in the document by the layers that filters make, and by a
-// file beside the body's own after saving and loading, which MeshLab does without anything of ours.
+// Results on a body that later filters read. The layers that a filter makes carry them in a document; a file beside the
+// body's file carries them from document to document, because MeshLab's own formats drop them.
 
 #include <filesystem>
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace garmentfit::meshlab {
 
-/// A scene, and how it came from layers.
+/// A scene, and the names and frames of the layers that it was read from.
 struct Fitting {
     Scene scene;
     std::string body_name;
@@ -25,29 +25,29 @@ struct Fitting {
     std::vector<std::string> garment_names;
     std::vector<Frame> garment_frames;
 
-    /// The same vertices and faces, told from world axes and units.
+    /// Whether the vertices and faces, in world axes and units, are the scene's.
     bool is_of_body(const TriangleMesh& body) const;
     bool is_of_garments(const std::vector<TriangleMesh>& garments) const;
 };
 
 using SharedFitting = std::shared_ptr<const Fitting>;
 
-/// Ties a fitting to a layer until that is deleted; several layers may share one.
-void hand_on(MeshDocument& document, const MeshModel& layer, const SharedFitting& fitting);
+/// Attaches a fitting to a layer until the layer is deleted. Several layers may share one.
+void attach(MeshDocument& document, const MeshModel& layer, const SharedFitting& fitting);
 
-/// Whether a filter of ours made the layer.
+/// Whether a filter of this plugin made the layer.
 bool is_result(const MeshDocument& document, const MeshModel& layer);
 
-/// The newest fitting in the document that will do, or null.
-SharedFitting find_fitting(const MeshDocument& document, const std::function<bool(const Fitting&)>& will_do);
+/// The newest fitting in the document that is suitable, or null.
+SharedFitting find_fitting(const MeshDocument& document, const std::function<bool(const Fitting&)>& is_suitable);
 
 /// "/home/me/man.rig.json" for "/home/me/man.ply"; empty for a layer without a file.
 std::filesystem::path rig_file_beside(const MeshModel& body);
 
-/// What a rig file says about a body. @throws InvalidInput where it is another body's.
+/// Reads a rig file. @throws InvalidInput where it is the rig of another body.
 Fitting fitting_from_file(const std::filesystem::path& path, const std::string& body_name, const TriangleMesh& body);
 
-/// The same the other way.
+/// The contents of a rig file.
 RigFile rig_file_of(const Fitting& fitting);
 
 }  // namespace garmentfit::meshlab

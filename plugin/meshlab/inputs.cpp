@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inputs.h"
 
-#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/filters/warnings.h"
 #include "layers.h"
 
 namespace garmentfit::meshlab {
@@ -12,7 +12,7 @@ Fitting new_fitting(const Choice& choice, Report& report)
 {
     const TriangleMesh mesh = mesh_of(*choice.body);
     if (mesh.triangles.rows() == 0)
-        throw InvalidInput(name_of(*choice.body) + " has no faces; choose the body's layer");
+        throw InvalidInput(name_of(*choice.body) + " has no faces; choose the layer of the body");
     Fitting fitting;
     fitting.body_name = name_of(*choice.body);
     with_name(*choice.body, [&] {
@@ -24,11 +24,11 @@ Fitting new_fitting(const Choice& choice, Report& report)
     });
     if (fitting.scene.body->repaired)
         report.warnings.push_back(fitting.body_name
-                                  + " is not one closed surface; its geometry was read from a repaired copy");
+                                  + " is not one closed surface; the skeleton was found on a repaired copy");
     return fitting;
 }
 
-/// Garments new to the scene; what was known of others goes.
+/// Replaces the garments of the scene and drops the results on earlier ones.
 void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
 {
     Scene scene;
@@ -50,15 +50,15 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
     fitting.scene = std::move(scene);
 }
 
-/// Garments whose fits stand in a rig file. @throws InvalidInput unless they are the chosen ones.
+/// The garments whose fits a rig file holds. @throws InvalidInput unless they are the chosen ones.
 void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
 {
     std::vector<std::string> names;
     for (const MeshModel* garment : choice.garments)
         names.push_back(name_of(*garment));
     if (names != fitting.garment_names)
-        throw InvalidInput("no pose of " + fitting.body_name + " in " + names.front()
-                           + " is known; run Garment Fitting: Fit Skeleton with the same garments first");
+        throw InvalidInput(fitting.body_name + " was not fitted into " + names.front()
+                           + "; run Garment Fitting: Fit Skeleton with the same garments first");
     for (std::size_t i = 0; i < choice.garments.size(); ++i) {
         const TriangleMesh mesh = mesh_of(*choice.garments[i]);
         fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
@@ -68,7 +68,8 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
     }
 }
 
-/// The newest fitting in the document that has what the filter reads, else one of the body, else the file beside the body.
+/// The newest fitting in the document that has all inputs of the filter, else the newest of the body, else the file
+/// beside the body.
 Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDocument& document)
 {
     const TriangleMesh body = mesh_of(*choice.body);
@@ -86,7 +87,7 @@ Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDo
     if (!file.empty() && std::filesystem::exists(file))
         return fitting_from_file(file, name_of(*choice.body), body);
     throw InvalidInput(name_of(*choice.body)
-                       + " is not rigged, or was changed since; run Garment Fitting: Rig Body or Load Rig first");
+                       + " has no rig, or was changed after rigging; run Garment Fitting: Rig Body or Load Rig first");
 }
 
 }  // namespace
@@ -101,9 +102,9 @@ Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocume
     else if (fitting.scene.garments.empty())
         put_on_fitted_garments(fitting, choice);
     else if (!fitting.is_of_garments(meshes_of(choice.garments)))
-        throw InvalidInput(
-            fitting.body_name + " was not fitted into " + name_of(*choice.garments.front())
-            + ", or that was changed since; run Garment Fitting: Fit Skeleton with the same garments first");
+        throw InvalidInput(fitting.body_name + " was not fitted into " + name_of(*choice.garments.front())
+                           + ", or the garment was changed after fitting; run Garment Fitting: Fit Skeleton with the "
+                             "same garments first");
     return fitting;
 }
 

@@ -9,8 +9,8 @@
 
 namespace garmentfit::meshlab {
 
-/// The chosen body and garments, and what filters before found out about them: in the document, else in the file beside
-/// the body's. @throws InvalidInput: no such thing, no rig yet, or a layer was changed since.
+/// The chosen body and garments, and the results of earlier filters: from the document, else from the file beside the
+/// body's. @throws InvalidInput where these are missing, or a layer was changed since.
 Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocument& document, Report& report);
 
 }  // namespace garmentfit::meshlab

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Between MeshLab's layers and plain arrays. World axes and units: what is read has the layer's matrix applied, what is
-// made has none.
+// Between MeshLab's layers and plain arrays, in world axes and units: layers are read with their matrix applied; new
+// layers have none.
 
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ std::vector<TriangleMesh> meshes_of(const std::vector<MeshModel*>& layers);
 /// The layer's name without a file's extension.
 std::string name_of(const MeshModel& layer);
 
-/// What `make` returns. @throws InvalidInput in its words, after the layer's name.
+/// Returns make(). @throws InvalidInput with the layer's name before its message.
 template <class Make>
 auto with_name(const MeshModel& layer, const Make& make)
 {
@@ -33,20 +33,20 @@ auto with_name(const MeshModel& layer, const Make& make)
     }
 }
 
-/// As many digits as a layer keeps.
+/// Rounded to the digits that a layer keeps.
 Positions as_kept(const Positions& positions);
 
-/// A new layer with faces, texture and all that `from` has, its vertices elsewhere. The current layer stays the same.
+/// A new layer with faces, texture and attributes of `from` at other positions. The current layer stays the same.
 MeshModel& add_moved_copy(MeshDocument& document, MeshModel& from, const std::string& name, const Positions& positions);
 
 /// A new layer with a vertex for each joint and tip, and an edge for each bone and extremity.
 /// @param joints  in the order of rows_of(Skeleton)
 MeshModel& add_skeleton(MeshDocument& document, const std::string& name, const Positions& joints);
 
-/// One value for each vertex, under a name.
+/// Adds a named attribute with one value for each vertex.
 void add_attribute(MeshModel& layer, const std::string& name, const Eigen::VectorXd& values);
 
-/// Values as quality, and as colours from red at `red` to blue at `blue`.
+/// Sets quality to the values, and colours from red at `red` to blue at `blue`.
 void show_quality(MeshModel& layer, const Eigen::VectorXd& values, double red, double blue);
 
 }  // namespace garmentfit::meshlab

@@ -9,7 +9,7 @@ const char* const k_citation
       "algorithm "
       "using skeleton-based error metric\"</b>, Computer Animation and Virtual Worlds 29 (2018), doi:10.1002/cav.1811";
 
-/// What a filter of the common table does to layers.
+/// What a filter of the common table needs, and the layers that it makes.
 const char* layers_of_filter(std::string_view name)
 {
     if (name == "rig")
@@ -22,22 +22,24 @@ const char* layers_of_filter(std::string_view name)
         return "Needs a fitted skeleton. Makes a layer for each garment, as it is worn in the fitted pose, with ease, "
                "strain and pressure as vertex attributes and one of them as quality.";
     if (name == "recover")
-        return "Needs a draped garment. Makes a layer for each garment, as it is worn in the body's own pose, with "
+        return "Needs a draped garment. Makes a layer for each garment, as it is worn in the body's input pose, with "
                "ease, "
                "strain and pressure as vertex attributes and one of them as quality.";
-    return "Makes the layers of the four filters; those on the way are hidden.";
+    return "Makes the layers of the four filters; the intermediate layers are hidden.";
 }
 
 std::string entry_name(std::string_view label) { return std::string(k_title) + std::string(label); }
 
 MenuEntry stages_entry(const Filter& filter)
 {
-    return { entry_name(filter.label), "generate_garment_fitting_" + std::string(filter.name),
-             std::string(filter.help) + ". " + layers_of_filter(filter.name)
-                 + " Layers that were there stay as they are. Choose body and garments as they were given, also when "
-                   "you run the filters one by one."
-                 + k_citation,
-             Task::run_stages, &filter };
+    return {
+        entry_name(filter.label), "generate_garment_fitting_" + std::string(filter.name),
+        std::string(filter.help) + ". " + layers_of_filter(filter.name)
+            + " Existing layers stay unchanged. Choose body and garments as they were given, also when you run the "
+              "filters one by one."
+            + k_citation,
+        Task::run_stages, &filter
+    };
 }
 
 std::vector<MenuEntry> make_menu()
@@ -45,22 +47,23 @@ std::vector<MenuEntry> make_menu()
     std::vector<MenuEntry> entries;
     for (const Filter& filter : filters())
         entries.push_back(stages_entry(filter));
-    entries.push_back({ entry_name("Save Rig"), "save_garment_fitting_rig",
-                        "Writes a body's skeleton, skin weights and fitted poses into one JSON file. Filters find it "
-                        "again when it lies beside the body's file and is called like it, man.rig.json beside man.ply: "
-                        "MeshLab's own formats drop skeletons and weights. garmentfit reads it with --rig.",
-                        Task::save_rig, nullptr });
+    entries.push_back(
+        { entry_name("Save Rig"), "save_garment_fitting_rig",
+          "Writes a body's skeleton, skin weights and fitted poses into one JSON file, because MeshLab's own "
+          "formats drop them. Filters find the file by its name: man.rig.json beside man.ply. The "
+          "program garmentfit reads it with --rig.",
+          Task::save_rig, nullptr });
     entries.push_back(
         { entry_name("Load Rig"), "load_garment_fitting_rig",
-          "Reads what Save Rig or the program garmentfit wrote for this body, and makes the layers of Rig "
-          "Body.",
+          "Reads a rig that Save Rig or the program garmentfit wrote for this body, and makes the layers of Rig Body.",
           Task::load_rig, nullptr });
-    entries.push_back({ entry_name("Body Measurements and Ease"), "get_garment_fitting_measurements",
-                        std::string("Measures how a garment sits on a body in the body's own pose: girths of both into "
-                                    "the log, and a new layer with ease, strain and pressure as vertex attributes and "
-                                    "one of them as quality. Needs a rigged body.")
-                            + k_citation,
-                        Task::measure, nullptr });
+    entries.push_back(
+        { entry_name("Body Measurements and Ease"), "get_garment_fitting_measurements",
+          std::string("Measures how a garment sits on a body in the body's input pose. Writes the girths of "
+                      "both to the log, and makes a layer with ease, strain and pressure as vertex "
+                      "attributes and one of them as quality. Needs a rigged body.")
+              + k_citation,
+          Task::measure, nullptr });
     return entries;
 }
 

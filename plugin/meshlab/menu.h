@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The filters as MeshLab shows them. Names are the keys of its scripts: they are never changed.
+// The filters as MeshLab shows them. Names are keys of scripts and never change.
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace garmentfit::meshlab {
 
-constexpr std::string_view k_title = "Garment Fitting: ";  ///< what the name of every entry begins with
+constexpr std::string_view k_title = "Garment Fitting: ";  ///< prefix of every name
 
 enum class Task { run_stages, save_rig, load_rig, measure };
 
@@ -20,12 +20,12 @@ struct MenuEntry {
     std::string python_name;  ///< "generate_garment_fitting_rig": in PyMeshLab
     std::string help;  ///< HTML
     Task task = Task::run_stages;
-    const Filter* filter = nullptr;  ///< of the common table; null unless the task is to run stages
+    const Filter* filter = nullptr;  ///< of the common table; null unless task is run_stages
 
     bool reads(Data data) const;
-    /// Whether units and axes of the body are asked for; else those of its rig hold.
+    /// Whether the dialog has units and axes of the body; other filters take them from the rig.
     bool begins_with_body() const;
-    bool makes_rig() const;  ///< so that one bone's weight is shown
+    bool makes_rig() const;  ///< of which the weight of one bone is shown
     bool makes_maps() const;  ///< of ease, strain and pressure, of which one is shown
 };
 

@@ -8,12 +8,12 @@
 namespace garmentfit::meshlab {
 namespace {
 
-// The ends of the colour ramps, as the dialog says.
+// Ends of the colour ramps. The tooltip of Shown map states them.
 constexpr double k_shown_ease = 0.1;  // m
 constexpr double k_shown_strain = 0.1;
 constexpr double k_shown_pressure = 1000;  // Pa
 
-/// Adds layers to one document for one fitting, and ties the fitting to each.
+/// Adds layers to one document for one fitting, and attaches the fitting to each.
 class NewLayers {
 public:
     NewLayers(MeshDocument& document, const Choice& choice, Fitting fitting) :
@@ -49,7 +49,7 @@ private:
     MeshModel& kept(MeshModel& layer)
     {
         set_visible(document_, layer, visible_);
-        hand_on(document_, layer, fitting_);
+        attach(document_, layer, fitting_);
         return layer;
     }
 
@@ -116,12 +116,12 @@ private:
             add_map(add_garment(i, suffix, dressing.garments[i].positions), dressing.maps[i]);
     }
 
-    /// States on the way, hidden.
+    /// Hidden layers of the frames on the pose path.
     void add_frames(const Dressing& dressing)
     {
         visible_ = false;
         for (const RecoverFrame& frame : dressing.frames) {
-            const std::string suffix = ", " + std::to_string(percent(frame.share)) + "% of the way";
+            const std::string suffix = ", " + std::to_string(percent(frame.share)) + "% of the pose path";
             add_body(fitting_->body_name + suffix, frame.body);
             for (const std::size_t i : dressing.worn())
                 add_garment(i, suffix, frame.garments[i]);

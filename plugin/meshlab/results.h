@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From a scene to new layers, each tied to what is known about the body.
+// From a scene to new layers, with the scene attached to each.
 
 #include <vector>
 
 #include "choice.h"
-#include "garmentfit/fit_map.h"
 #include "fitting.h"
+#include "garmentfit/fit_map.h"
 
 namespace garmentfit::meshlab {
 

@@ -4,9 +4,9 @@
 #include <chrono>
 
 #include "choice.h"
+#include "garmentfit/certificate.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
-#include "garmentfit/certificate.h"
 #include "garmentfit/fit_map.h"
 #include "inputs.h"
 #include "layers.h"
@@ -22,7 +22,7 @@ Positions in_layer(const Fitting& fitting, const Positions& in_metres)
     return as_kept(fitting.body_frame.to_file(in_metres));
 }
 
-/// @throws SolverFailure for a garment that is too small or could not be certified in the digits of a layer.
+/// @throws SolverFailure for a garment that is too small, or not certified in the digits of a layer.
 void require_certified(Fitting& fitting)
 {
     Scene& scene = fitting.scene;
@@ -72,7 +72,7 @@ Report load_rig(const Choice& choice, MeshDocument& document)
     return report;
 }
 
-/// @throws InvalidInput where garment and worn garment are not the same one.
+/// @throws InvalidInput where the two layers are not the same garment.
 WornGarment worn_garment(const Choice& choice, const Fitting& fitting, const TriangleMesh& body)
 {
     const MeshModel& given = *choice.garments.front();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One filter, from layers in to layers out.
+// Runs one filter, from layers to new layers.
 
 #include "garmentfit/progress.h"
 #include "host_api.h"
@@ -10,12 +10,12 @@
 
 namespace garmentfit::meshlab {
 
-/// Everything that can go wrong goes wrong before the document changes; layers are only added, and the current one stays.
+/// All errors are thrown before the document changes. Layers are only added, and the current layer stays current.
 /// @throws InvalidInput, SolverFailure, Cancelled.
 Report run_entry(const MenuEntry& entry, const RichParameterList& list, MeshDocument& document,
                  const Progress& progress);
 
-/// Reports to MeshLab ten times a second at most; stops when told to.
+/// Reports to MeshLab at most ten times a second, and stops where the callback returns false.
 Progress progress_to(vcg::CallBackPos* callback);
 
 }  // namespace garmentfit::meshlab

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Prints what ParaView shows of the filters: menu entries, inputs and outputs, and a property for each parameter of the schema.
+// Prints what ParaView shows of the filters: menu entries, inputs and outputs, and a property for each parameter of the
+// schema.
 //   print_server_manager_xml FILE
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The compiled half of the Python package: scenes, the table of filters over them, and mesh files. What users call is
+// The compiled half of the Python package: scenes, the table of filters, and mesh files. The functions for users are
 // written in Python on top of it.
 
 #include <filesystem>
@@ -31,7 +31,7 @@ namespace {
 
 std::vector<std::string> type_names() { return { garment_type_names().begin(), garment_type_names().end() }; }
 
-auto reconstructed(const NumbersIn& points) { return array_of(reconstruct_surface(positions_from(points))); }
+auto reconstruct(const NumbersIn& points) { return array_of(reconstruct_surface(positions_from(points))); }
 
 auto normals_of(const NumbersIn& positions, const IndicesIn& triangles)
 {
@@ -48,10 +48,10 @@ void write_mesh(const std::filesystem::path& path, const NumbersIn& positions, c
     write_ply(path, positions_from(positions), triangles_from(triangles));
 }
 
-/// The command line's program. Python's handler of Ctrl-C is gone afterwards.
+/// Runs the command line's program. It replaces Python's handler of Ctrl-C.
 int run_program(std::vector<std::string> words)
 {
-    const nb::gil_scoped_release others_may_run;
+    const nb::gil_scoped_release other_threads_run;
     std::vector<char*> pointers;
     for (std::string& word : words)
         pointers.push_back(word.data());
@@ -67,9 +67,9 @@ void bind_functions(nb::module_& m)
     m.def("parameters_of", &parameters_of, "filter"_a,
           nb::sig("def parameters_of(filter: str) -> list[tuple[str, bool | int | float | str, str, str, str]]"));
     m.def("garment_types", &type_names);
-    m.def("skeleton_lines", &skeleton_lines, "From joint, to joint: of the bones, then of the tips");
+    m.def("skeleton_lines", &skeleton_lines, "(from joint, to joint) of the bones, then of the tips");
     m.def("skeleton_arrays", [] { return dict_of(arrays_of_skeleton()); });
-    m.def("reconstruct_surface", &reconstructed, "points"_a);
+    m.def("reconstruct_surface", &reconstruct, "points"_a);
     m.def("vertex_normals", &normals_of, "positions"_a, "triangles"_a);
     m.def("run_program", &run_program, "words"_a);
     m.def("write_mesh", &write_mesh, "path"_a, "positions"_a, "triangles"_a);
@@ -88,17 +88,17 @@ void bind_mesh_file(nb::module_& m)
         .def("write", &write, "path"_a, "positions"_a);
 }
 
-void bind_moment(nb::module_& m)
+void bind_snapshot(nb::module_& m)
 {
-    nb::class_<PythonMoment>(m, "Snapshot", "A scene at one time of its way back to the body's own pose")
-        .def("body", &PythonMoment::body)
-        .def("joints", &PythonMoment::joints)
-        .def("garment", &PythonMoment::garment, "garment"_a)
-        .def_prop_ro("worn", &PythonMoment::worn, "Which garments are")
-        .def_prop_ro("is_body_moved", &PythonMoment::is_body_moved)
-        .def("dressing_arrays", &PythonMoment::dressing_arrays)
-        .def("worn_arrays", &PythonMoment::worn_arrays, "garment"_a)
-        .def("map_arrays", &PythonMoment::map_arrays, "garment"_a);
+    nb::class_<PythonSnapshot>(m, "Snapshot", "A scene at one point of the pose path to the body's input pose")
+        .def("body", &PythonSnapshot::body)
+        .def("joints", &PythonSnapshot::joints)
+        .def("garment", &PythonSnapshot::garment, "garment"_a)
+        .def_prop_ro("worn", &PythonSnapshot::worn, "Indices of the worn garments")
+        .def_prop_ro("is_body_moved", &PythonSnapshot::is_body_moved)
+        .def("dressing_arrays", &PythonSnapshot::dressing_arrays)
+        .def("worn_arrays", &PythonSnapshot::worn_arrays, "garment"_a)
+        .def("map_arrays", &PythonSnapshot::map_arrays, "garment"_a);
 }
 
 void bind_scene(nb::module_& m)
@@ -112,7 +112,7 @@ void bind_scene(nb::module_& m)
         .def("set_worn", &set_worn, "find"_a, "body"_a, "garments"_a)
         .def("run", &run, "filter"_a, "parameters"_a, "progress"_a.none())
         .def(
-            "moment", [](const PythonScene& s, double share) { return PythonMoment(s, share); }, "share"_a = 1.0,
+            "snapshot", [](const PythonScene& s, double share) { return PythonSnapshot(s, share); }, "share"_a = 1.0,
             nb::keep_alive<0, 1>())
         .def("rig_arrays", [](const PythonScene& s) { return dict_of(arrays_of(s.rig(), s.body_frame)); })
         .def("fit_arrays", [](const PythonScene& s) { return dict_of(arrays_of_fits(s.scene)); })
@@ -138,13 +138,13 @@ NB_MODULE(_core, m)
 {
     using namespace garmentfit;
     using namespace garmentfit::python;
-    nb::set_leak_warnings(false);  // VTK's Python filters are cycles that Python does not collect at its end
+    nb::set_leak_warnings(false);  // VTK's Python filters are reference cycles, which Python does not collect at exit
     m.attr("__version__") = GARMENTFIT_VERSION;
     nb::exception<InvalidInput>(m, "InvalidInput", PyExc_ValueError);
     nb::exception<SolverFailure>(m, "SolverFailure", PyExc_RuntimeError);
     nb::exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);
     bind_functions(m);
     bind_mesh_file(m);
-    bind_moment(m);
+    bind_snapshot(m);
     bind_scene(m);
 }

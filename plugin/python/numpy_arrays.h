@@ -17,7 +17,7 @@ namespace garmentfit::python {
 
 namespace nb = nanobind;
 
-/// What Python keeps alive while it is read, without a copy.
+/// Views of arrays that Python keeps alive during a call.
 using NumbersIn = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using IndicesIn = nb::ndarray<const int, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
@@ -26,7 +26,7 @@ Rows rows_from(const NumbersIn& array);
 Positions positions_from(const NumbersIn& array);
 Triangles triangles_from(const IndicesIn& array);
 
-/// Moves the matrix onto the heap, where the array that Python gets keeps it alive.
+/// Moves the matrix to the heap; the numpy array owns it.
 template <class Matrix>
 auto array_of(Matrix matrix)
 {
@@ -42,8 +42,8 @@ auto array_of(Matrix matrix)
 
 /// {"points": {name: array or list of texts}, "cells": ..., "field": ...}
 nb::dict dict_of(const MeshArrays& arrays);
-/// Asks Python for arrays of float64 by their names: find(name) is an array or None. `find` itself may be None and must
-/// outlive the function.
+/// Finds arrays of float64 by a Python function: find(name) is an array or None. `find` may be None and must outlive the
+/// result.
 FindArray find_with(const nb::object& find);
 
 }  // namespace garmentfit::python

@@ -3,8 +3,8 @@
 
 #include <nanobind/stl/string.h>
 
-#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/warnings.h"
 
 namespace garmentfit::python {
 namespace {
@@ -68,33 +68,33 @@ nb::dict garment_of(const PythonScene& s, std::size_t i)
 
 }  // namespace
 
-PythonMoment::PythonMoment(const PythonScene& scene, double share) :
+PythonSnapshot::PythonSnapshot(const PythonScene& scene, double share) :
     scene_(scene), now_(snapshot_of(scene.scene, share, scene.cloth))
 {
 }
 
-nb::object PythonMoment::body() const { return in_body_units(scene_, now_.body); }
+nb::object PythonSnapshot::body() const { return in_body_units(scene_, now_.body); }
 
-nb::object PythonMoment::joints() const
+nb::object PythonSnapshot::joints() const
 {
     return in_body_units(scene_, rows_of(pose_skeleton(scene_.rig().skeleton, now_.pose)));
 }
 
-nb::object PythonMoment::garment(std::size_t i) const { return in_body_units(scene_, now_.garments.at(i)); }
+nb::object PythonSnapshot::garment(std::size_t i) const { return in_body_units(scene_, now_.garments.at(i)); }
 
-bool PythonMoment::is_body_moved() const { return now_.body != scene_.scene.body->surface.positions; }
+bool PythonSnapshot::is_body_moved() const { return now_.body != scene_.scene.body->surface.positions; }
 
-nb::dict PythonMoment::dressing_arrays() const
+nb::dict PythonSnapshot::dressing_arrays() const
 {
     return dict_of(arrays_of(scene_.dressing(), now_.pose, scene_.names, scene_.body_frame));
 }
 
-nb::dict PythonMoment::worn_arrays(std::size_t garment) const
+nb::dict PythonSnapshot::worn_arrays(std::size_t garment) const
 {
     return dict_of(arrays_of_worn(scene_.dressing(), garment, scene_.body_frame));
 }
 
-nb::dict PythonMoment::map_arrays(std::size_t garment) const
+nb::dict PythonSnapshot::map_arrays(std::size_t garment) const
 {
     return dict_of(arrays_of(now_.maps.at(garment), scene_.body_frame));
 }

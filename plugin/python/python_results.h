@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a scene has come to, in Python's own types. Lengths are in the body's unit.
+// Results of a scene in Python's types. Lengths are in the body's unit.
 
 #include <cstddef>
 
@@ -10,11 +10,11 @@
 
 namespace garmentfit::python {
 
-/// A scene at one time of its way back to the body's own pose, and its arrays as all hosts call them.
-class PythonMoment {
+/// A scene at one point of the pose path to the body's input pose, with the array names of all hosts.
+class PythonSnapshot {
 public:
     /// The scene must outlive it.
-    PythonMoment(const PythonScene& scene, double share);
+    PythonSnapshot(const PythonScene& scene, double share);
 
     nb::object body() const;
     nb::object joints() const;
@@ -38,7 +38,7 @@ nb::list fits_of(const PythonScene& scene);
 nb::list conflicts_of(const PythonScene& scene);
 /// {certified, too_small, note, size_reached, ...}
 nb::dict verdict_of(const PythonScene& scene);
-/// [(share of the way, body, [garment, ...]), ...]
+/// [(share of the pose path, body, [garment, ...]), ...]
 nb::list frames_of(const PythonScene& scene);
 
 }  // namespace garmentfit::python

@@ -3,11 +3,11 @@
 
 #include <nanobind/stl/string.h>
 
+#include "garmentfit/error.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/joint_names.h"
-#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/outcome.h"
-#include "garmentfit/error.h"
+#include "garmentfit/filters/snapshot.h"
 
 namespace garmentfit::python {
 namespace {
@@ -53,7 +53,7 @@ Parameters parameters_from(const Filter& filter, const nb::dict& given)
     return parameters;
 }
 
-/// A value as Python has it: choices by their names.
+/// The value as a Python object; choices by their names.
 template <class Value>
 nb::object object_of(const Value& value, const About& about)
 {
@@ -65,7 +65,7 @@ nb::object object_of(const Value& value, const About& about)
         return nb::cast(value);
 }
 
-/// As Python's annotations say it: "float", "Literal['cotton', 'denim']".
+/// The Python annotation: "float", "Literal['cotton', 'denim']".
 template <class Value>
 std::string type_of(const About& about)
 {
@@ -91,14 +91,14 @@ Positions as_positions(const std::vector<double>& place, const std::string& join
     return Eigen::Map<const Positions>(place.data(), 1, 3);
 }
 
-/// Repairs may take a while: Python's other threads run meanwhile.
+/// Repairs may take seconds: other Python threads run meanwhile.
 BodyMesh body_from(const Frame& frame, const Positions& in_file, const Triangles& triangles)
 {
-    const nb::gil_scoped_release others_may_run;
+    const nb::gil_scoped_release other_threads_run;
     return make_body(frame.to_metres(in_file), triangles);
 }
 
-/// Tells Python how far it is, unless that was interrupted or says no.
+/// Reports to Python. Stops where progress returns False, or on Ctrl-C.
 Progress progress_to(const nb::object& progress)
 {
     return Progress([&progress](double fraction, std::string_view stage) {
@@ -117,7 +117,7 @@ Progress progress_to(const nb::object& progress)
 const Rig& PythonScene::rig() const
 {
     if (!scene.rig)
-        throw InvalidInput("the body has no rig yet; run rig_body first");
+        throw InvalidInput("the body has no rig; run rig_body first");
     return *scene.rig;
 }
 
@@ -125,7 +125,7 @@ const Dressing& PythonScene::dressing() const
 {
     if (const Dressing* end = final_dressing(scene))
         return *end;
-    throw InvalidInput("nothing has been draped yet; run drape_garment first");
+    throw InvalidInput("no garment is draped; run drape_garment first");
 }
 
 PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,
@@ -185,7 +185,7 @@ PythonScene run(const PythonScene& given, const std::string& name, const nb::dic
     parameters.rig.joints = given.joints;
     PythonScene made = given;
     const Progress report = progress_to(progress);
-    const nb::gil_scoped_release others_may_run;
+    const nb::gil_scoped_release other_threads_run;
     filter.run(made.scene, parameters, report);
     made.cloth = filter.cloth(parameters);
     return made;

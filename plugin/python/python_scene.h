@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A scene, the door it came in by, and the filters that run on it. Python never changes a scene that it has handed out:
-// each step works on a copy.
+// A scene, the frames of its inputs, and the filters that run on it. A scene that Python holds never changes: each step
+// works on a copy.
 
 #include <map>
 #include <optional>
@@ -22,29 +22,29 @@ struct PythonScene {
     std::vector<std::string> names;
     std::optional<Vec3> front;
     GivenJoints joints;
-    ClothOptions cloth;  ///< that the garments were last moved as
+    ClothOptions cloth;  ///< of the last step that moved the garments
 
     /// @throws InvalidInput naming the step that is missing.
     const Rig& rig() const;
     const Dressing& dressing() const;
 };
 
-/// A body as it came. @throws InvalidInput.
+/// A body as it was given. @throws InvalidInput.
 PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,
                           const std::string& up, const std::string& front,
                           const std::map<std::string, std::vector<double>>& joints);
-/// A body that a filter has rigged, and posed where it is `fitted`, with what find(name) knows of it. @throws InvalidInput.
+/// A body that a filter has rigged, and posed where `fitted`; find(name) returns its arrays. @throws InvalidInput.
 PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangles, const nb::object& find,
                             bool fitted);
 
-/// With the array GarmentFrame where a filter has seen the garment. @throws InvalidInput.
+/// Reads the array GarmentFrame where an earlier filter has written one. @throws InvalidInput.
 void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
                  const std::string& unit, const std::string& up, const std::string& name, const nb::object& find);
-/// Body and garments as they were left in the body's DressedPose, in its units. @throws InvalidInput.
+/// Sets body and garments as worn in the body's DressedPose, in its units. @throws InvalidInput.
 void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);
 
-/// Runs a filter of the table on a copy. Python may run meanwhile; it is asked at each report whether to go on.
+/// Runs a filter of the table on a copy. Other Python threads run meanwhile; progress(fraction, stage) returns False to stop.
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress);
 
 /// [(name, default, type, range, help), ...] of a filter.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes stubs of modules in which `**parameters` stands for the parameters of a filter: there, each has name, type and
-default. The build runs it.
+"""Writes stubs of modules. They replace `**parameters` by the parameters of a filter, each with name, type and default.
+The build runs it.
 
     write_stubs.py FOLDER_OF_CORE FOLDER MODULE.py ...
 """
@@ -13,7 +13,7 @@ DOTS = [ast.Expr(ast.Constant(...))]
 
 
 def keywords_of(filter_):
-    """Arguments and defaults, as of a function."""
+    """The parameters of a filter as arguments of a function, and their defaults."""
     import _core  # of the folder given
     parameters = _core.parameters_of(filter_)
     return ([ast.arg(name, ast.parse(type_, mode="eval").body) for name, _, type_, *_ in parameters],
@@ -28,7 +28,7 @@ def spell_out(function, filter_):
 
 
 def filter_named_by(function):
-    """Of the decorator takes_parameters_of("dress")."""
+    """"dress" of the decorator takes_parameters_of("dress"), which is removed."""
     for decorator in function.decorator_list:
         if isinstance(decorator, ast.Call) and decorator.func.id == "takes_parameters_of":
             function.decorator_list.remove(decorator)
@@ -37,7 +37,7 @@ def filter_named_by(function):
 
 
 def filter_of_class(class_):
-    """`NAME, STEPS = "dress", (...)` in its body."""
+    """"dress" of `NAME, STEPS = "dress", (...)` in the body of the class."""
     for statement in class_.body:
         if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Tuple):
             names = [target.id for target in statement.targets[0].elts]
@@ -58,7 +58,7 @@ def stub_of_function(function):
 
 
 def attributes_of(class_):
-    """Those that __init__ gives a type to."""
+    """The attributes that __init__ annotates with a type."""
     for function in class_.body:
         if isinstance(function, ast.FunctionDef) and function.name == "__init__":
             for statement in function.body:
@@ -67,11 +67,12 @@ def attributes_of(class_):
 
 
 def stub_of_filter(class_, init):
-    """A filter of VTK's pipeline: the constructor that it shares, spelt out, and an attribute for each parameter."""
+    """A filter for VTK: the constructor of its base with all parameters, and an attribute for each."""
     filter_ = filter_of_class(class_)
     spell_out(init, filter_)
     arguments, _ = keywords_of(filter_)
-    class_.body = [ast.AnnAssign(ast.Name(argument.arg), argument.annotation, None, 1) for argument in arguments] + [init]
+    attributes = [ast.AnnAssign(ast.Name(argument.arg), argument.annotation, None, 1) for argument in arguments]
+    class_.body = attributes + [init]
     return class_
 
 
@@ -101,7 +102,8 @@ def stub_of(text):
             body.append(statement)
         elif isinstance(statement, ast.FunctionDef) and is_public(statement.name):
             body.append(stub_of_function(statement))
-        elif isinstance(statement, (ast.Import, ast.Assign)) or getattr(statement, "module", "__future__") != "__future__":
+        elif isinstance(statement, (ast.Import, ast.Assign)) \
+                or getattr(statement, "module", "__future__") != "__future__":
             body.append(statement)
     return ast.unparse(ast.fix_missing_locations(ast.Module(body, []))) + "\n"
 
@@ -109,7 +111,8 @@ def stub_of(text):
 def main(core, folder, modules):
     sys.path.insert(0, core)
     for module in map(Path, modules):
-        Path(folder, module.with_suffix(".pyi").name).write_text(stub_of(module.read_text(encoding="utf-8")), encoding="utf-8")
+        stub = stub_of(module.read_text(encoding="utf-8"))
+        Path(folder, module.with_suffix(".pyi").name).write_text(stub, encoding="utf-8")
 
 
 if __name__ == "__main__":

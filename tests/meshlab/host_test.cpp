@@ -182,7 +182,7 @@ TEST_F(MeshLab, AsksNothingOfAnEmptyDocumentAndRefusesToRun)
     for (const std::string& name : k_filters) {
         const RichParameterList list = dialog_of(name, document);
         EXPECT_TRUE(list.isEmpty()) << name;
-        expect_refusal(name, list, "there is no layer");
+        expect_refusal(name, list, "the document has no layer");
     }
 }
 
@@ -330,7 +330,7 @@ TEST_F(MeshLab, RefusesTheBodyAsItsOwnGarment)
     open_samples();
     RichParameterList list = dialog_of("Dress Body", document);
     choose(list, "garment", document, 0);
-    expect_refusal("Dress Body", list, "walking_woman is the body already");
+    expect_refusal("Dress Body", list, "walking_woman is already chosen as the body");
 }
 
 TEST_F(MeshLab, RefusesAGarmentTwice)
@@ -340,7 +340,7 @@ TEST_F(MeshLab, RefusesAGarmentTwice)
     RichParameterList list = dialog_of("Dress Body", document);
     choose(list, "second_garment", document, 2);
     choose(list, "third_garment", document, 2);
-    expect_refusal("Dress Body", list, "coat is worn already");
+    expect_refusal("Dress Body", list, "coat is already chosen as another garment");
 }
 
 TEST_F(MeshLab, RefusesParametersOutOfRange)
@@ -379,7 +379,7 @@ TEST_F(MeshLab, ForgetsTheRigOfABodyThatWasChanged)
     open_samples();
     ASSERT_TRUE(run("Rig Body", document).well);
     document.meshList[0]->cm.vert[0].P()[0] += 0.01F;
-    expect_refusal("Fit Skeleton", dialog_of("Fit Skeleton", document), "was changed since");
+    expect_refusal("Fit Skeleton", dialog_of("Fit Skeleton", document), "was changed after rigging");
 }
 
 TEST_F(MeshLab, FindsTheRigAgainBesideTheBodysFile)
@@ -419,7 +419,7 @@ TEST_F(MeshLab, DrapesInAPoseFittedBeforeTheRigWasSaved)
     short_drape.setValue("inflation_steps", IntValue(4));
     short_drape.setValue("settling_steps", IntValue(0));
     const Ended draped = run("Drape Garment", reopened, short_drape);
-    EXPECT_EQ(draped.message.find("no pose of man"), std::string::npos) << draped.message;
+    EXPECT_EQ(draped.message.find("was not fitted into"), std::string::npos) << draped.message;
 }
 
 TEST_F(MeshLab, LoadsARigIntoTheLayersOfRigBody)
@@ -496,8 +496,8 @@ class SlowMeshLab : public MeshLab { };
 
 void dress_by_program(const fs::path& body, const fs::path& garment, const fs::path& out)
 {
-    const std::string call
-        = std::string(GARMENTFIT_PROGRAM) + " dress " + body.string() + " " + garment.string() + " --quiet -o " + out.string();
+    const std::string call = std::string(GARMENTFIT_PROGRAM) + " dress " + body.string() + " " + garment.string()
+        + " --quiet -o " + out.string();
     ASSERT_EQ(std::system(call.c_str()), 0);
 }
 
@@ -615,7 +615,8 @@ TEST_F(SlowMeshLab, KeepsMemoryLevelOverTwentyRuns)
 }  // namespace
 
 #ifdef __SANITIZE_ADDRESS__
-/// What MeshLab 2020.09 does not free, vertex attributes of a layer that it deletes, and Qt: its screen without a display.
+/// What MeshLab 2020.09 does not free, vertex attributes of a layer that it deletes, and Qt: its screen without a
+/// display.
 extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions()
 {
     return "leak:AddPerVertexAttribute\nleak:libQt5\nleak:libqoffscreen\n";

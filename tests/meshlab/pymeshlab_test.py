@@ -79,7 +79,7 @@ class GarmentFitting(unittest.TestCase):
     def test_says_what_is_wrong(self):
         self.assertIn("at least one mesh", self.refusal(opened(), "generate_garment_fitting_rig"))
         self.assertIn("out of range", self.refusal(opened(BODY), "generate_garment_fitting_rig", proxy_vertices=3))
-        self.assertIn("is the body already", self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=0))
+        self.assertIn("is already chosen as the body", self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=0))
         self.assertIn("give a human body", self.refusal(opened(SKIRT), "generate_garment_fitting_rig"))
         self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=7)  # in words of PyMeshLab's own
 

@@ -22,7 +22,7 @@ QString FilterGarmentFit::filterName(FilterIDType id) const { return QString::fr
 QString FilterGarmentFit::filterInfo(FilterIDType id) const { return QString::fromStdString(menu().at(id).help); }
 MeshFilterInterface::FilterClass FilterGarmentFit::getClass(QAction*) { return Layer; }
 MeshFilterInterface::FILTER_ARITY FilterGarmentFit::filterArity(QAction*) const { return FIXED; }
-// layers that were there stay the same
+// existing layers stay unchanged
 int FilterGarmentFit::postCondition(QAction*) const { return MeshModel::MM_NONE; }
 
 void FilterGarmentFit::initParameterSet(QAction* action, MeshDocument& document, RichParameterList& list)

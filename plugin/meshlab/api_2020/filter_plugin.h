@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The plugin as MeshLab 2020.09 wants it: failures are a message and `false`.
+// The plugin for MeshLab 2020.09: a failure is a message and `false`.
 
 #include "host_api.h"
 

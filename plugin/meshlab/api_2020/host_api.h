@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What MeshLab 2020.09 calls things that later versions call otherwise; ../api_2021 says the same for those.
+// Names of MeshLab 2020.09 that later versions changed; ../api_2021 has theirs.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace garmentfit::meshlab {
 
 using HostFilters = MeshFilterInterface;  ///< whose categories are HostFilters::Layer, ...
-using ShownDocument = MeshDocument;  ///< as a dialog is made for it
+using ShownDocument = MeshDocument;  ///< the argument of a dialog
 
 using LengthParameter = RichAbsPerc;
 using OpenFileParameter = RichOpenFile;
@@ -39,7 +39,7 @@ inline void set_visible(MeshDocument& document, MeshModel& layer, bool visible)
 
 inline void update_box_and_normals(MeshModel& layer) { layer.UpdateBoxAndNormals(); }
 
-/// Textures are files that a mesh names: they go along with it.
+/// Textures are files that a mesh names: a copy of the mesh has them already.
 inline void copy_textures(const MeshModel&, MeshModel&) { }
 
 }  // namespace garmentfit::meshlab

@@ -10,10 +10,10 @@
 
 namespace {
 
-constexpr double k_share_of_screen = 0.8;  // leaves room for the title, and to see that there is more of MeshLab
+constexpr double k_share_of_screen = 0.8;  // of its height; leaves space for the title and MeshLab's window
 
-/// Puts what the dialog shows into a scroll area, unless it has room or is in one already.
-void make_scroll(QDockWidget& dialog)
+/// Puts the content into a scroll area, unless it fits the screen or is in one already.
+void add_scroll_area(QDockWidget& dialog)
 {
     QWidget* const content = dialog.widget();
     const int highest = int(k_share_of_screen * dialog.screen()->availableGeometry().height());
@@ -34,8 +34,8 @@ void make_scroll(QDockWidget& dialog)
     dialog.adjustSize();
 }
 
-/// Words that wrap take more lines than MeshLab reckons with, and its buttons then lie on the last row.
-void make_room(QDockWidget& dialog)
+/// Enlarges a dialog whose labels wrap: MeshLab does not count these lines and puts its buttons on the last row.
+void add_missing_height(QDockWidget& dialog)
 {
     const QWidget* const content = dialog.widget();
     if (!content || !content->hasHeightForWidth())
@@ -49,7 +49,7 @@ void make_room(QDockWidget& dialog)
 
 ScrollingDialogs::ScrollingDialogs(const QString& title, QObject* parent) : QObject(parent), title_(title)
 {
-    if (qApp)  // none in Python, where this plugin does not belong: PyMeshLab refuses it once it is made
+    if (qApp)  // null in PyMeshLab, which constructs the plugin before it refuses the version
         qApp->installEventFilter(this);
 }
 
@@ -58,8 +58,8 @@ bool ScrollingDialogs::eventFilter(QObject* watched, QEvent* event)
     if (event->type() == QEvent::Show || event->type() == QEvent::LayoutRequest)
         if (auto* const dialog = qobject_cast<QDockWidget*>(watched);
             dialog && dialog->windowTitle().startsWith(title_)) {
-            make_scroll(*dialog);
-            make_room(*dialog);
+            add_scroll_area(*dialog);
+            add_missing_height(*dialog);
         }
     return QObject::eventFilter(watched, event);
 }

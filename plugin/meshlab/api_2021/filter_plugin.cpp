@@ -21,7 +21,7 @@ QString FilterGarmentFit::filterName(ActionIDType id) const { return QString::fr
 QString FilterGarmentFit::filterInfo(ActionIDType id) const { return QString::fromStdString(menu().at(id).help); }
 FilterPlugin::FilterClass FilterGarmentFit::getClass(const QAction*) const { return Layer; }
 FilterPlugin::FilterArity FilterGarmentFit::filterArity(const QAction*) const { return FIXED; }
-// layers that were there stay the same
+// existing layers stay unchanged
 int FilterGarmentFit::postCondition(const QAction*) const { return MeshModel::MM_NONE; }
 
 QString FilterGarmentFit::pythonFilterName(ActionIDType id) const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The plugin as MeshLab since 2021.07 and PyMeshLab want it: failures are an MLException.
+// The plugin for MeshLab since 2021.07 and for PyMeshLab: a failure is an MLException.
 
 #include "host_api.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What MeshLab since 2021.07 calls things, so that the rest of the plugin need not know; ../api_2020 says the same for 2020.09.
+// Names of MeshLab since 2021.07; ../api_2020 has those of 2020.09.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace garmentfit::meshlab {
 
 using HostFilters = FilterPlugin;  ///< whose categories are HostFilters::Layer, ...
-using ShownDocument = const MeshDocument;  ///< as a dialog is made for it
+using ShownDocument = const MeshDocument;  ///< the argument of a dialog
 
 #if __has_include(<common/parameters/rich_parameters.h>)  // since 2023.12
 using LengthParameter = RichPercentage;
@@ -45,7 +45,7 @@ inline void set_visible(MeshDocument&, MeshModel& layer, bool visible) { layer.s
 
 inline void update_box_and_normals(MeshModel& layer) { layer.updateBoxAndNormals(); }
 
-/// Textures belong to layers.
+/// Textures belong to layers, so a copy of the mesh lacks them.
 inline void copy_textures(const MeshModel& from, MeshModel& to)
 {
     for (const auto& [name, image] : from.getTextures())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Writes the example scripts for meshlabserver. It wants every parameter of a filter in its script, so the plugin is asked
-// for them, with a body as layer 0 and a garment as layer 1.
+// Writes the example scripts for meshlabserver, with a body as layer 0 and a garment as layer 1. meshlabserver needs
+// every parameter of a filter in a script, so this program reads them from the plugin.
 //
 //   meshlab-scripts PLUGIN_FOLDER BODY GARMENT OUT_FOLDER
 
@@ -29,7 +29,7 @@ struct Script {
     std::vector<std::string> filters;
 };
 
-/// Each filter with those that it needs before it.
+/// Each filter after those that it needs.
 const std::vector<Script> k_scripts {
     { "rig_body", { "Rig Body" } },
     { "fit_skeleton", { "Rig Body", "Fit Skeleton" } },
@@ -41,7 +41,7 @@ const std::vector<Script> k_scripts {
     { "measurements", { "Dress Body", "Body Measurements and Ease" } },
 };
 
-constexpr int k_dressed_layer = 7;  // that Dress Body makes last, in a document of a body and a garment
+constexpr int k_dressed_layer = 7;  // derived: the last of Dress Body's layers in a document of a body and a garment
 
 RichParameterList parameters_of(const PluginManager& plugins, const QString& filter, MeshDocument& document)
 {
@@ -52,7 +52,7 @@ RichParameterList parameters_of(const PluginManager& plugins, const QString& fil
     qobject_cast<MeshFilterInterface*>(action->parent())->initParameterSet(action, document, list);
     if (list.hasParameter("worn"))
         static_cast<RichMesh&>(list.getParameterByName("worn")).meshindex = k_dressed_layer;
-    if (list.hasParameter("file"))  // in the folder where meshlabserver runs
+    if (list.hasParameter("file"))  // a name without folder: meshlabserver's working directory
         list.setValue("file", FileValue(QFileInfo(list.getParameterByName("file").value().getFileName()).fileName()));
     return list;
 }

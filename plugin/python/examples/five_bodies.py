@@ -12,7 +12,7 @@ from garmentfit.vtk import DressBody
 
 
 def dressed(dress, path):
-    """Body and garment, and one line on what came of it."""
+    """Body, garment and one line on the result."""
     dress.SetInputData(0, pv.read(path))
     dress.Update()
     if dress.error:

@@ -9,8 +9,8 @@
 """
 from ._core import Cancelled, InvalidInput, SolverFailure, __version__
 from ._meshes import Mesh, read_mesh
-from ._steps import (Certificate, Conflict, DressedGarment, Dressing, Fit, FitOfGarment, Frame, Garment, Girth, Overstretch,
-                     Rig, dress, drape_garment, fit_skeleton, recover_pose, rig_body)
+from ._steps import (Certificate, Conflict, DressedGarment, Dressing, Fit, FitOfGarment, Frame, Garment, Girth,
+                     Overstretch, Rig, dress, drape_garment, fit_skeleton, recover_pose, rig_body)
 
 __all__ = [
     "Cancelled", "Certificate", "Conflict", "DressedGarment", "Dressing", "Fit", "FitOfGarment", "Frame", "Garment",

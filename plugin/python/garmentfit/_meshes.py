@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes in, meshes out."""
+"""Meshes of bodies and garments, and their files."""
 from __future__ import annotations
 
 import os
@@ -30,19 +30,19 @@ class Mesh:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
 
     def write(self, path: Union[str, "os.PathLike[str]"], positions: Optional[npt.ArrayLike] = None) -> None:
-        """Writes the file that this mesh was read from with other positions and nothing else changed: same vertices,
-        order, UVs, groups and materials; normals are turned along. A mesh that was made of arrays becomes a PLY file."""
+        """Writes the file that this mesh was read from with other positions. Vertices, order, UVs, groups and materials
+        stay; normals are computed anew. A mesh that was made from arrays is written as PLY."""
         moved = self.positions if positions is None else _numbers(positions, "positions")
         if self._file is not None:
             self._file.write(Path(path), moved)
         elif Path(path).suffix.lower() == ".ply":
             _core.write_mesh(Path(path), moved, self.triangles)
         else:
-            raise _core.InvalidInput(f"{path}: a mesh that was not read from a file is written as .ply")
+            raise _core.InvalidInput(f"{path}: a mesh made from arrays can be written as .ply only; give a name that ends in .ply")
 
 
 def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False) -> Mesh:
-    """Reads OBJ, PLY, OFF, STL, glTF or GLB. With `reconstruct` a surface is laid through points without faces."""
+    """Reads OBJ, PLY, OFF, STL, glTF or GLB. `reconstruct` makes a surface from points without faces."""
     path = Path(path)
     file = _core.MeshFile.read_points(path) if reconstruct else _core.MeshFile.read(path)
     triangles = file.triangles
@@ -62,12 +62,13 @@ def as_mesh(given: MeshLike) -> Mesh:
     try:
         positions, triangles = given
     except (TypeError, ValueError, KeyError):
-        raise _core.InvalidInput(f"{type(given).__name__} is no mesh; give a Mesh, or positions and triangles") from None
+        kind = type(given).__name__
+        raise _core.InvalidInput(f"{kind} is no mesh; give a Mesh, or positions and triangles") from None
     return Mesh(positions, triangles)
 
 
 def _numbers(values: npt.ArrayLike, what: str) -> Positions:
-    """Without a copy where it is float64 already."""
+    """Copies only where the type is not float64."""
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise _core.InvalidInput(f"{what} are an array of shape {array.shape}; give n x 3")
@@ -79,5 +80,5 @@ def _indices(values: npt.ArrayLike) -> Triangles:
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":
         raise _core.InvalidInput(f"triangles are {array.dtype} of shape {array.shape}; give integers, m x 3")
     if array.size and (array.min() < 0 or array.max() > np.iinfo(np.int32).max):
-        raise _core.InvalidInput(f"triangles name vertices from {array.min()} to {array.max()}")
+        raise _core.InvalidInput(f"triangles refer to vertices from {array.min()} to {array.max()}; count vertices from 0")
     return np.ascontiguousarray(array, dtype=np.int32)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The five filters as plain functions: numbers in, a result out, arguments untouched.
+"""The five filters as functions. Arguments are never changed.
 
-Each takes the parameters of its filter as keyword arguments. Their docstrings are made from the one description that the
-program and all other hosts are made from.
+Each function takes the parameters of its filter as keyword arguments. Their docstrings are generated from the schema, as the
+parameters of all other hosts are.
 """
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from . import _core
 from ._meshes import Mesh, MeshLike, Positions, Triangles, as_mesh
 from ._parameters import takes_parameters_of
 
-#: Called with the fraction done and the name of the stage. False stops: Cancelled is raised.
+#: Called with the finished fraction and the name of the stage. Returns False to stop: Cancelled is raised.
 Progress = Callable[[float, str], Optional[bool]]
 
 
 class Garment(NamedTuple):
-    """A garment and its type, where several are put on at once."""
+    """A garment and its type. Several garments can have different types."""
 
     mesh: MeshLike
     type: str = "auto"
@@ -38,28 +38,28 @@ class Girth(NamedTuple):
 
 
 class Overstretch(NamedTuple):
-    """Where cloth is stretched most."""
+    """The edges that are stretched most."""
 
-    edges: int  #: those that are stretched by more than half their length
-    largest: float  #: stretch of the edge that is stretched most, as a share of its length
-    part: str  #: of the body, next to it; empty where no edge is overstretched
+    edges: int  #: number of edges stretched by more than half their length
+    largest: float  #: largest stretch of an edge, as a share of its length
+    part: str  #: nearest part of the body; empty where no edge is overstretched
 
 
 class FitOfGarment(NamedTuple):
     type: str
-    type_margin: float  #: 0 (a toss-up) to 1 (sure, or given)
+    type_margin: float  #: confidence: 0 (two types are equally likely) to 1 (certain, or given)
     covered: List[str]  #: names of bones
     layer: int  #: 0 for the innermost of several garments
 
 
 @dataclass(frozen=True)
 class Certificate:
-    """What a dressed garment is judged by; crossings are counted exactly."""
+    """Quality of a dressed garment. Crossings are counted exactly."""
 
     body_crossings: int
     self_crossings: int
-    input_self_crossings: int  #: that the garment was given with
-    kept_self_crossings: int  #: those of them that did not come apart
+    input_self_crossings: int  #: of the garment as given
+    kept_self_crossings: int  #: those of them that were not resolved
     layer_crossings: int
     vertices_inside: int
     min_distance: float
@@ -74,7 +74,7 @@ class Certificate:
 
 @dataclass(frozen=True)
 class DressedGarment:
-    """One garment as it is worn. Lengths are in the body's unit."""
+    """One worn garment. Lengths are in the body's unit."""
 
     name: str
     positions: Positions  #: same vertices, same order
@@ -89,9 +89,9 @@ class DressedGarment:
 
 
 class Frame(NamedTuple):
-    """A state on the way back to the body's own pose."""
+    """A state on the pose path to the body's input pose."""
 
-    share: float  #: 0 is the fitted pose, 1 the own
+    share: float  #: 0 is the fitted pose, 1 the input pose
     body: Positions
     garments: List[Positions]
 
@@ -102,13 +102,13 @@ class _Result:
 
     @property
     def metres_per_unit(self) -> float:
-        """Of the body as it was given, or guessed."""
+        """Of the body's unit, given or guessed."""
         return self._scene.metres_per_unit
 
     @property
     def body(self) -> Positions:
-        """The body's vertices in the pose that was come to."""
-        return self._scene.moment().body()
+        """The body's vertices in the pose of this result."""
+        return self._scene.snapshot().body()
 
     @property
     def joint_names(self) -> List[str]:
@@ -116,40 +116,40 @@ class _Result:
 
     @property
     def joints(self) -> Positions:
-        """In the order of joint_names, in that pose."""
-        return self._scene.moment().joints()
+        """In the order of joint_names, in the same pose."""
+        return self._scene.snapshot().joints()
 
     @property
     def bones(self) -> List[Tuple[str, int, int]]:
-        """Name, joint it comes from, joint it goes to; after the bones the tips of head, hands and feet."""
+        """(name, first joint, second joint); after the bones the tips of head, hands and feet."""
         names = _core.skeleton_arrays()["cells"]["BoneName"]
         return [(name, *line) for name, line in zip(names, _core.skeleton_lines())]
 
 
 class Rig(_Result):
-    """The skeleton of a body and how the skin hangs on it."""
+    """The skeleton and the skin weights of a body."""
 
     @property
     def joint_indices(self) -> npt.NDArray[np.uint16]:
-        """Bones (n x 4) that each vertex hangs on."""
+        """Bones (n x 4) of each vertex."""
         return self._scene.rig_arrays()["points"]["JointIndices"]
 
     @property
     def joint_weights(self) -> npt.NDArray[np.float64]:
-        """How much (n x 4); rows sum to 1."""
+        """Skin weights (n x 4) of these bones; rows sum to 1."""
         return self._scene.rig_arrays()["points"]["JointWeights"]
 
 
 class Conflict(NamedTuple):
-    """Why no one pose serves two garments."""
+    """A bone that two garments need in different directions."""
 
     bone: str
-    garments: Tuple[int, int]  #: which; in the first one the bone would lack room
-    angle: float  #: degrees between the bone's directions in their own poses
+    garments: Tuple[int, int]  #: their indices; the first one has too little space for the bone
+    angle: float  #: degrees between the bone's directions in the poses of the two garments
 
 
 class Fit(_Result):
-    """A body posed into garments."""
+    """A body in the pose of its garments."""
 
     @property
     def garments(self) -> List[FitOfGarment]:
@@ -157,7 +157,7 @@ class Fit(_Result):
 
     @property
     def conflicts(self) -> List[Conflict]:
-        """Empty where all garments turn the bones alike."""
+        """Empty where one pose serves all garments."""
         return [Conflict(*conflict) for conflict in self._scene.conflicts()]
 
 
@@ -168,16 +168,16 @@ class Dressing(_Result):
         super().__init__(scene)
         self.garments: List[DressedGarment] = [_dressed(garment) for garment in scene.garments()]
         verdict = scene.verdict()
-        self.certified: bool = verdict["certified"]  #: on, at full size, in the pose asked for, nothing crosses
-        self.too_small: bool = verdict["too_small"]  #: the garment, for this body or this pose
-        self.note: str = verdict["note"]  #: one line on what went wrong where it is not certified
-        self.warnings: List[str] = verdict["warnings"]  #: what to know before believing the result, one line each
+        self.certified: bool = verdict["certified"]  #: worn, body at full size and in its pose, no crossings
+        self.too_small: bool = verdict["too_small"]  #: a garment is, for this body or this pose
+        self.note: str = verdict["note"]  #: why it is not certified, one line; else empty
+        self.warnings: List[str] = verdict["warnings"]  #: what limits the trust in the result, one line each
         self.size_reached: float = verdict["size_reached"]
         self.pose_reached: float = verdict["pose_reached"]
-        #: m/s, of the cloth's fastest vertex at the end; None where the garment is too small to be put on, and never settled
+        #: m/s, of the cloth's fastest vertex at the end; None where the garment is too small and was never settled
         self.speed: Optional[float] = verdict["speed"]
         self.held_back: List[Tuple[str, float]] = verdict["held_back"]
-        #: parts of the body that enter each other where cloth has no room, and how deep
+        #: parts of the body that enter each other, and how deep: cloth has no space there
         self.overlaps: List[Tuple[str, str, float]] = verdict["overlaps"]
 
     @property
@@ -186,7 +186,7 @@ class Dressing(_Result):
 
     @property
     def frames(self) -> List[Frame]:
-        """States on the way to the body's own pose, as many as `frames` asked for but for those that cannot be certified."""
+        """States on the pose path to the body's input pose: at most `frames`, without those that are not certified."""
         return [Frame(*frame) for frame in self._scene.frames()]
 
 
@@ -198,7 +198,8 @@ def _dressed(garment: Mapping[str, Any]) -> DressedGarment:
     return DressedGarment(**parts)
 
 
-def _scene_of(body: MeshLike, unit: str, up: str, front: str, joints: Optional[Mapping[str, Sequence[float]]]) -> _core.Scene:
+def _scene_of(body: MeshLike, unit: str, up: str, front: str,
+              joints: Optional[Mapping[str, Sequence[float]]]) -> _core.Scene:
     mesh = as_mesh(body)
     known = {name: [float(x) for x in place] for name, place in (joints or {}).items()}
     return _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known)
@@ -218,7 +219,7 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
 
 def _scene_in(result: Any, maker: str) -> _core.Scene:
     if not isinstance(result, _Result):
-        raise _core.InvalidInput(f"{type(result).__name__} is no result of a step; give what {maker} returned")
+        raise _core.InvalidInput(f"{type(result).__name__} is no result of a step; give the result of {maker}")
     return result._scene
 
 
@@ -231,10 +232,10 @@ def _is_pair(given: Sequence[Any]) -> bool:
 def rig_body(body: MeshLike, *, unit: str = "auto", up: str = "auto", front: str = "auto",
              joints: Optional[Mapping[str, Sequence[float]]] = None, progress: Optional[Progress] = None,
              **parameters: Any) -> Rig:
-    """Finds the skeleton of a body and how the skin hangs on it.
+    """Finds the skeleton and the skin weights of a body.
 
     unit, up, front: of the body's file, "auto" or "m", "dm", "cm", "mm", "in", "ft" and "+x" ... "-z".
-    joints: places that you know better, by name, in the body's units and axes.
+    joints: positions of known joints by name, in the body's units and axes.
     """
     return Rig(_scene_of(body, unit, up, front, joints).run("rig", parameters, progress))
 
@@ -244,20 +245,21 @@ def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_
                  garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Fit:
     """Poses a rigged body so that its bones run through the middle of the garment's parts.
 
-    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type) tells what each is.
+    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type) sets the type of each.
     """
-    return Fit(_with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up).run("fit", parameters, progress))
+    scene = _with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up)
+    return Fit(scene.run("fit", parameters, progress))
 
 
 @takes_parameters_of("drape")
 def drape_garment(fit: Fit, *, progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
-    """Puts the posed body into its garments without letting cloth and body cross."""
+    """Drapes the garments on the posed body; cloth and body never cross."""
     return Dressing(_scene_in(fit, "fit_skeleton").run("drape", parameters, progress))
 
 
 @takes_parameters_of("recover")
 def recover_pose(draped: Dressing, *, progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
-    """Brings a dressed body back to its own pose, the garments along."""
+    """Moves a dressed body and its garments back to the input pose of the body."""
     return Dressing(_scene_in(draped, "drape_garment").run("recover", parameters, progress))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what a filter with time steps makes as a series of files.
+"""Writes the outputs of a filter with time steps as a series of files.
 
 >>> from garmentfit.series import write_series
 >>> write_series(dress, "dressing.pvd")  # ParaView and PyVista read it
@@ -21,12 +21,12 @@ from ._core import InvalidInput
 def write_series(filter_: Any, path: Union[str, "os.PathLike[str]"]) -> List[Path]:
     """Writes all outputs at each of the filter's time steps as NAME_0000.vtm, ... beside NAME.pvd, which lists them.
 
-    Any vtkAlgorithm will do. The files are in VTK's binary mode, which ParaView 5.11 of Debian 12 can read. Returns the paths
-    of the .vtm files.
+    Works with any vtkAlgorithm. The files are in VTK's binary mode, which ParaView 5.11 of Debian 12 can read. Returns the
+    paths of the .vtm files.
     """
     path = Path(path)
     if path.suffix != ".pvd":
-        raise InvalidInput(f"{path} does not end in .pvd")
+        raise InvalidInput(f"{path} does not end in .pvd; give a name that does")
     written = [(time, _write(filter_, time, path.with_name(f"{path.stem}_{i:04}.vtm")))
                for i, time in enumerate(_times_of(filter_))]
     path.write_text(_collection(written), encoding="utf-8")
@@ -38,7 +38,7 @@ def _times_of(filter_: Any) -> List[float]:
     _require_success(filter_)
     information, key = filter_.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     if not information.Has(key):
-        raise InvalidInput(f"{filter_.GetClassName()} has no time steps; set frames to how many it should have")
+        raise InvalidInput(f"{filter_.GetClassName()} has no time steps; set frames to their number")
     return [information.Get(key, i) for i in range(information.Length(key))]
 
 
@@ -51,7 +51,7 @@ def _write(filter_: Any, time: float, file: Path) -> Path:
     updated = filter_.UpdateTimeStep(time)
     _require_success(filter_)
     if not updated or filter_.GetAbortExecute():
-        raise InvalidInput(f"{filter_.GetClassName()} has nothing to show at time {time}; {file} is not written")
+        raise InvalidInput(f"{filter_.GetClassName()} has no output at time {time}; {file} is not written")
     outputs = vtkMultiBlockDataSet()
     ports = filter_.GetNumberOfOutputPorts()
     for port, name in enumerate(("body", "garments", "skeleton") if ports == 3 else map(str, range(ports))):

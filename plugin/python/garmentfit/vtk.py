@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The filters for VTK pipelines in Python: pip's VTK, Debian's, and PyVista.
 
-Ports and arrays are those of the C++ filters (docs/vtk.md): port 0 the body, port 1 the garments, the last one the skeleton.
-Parameters are attributes of the schema's names, or keyword arguments:
+Ports and arrays are those of the C++ filters (docs/vtk.md): port 0 is the body, port 1 the garments, the last port the
+skeleton. Parameters are attributes with the names of the schema, or keyword arguments:
 
 >>> from garmentfit.vtk import DressBody
 >>> dress = DressBody(type="skirt")
@@ -31,10 +31,10 @@ from . import _core
 from ._core import Cancelled, InvalidInput, SolverFailure
 from ._parameters import lines_on, with_keywords
 
-# ---- VTK's arrays as numpy's, and back --------------------------------------------------------------------------
+# ---- between VTK's arrays and numpy's --------------------------------------------------------------------------
 
 def _put(attributes: Any, name: str, values: Any) -> None:
-    """Numbers without a copy, or texts."""
+    """Adds numbers without a copy, or texts."""
     if isinstance(values, list):
         array = vtkStringArray()
         for text in values:
@@ -46,7 +46,8 @@ def _put(attributes: Any, name: str, values: Any) -> None:
 
 
 def _put_all(data: vtkPolyData, arrays: Dict[str, Dict[str, Any]]) -> None:
-    for attributes, kind in ((data.GetPointData(), "points"), (data.GetCellData(), "cells"), (data.GetFieldData(), "field")):
+    places = {"points": data.GetPointData(), "cells": data.GetCellData(), "field": data.GetFieldData()}
+    for kind, attributes in places.items():
         for name, values in arrays[kind].items():
             _put(attributes, name, values)
 
@@ -60,7 +61,7 @@ def _numbers(attributes: Any, name: str) -> Optional[np.ndarray]:
 
 
 def _find_in(data: vtkPolyData) -> Callable[[str], Optional[np.ndarray]]:
-    """By name, among the arrays of points and of the field."""
+    """Returns a function that finds an array by name among those of points and of the field."""
     def find(name: str) -> Optional[np.ndarray]:
         found = _numbers(data.GetPointData(), name)
         return _numbers(data.GetFieldData(), name) if found is None else found
@@ -68,11 +69,11 @@ def _find_in(data: vtkPolyData) -> Callable[[str], Optional[np.ndarray]]:
 
 
 def mesh_of(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
-    """Points, or those kept under a name, and polygons as fans of triangles."""
+    """Points, or those of the array `kept`, and polygons as fans of triangles."""
     if data.GetNumberOfPolys() == 0 or data.GetNumberOfStrips() or data.GetNumberOfPoints() == 0:
         raise InvalidInput(f"{what} has {data.GetNumberOfPolys()} polygons, {data.GetNumberOfPoints()} points, "
-                           f"{data.GetNumberOfLines()} lines and {data.GetNumberOfStrips()} strips; give a surface of polygons, "
-                           "of strips vtkTriangleFilter makes one")
+                           f"{data.GetNumberOfLines()} lines and {data.GetNumberOfStrips()} strips; give a surface "
+                           "of polygons, and convert strips with vtkTriangleFilter")
     points = vtk_to_numpy(data.GetPoints().GetData())
     own = _numbers(data.GetPointData(), kept) if kept else None
     positions = own if own is not None and own.shape == points.shape else points
@@ -97,7 +98,8 @@ def _leaves(data: vtkDataObject) -> List[Tuple[str, vtkPolyData]]:
     while not iterator.IsDoneWithTraversal():
         leaf = iterator.GetCurrentDataObject()
         if not isinstance(leaf, vtkPolyData):
-            raise InvalidInput(f"garment {len(leaves) + 1} is a {leaf.GetClassName()}; give vtkPolyData, vtkGeometryFilter makes it")
+            raise InvalidInput(f"garment {len(leaves) + 1} is a {leaf.GetClassName()}; give vtkPolyData, for example from "
+                               "vtkGeometryFilter")
         named = iterator.HasCurrentMetaData() and iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME())
         leaves.append((named or f"garment {len(leaves) + 1}", leaf))
         iterator.GoToNextItem()
@@ -123,7 +125,7 @@ def _copy_leaves(source: vtkDataObject, target: vtkDataObject) -> List[vtkPolyDa
 
 
 def _under_name(array: Any, name: str) -> Any:
-    """The same memory under another name; the array itself stays as it is in the input."""
+    """Shares the memory under another name. Renaming the array itself would rename it in the input."""
     same = array.NewInstance()
     same.ShallowCopy(array)
     same.SetName(name)
@@ -140,7 +142,7 @@ def _restore(data: vtkPolyData, kept: str) -> None:
 
 
 def _move(data: vtkPolyData, kept: str, positions: np.ndarray) -> None:
-    """New points; the old ones stay as an array, the same memory."""
+    """Sets new points and keeps the old ones as an array, the same memory."""
     if not data.GetPointData().HasArray(kept):
         data.GetPointData().AddArray(_under_name(data.GetPoints().GetData(), kept))
     points = vtkPoints()
@@ -160,35 +162,36 @@ def _given_type(garment: vtkPolyData) -> str:
 
 
 def _what_is_wrong(port: int, data: Optional[vtkDataObject]) -> Optional[str]:
-    """With an input as such; the executive says so, too, and goes no further."""
+    """Checks that an input is there and a surface. The executive reports this, too, and stops."""
     named = ("the body", "the garments")[port]
     if data is None:
         return f"nothing is connected to input {port}, {named}"
     if not isinstance(data, (vtkPolyData, vtkCompositeDataSet)):
-        return f"input {port}, {named}, is a {data.GetClassName()}; give vtkPolyData, vtkGeometryFilter makes it"
+        return f"input {port}, {named}, is a {data.GetClassName()}; give vtkPolyData, for example from vtkGeometryFilter"
     return None
 
 
-def _is_stopped_before(filter_: Any) -> bool:
-    """Whether a filter before this one was told to stop."""
+def _is_aborted_upstream(filter_: Any) -> bool:
+    """Whether a filter upstream was aborted."""
     for port in range(filter_.GetNumberOfInputPorts()):
         before = filter_.GetInputAlgorithm(port, 0) if filter_.GetNumberOfInputConnections(port) else None
-        if before is not None and (before.GetAbortExecute() or _is_stopped_before(before)):
+        if before is not None and (before.GetAbortExecute() or _is_aborted_upstream(before)):
             return True
     return False
 
 
 # ---- the filter --------------------------------------------------------------------------------------------------
 
-_MOST_FRAMES = next(int(range_.split("..")[1]) for name, _, _, range_, _ in _core.parameters_of("recover") if name == "frames")
+_MOST_FRAMES = next(int(range_.split("..")[1]) for name, _, _, range_, _ in _core.parameters_of("recover")
+                    if name == "frames")
 
 
 class _FitFilter(VTKPythonAlgorithmBase):
-    """What the five have in common; each names its row of the table, and what it is given and makes."""
+    """Base of the five filters. Each names its row of the table, its inputs and its outputs."""
 
     NAME = ""
-    TAKES: Tuple[str, ...] = ()  #: of rig, fits, worn
-    MAKES: Tuple[str, ...] = ()  #: of rig, fits, dressing, frames
+    TAKES: Tuple[str, ...] = ()  #: results of earlier filters: some of rig, fits, worn
+    MAKES: Tuple[str, ...] = ()  #: some of rig, fits, dressing, frames
     STEPS: Tuple[str, ...] = ()  #: filters to run one after another
 
     def __init_subclass__(cls) -> None:
@@ -196,7 +199,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
         cls.__doc__ = (cls.__doc__ or "").rstrip() + lines_on(cls.NAME)
 
     def __init__(self, *, unit: str = "auto", up: str = "auto", front: str = "auto", garment_unit: str = "auto",
-                 garment_up: str = "auto", joints: Optional[Mapping[str, Sequence[float]]] = None, **parameters: Any) -> None:
+                 garment_up: str = "auto", joints: Optional[Mapping[str, Sequence[float]]] = None,
+                 **parameters: Any) -> None:
         object.__setattr__(self, "_values", {name: default for name, default, *_ in _core.parameters_of(self.NAME)})
         dresses = self.NAME != "rig"
         super().__init__(nInputPorts=1 + dresses, inputType="vtkPolyData", nOutputPorts=2 + dresses,
@@ -206,9 +210,9 @@ class _FitFilter(VTKPythonAlgorithmBase):
         self.front: str = front
         self.garment_unit: str = garment_unit
         self.garment_up: str = garment_up
-        self.joints: Mapping[str, Sequence[float]] = joints or {}  #: read only: a change has to be seen, give all anew
-        self.error: Optional[str] = None  #: one line on what went wrong last time
-        self._scenes: Dict[str, Any] = {}  # what each step has made, and from what
+        self.joints: Mapping[str, Sequence[float]] = joints or {}  #: read only, so that a change is noticed: set all anew
+        self.error: Optional[str] = None  #: message of the last execution; None after success
+        self._scenes: Dict[str, Any] = {}  # by step: identity of its inputs, and its result
         for name, value in parameters.items():
             if name not in self._values:
                 raise InvalidInput(f"{type(self).__name__} has no parameter called {name!r}; there are "
@@ -236,7 +240,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._values]
 
-    # what VTKPythonAlgorithmBase, a bare vtkAlgorithm, lacks
+    # methods that VTKPythonAlgorithmBase, a plain vtkAlgorithm, lacks
     def SetInputData(self, *arguments: Any) -> None:
         port, data = arguments if len(arguments) == 2 else (0, arguments[0])
         self.SetInputDataObject(port, data)
@@ -252,7 +256,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
     def FillInputPortInformation(self, port: int, info: Any) -> int:
         if port == 0:
             info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
-        else:  # the composite first: the executive asks the first type only whether to hand over block by block
+        else:  # the composite first: the executive iterates over blocks unless the first type accepts composites
             info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
             info.Append(self.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
         return 1
@@ -271,13 +275,13 @@ class _FitFilter(VTKPythonAlgorithmBase):
         return super().ProcessRequest(request, inputs, outputs)
 
     def _frames(self) -> int:
-        """How many time steps there are; none where RequestData will say that `frames` is no number of them."""
+        """Number of time steps; 0 where `frames` is invalid, which RequestData reports."""
         frames = self._values["frames"] if "frames" in self.MAKES else 0
         return int(frames) if isinstance(frames, Integral) and 0 < frames <= _MOST_FRAMES else 0
 
     def _keep_time(self, inputs: Any) -> None:
-        """The times of the way back are this filter's own: a file with a time of its own would be read again, and all of
-        it be computed again, for each of them."""
+        """Time steps on the pose path belong to this filter. Passed upstream, each would make a reader with time steps read
+        again, and this filter compute again."""
         for port in range(self.GetNumberOfInputPorts() if self._frames() else 0):
             for i in range(inputs[port].GetNumberOfInformationObjects()):
                 inputs[port].GetInformationObject(i).Remove(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP())
@@ -318,7 +322,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         made = [outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                 for port in range(self.GetNumberOfOutputPorts())]
         self.error = None
-        if data[0].GetNumberOfPoints() == 0 and _is_stopped_before(self):
+        if data[0].GetNumberOfPoints() == 0 and _is_aborted_upstream(self):
             self._empty(made)
             return 1
         try:
@@ -344,7 +348,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
 
     @staticmethod
     def _time(request: Any, outputs: Any) -> float:
-        """That the port wants which asked."""
+        """The time step that the requesting port needs."""
         info = outputs.GetInformationObject(max(request.Get(vtkExecutive.FROM_OUTPUT_PORT()), 0))
         key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
         return info.Get(key) if info.Has(key) else 1.0
@@ -355,7 +359,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
             output.Initialize()
 
     def _tell(self, event: str, text: str) -> None:
-        """An event of the vtkAlgorithm; to the standard error stream where nobody listens."""
+        """Invokes an event of the vtkAlgorithm, or prints to standard error where it has no observer."""
         if text and self.HasObserver(event):
             self.InvokeEvent(event)
         elif text:
@@ -368,7 +372,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         return not (self.CheckAbort() if hasattr(self, "CheckAbort") else self.GetAbortExecute())
 
     def _kept(self, step: str, made_from: Any, make: Any) -> Any:
-        """What a step has made, made anew where it would be made from something else."""
+        """The result of a step, computed again only where its inputs changed."""
         kept = self._scenes.get(step)
         if kept is None or kept[0] != made_from:
             self._scenes.pop(step, None)
@@ -396,10 +400,10 @@ class _FitFilter(VTKPythonAlgorithmBase):
         return scene
 
     def _values_of(self, step: str, layers: int) -> Tuple[Dict[str, Any], Dict[str, Any]]:
-        """The parameters of a step, and those of them that its result depends on."""
+        """The parameters of a step, and those that its result depends on."""
         values = {name: self._values[name] for name, *_ in _core.parameters_of(step)}
         unused = set()
-        if step == "drape":  # only garments that are worn already go another way
+        if step == "drape":  # only garments that are worn already move to another pose
             unused = {name for name in values if name.startswith("recovery_") and layers < 2}
         return values, {name: value for name, value in values.items() if name not in unused}
 
@@ -408,7 +412,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
             positions, triangles = mesh_of(body, "the body")
             joints = {name: [float(x) for x in place] for name, place in self.joints.items()}
             return _core.Scene.of_body(positions, triangles, self.unit, self.up, self.front, joints)
-        positions, triangles = mesh_of(body, "the body", "OwnPosition")
+        positions, triangles = mesh_of(body, "the body", "InputPosition")
         return _core.Scene.of_rigged(positions, triangles, _find_in(body), "fits" in self.TAKES)
 
     def _read_garments(self, scene: Any, body: vtkPolyData, garments: vtkDataObject) -> Any:
@@ -426,7 +430,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
 
     # writing
     def _write(self, scene: Any, time: float, inputs: List[Any], outputs: List[Any]) -> None:
-        now = scene.moment(time if "frames" in self.MAKES else 1.0)
+        now = scene.snapshot(time if "frames" in self.MAKES else 1.0)
         self._write_body(scene, now, inputs[0], outputs[0])
         if len(inputs) > 1:
             self._write_garments(scene, now, _copy_leaves(inputs[1], outputs[1]))
@@ -438,14 +442,14 @@ class _FitFilter(VTKPythonAlgorithmBase):
     def _write_body(self, scene: Any, now: Any, given: vtkPolyData, body: vtkPolyData) -> None:
         body.ShallowCopy(given)
         if "rig" in self.MAKES:
-            body.GetPointData().RemoveArray("OwnPosition")  # of an earlier dressing
+            body.GetPointData().RemoveArray("InputPosition")  # of an earlier dressing
             _put_all(body, scene.rig_arrays())
         else:
-            _restore(body, "OwnPosition")
+            _restore(body, "InputPosition")
         if "fits" in self.MAKES:
             _put_all(body, scene.fit_arrays())
         if now.is_body_moved:
-            _move(body, "OwnPosition", now.body())
+            _move(body, "InputPosition", now.body())
         if "dressing" in self.MAKES:
             _put_all(body, now.dressing_arrays())
 
@@ -479,7 +483,7 @@ def _draw_skeleton(skeleton: vtkPolyData, joints: np.ndarray) -> None:
 
 
 class RigBody(_FitFilter):
-    """Finds the skeleton of a body and how the skin hangs on it. Port 1 is the skeleton."""
+    """Finds the skeleton and the skin weights of a body. Port 1 is the skeleton."""
     NAME, STEPS, MAKES = "rig", ("rig",), ("rig",)
 
 
@@ -489,12 +493,12 @@ class FitSkeleton(_FitFilter):
 
 
 class DrapeGarment(_FitFilter):
-    """Puts the posed body into the garment without letting cloth and body cross."""
+    """Drapes the garment on the posed body; cloth and body never cross."""
     NAME, STEPS, TAKES, MAKES = "drape", ("drape",), ("rig", "fits"), ("dressing",)
 
 
 class RecoverPose(_FitFilter):
-    """Brings a dressed body back to its own pose, the garments along; with `frames` the way is offered as time steps."""
+    """Moves a dressed body and its garments back to the input pose. `frames` adds time steps on the pose path."""
     NAME, STEPS, TAKES, MAKES = "recover", ("recover",), ("rig", "worn"), ("dressing", "frames")
 
 

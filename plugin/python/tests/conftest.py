@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What several tests look at. They run beside the sources, on the installed package."""
+"""Fixtures of several tests. The tests lie beside the sources and use the installed package."""
 from pathlib import Path
 
 import pytest

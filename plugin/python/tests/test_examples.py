@@ -8,7 +8,8 @@ from conftest import BODY, ROOT, SAMPLES, SKIRT
 
 pyvista = pytest.importorskip("pyvista")
 EXAMPLES = ROOT / "plugin" / "python" / "examples"
-OTHERS = [BODY.with_name(f"{name}.ply") for name in ("woman_t_pose", "man_a_pose", "tall_man_fighting", "heavy_man_arms_down")]
+OTHERS = [BODY.with_name(f"{name}.ply")
+          for name in ("woman_t_pose", "man_a_pose", "tall_man_fighting", "heavy_man_arms_down")]
 
 
 def colours_in(picture):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The package as its users call it."""
+"""The functions of the package."""
 import signal
 import threading
 from pathlib import Path
@@ -42,7 +42,7 @@ def test_four_steps_give_what_dress_gives(dressed, body, skirt):
     assert not np.array_equal(fit.joints, rig.joints)
 
 
-def test_frames_lead_from_the_fitted_pose_to_the_own(dressed):
+def test_frames_lead_from_the_fitted_pose_to_the_input_pose(dressed):
     shares = [frame.share for frame in dressed.frames]
     assert shares[0] == 0 and shares[-1] == 1 and shares == sorted(shares)
     assert np.array_equal(dressed.frames[-1].body, dressed.body)
@@ -63,7 +63,7 @@ def test_arguments_are_not_changed_and_results_outlive_them(body):
     assert np.isfinite(joints).all()
 
 
-def test_numbers_that_are_right_already_are_not_copied(body):
+def test_numbers_of_the_right_type_are_not_copied(body):
     assert Mesh(body.positions, body.triangles).positions is body.positions
 
 
@@ -78,8 +78,8 @@ def test_numbers_that_are_right_already_are_not_copied(body):
     (lambda b, g: garmentfit.rig_body((b.positions, b.triangles - 1)), "vertices from -1"),
     (lambda b, g: garmentfit.rig_body((np.full((9, 3), np.nan), b.triangles[:1] * 0)), "finite"),
     (lambda b, g: garmentfit.rig_body(42), "int is no mesh"),
-    (lambda b, g: garmentfit.fit_skeleton(b, g), "give what rig_body returned"),
-    (lambda b, g: garmentfit.recover_pose(None), "give what drape_garment returned"),
+    (lambda b, g: garmentfit.fit_skeleton(b, g), "give the result of rig_body"),
+    (lambda b, g: garmentfit.recover_pose(None), "give the result of drape_garment"),
     (lambda b, g: garmentfit.read_mesh("nobody.ply"), "nobody.ply"),
     (lambda b, g: garmentfit.dress(b, []), "garment"),
     (lambda b, g: garmentfit.dress(b, (np.zeros((0, 3)), np.zeros((0, 3), dtype=int))), "garment"),
@@ -160,7 +160,7 @@ def test_layers_say_whether_one_pose_serves_them(body, skirt):
     assert fit.conflicts == []
 
 
-def test_layers_are_found_where_asked_for(body, skirt):
+def test_automatic_layer_order_sorts_by_type(body, skirt):
     coat, shirt = Garment(skirt, "coat"), Garment(skirt, "blouse")  # types say it, whatever the shape
     rig = garmentfit.rig_body(body)
     assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt]).garments] == [0, 1]

@@ -20,7 +20,8 @@ def run(*words):
 
 
 def test_dresses_to_the_same_numbers_as_the_functions(body, skirt, tmp_path):
-    done = run("dress", BODY, SKIRT, "--type", "skirt", *SETTLE, "--recovery-settling-steps", "2", "-o", tmp_path / "out")
+    done = run("dress", BODY, SKIRT, "--type", "skirt", *SETTLE, "--recovery-settling-steps", "2",
+               "-o", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert "written to" in done.stdout or "certified" in done.stdout, done.stdout
     result = garmentfit.dress(body, skirt, **QUICK)
@@ -31,7 +32,8 @@ def test_dresses_to_the_same_numbers_as_the_functions(body, skirt, tmp_path):
 
 def test_has_every_step_and_their_files(tmp_path):
     for words in (["rig", BODY], ["fit", BODY, SKIRT, "--type", "skirt", "--rig", tmp_path / "rig" / "rig.json"],
-                  ["drape", tmp_path / "fit", *SETTLE], ["recover", tmp_path / "drape", "--recovery-settling-steps", "2"]):
+                  ["drape", tmp_path / "fit", *SETTLE],
+                  ["recover", tmp_path / "drape", "--recovery-settling-steps", "2"]):
         done = run(*words, "-o", tmp_path / words[0])
         assert done.returncode == 0, done.stderr
     assert (tmp_path / "recover" / "skirt.ply").exists()
@@ -44,8 +46,8 @@ def test_says_what_is_wrong_in_one_line_with_code_2(tmp_path):
 
 
 def test_ctrl_c_leaves_nothing_behind(tmp_path):
-    process = subprocess.Popen([*PROGRAM, "dress", str(BODY), str(SKIRT), "--settling-steps", "10000", "-o", str(tmp_path / "out")],
-                               stderr=subprocess.PIPE)
+    words = ["dress", str(BODY), str(SKIRT), "--settling-steps", "10000", "-o", str(tmp_path / "out")]
+    process = subprocess.Popen([*PROGRAM, *words], stderr=subprocess.PIPE)
     with pytest.raises(subprocess.TimeoutExpired):  # still at work
         process.wait(1.5)
     process.send_signal(signal.SIGINT)

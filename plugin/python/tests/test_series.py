@@ -25,7 +25,7 @@ def chain():
 
 
 def bits_of(data):
-    """All arrays by name, type and components, as bytes or texts. Readers have classes of their own for the same types."""
+    """All arrays by name, type and components, as bytes or texts. Readers use other classes for the same types."""
     found = {("points",): memoryview(data.GetPoints().GetData()).tobytes(),
              ("polygons",): memoryview(data.GetPolys().GetConnectivityArray()).tobytes()}
     for attributes in (data.GetPointData(), data.GetCellData(), data.GetFieldData()):
@@ -42,7 +42,8 @@ def bits_of(data):
 def test_scrubbing_computes_nothing_and_comes_back_to_the_same_bits(chain):
     recover, seen = chain[-1], []
     for step in chain:
-        step.AddObserver("ProgressEvent", lambda o, e: seen.append(o.GetProgressText()) if 0 < o.GetProgress() < 1 else None)
+        step.AddObserver("ProgressEvent",
+                         lambda o, e: seen.append(o.GetProgressText()) if 0 < o.GetProgress() < 1 else None)
     shown = {}
     for time in (0, 0.5, 1, 0.5, 0, 1, 0):
         recover.UpdateTimeStep(time)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every parameter of the one description is a keyword argument with a name, a type and a default, for people and for tools."""
+"""Every parameter of the schema is a keyword argument with a name, a type and a default, also for type checkers."""
 import inspect
 import subprocess
 import sys
@@ -38,17 +38,17 @@ def test_the_signature_shows_every_parameter_with_its_default(name):
     assert not any(given.kind == inspect.Parameter.VAR_KEYWORD for given in shown.values())
 
 
-def complaints_of_mypy(text, folder):
+def errors_of_mypy(text, folder):
     pytest.importorskip("mypy")
     program = folder / "program.py"
     program.write_text(text, encoding="utf-8")
-    done = subprocess.run([sys.executable, "-m", "mypy", "--follow-imports=silent", "--cache-dir", folder / "cache", program],
-                          capture_output=True, text=True, cwd=folder)
+    mypy = [sys.executable, "-m", "mypy", "--follow-imports=silent", "--cache-dir", folder / "cache", program]
+    done = subprocess.run(mypy, capture_output=True, text=True, cwd=folder)
     return done.stdout + done.stderr
 
 
 def test_a_type_checker_knows_what_is_right_and_what_is_wrong(tmp_path):
-    assert "Success" in complaints_of_mypy(RIGHT, tmp_path)
-    found = complaints_of_mypy(RIGHT + "\n".join(WRONG), tmp_path)
+    assert "Success" in errors_of_mypy(RIGHT, tmp_path)
+    found = errors_of_mypy(RIGHT + "\n".join(WRONG), tmp_path)
     for words in WRONG.values():
         assert words in found, found

@@ -32,7 +32,8 @@ def points(data):
 
 def stages_of(filter_):
     seen = set()
-    filter_.AddObserver("ProgressEvent", lambda o, e: seen.add(o.GetProgressText()) if 0 < o.GetProgress() < 1 else None)
+    filter_.AddObserver("ProgressEvent",
+                        lambda o, e: seen.add(o.GetProgressText()) if 0 < o.GetProgress() < 1 else None)
     return seen
 
 
@@ -248,7 +249,8 @@ def test_a_rig_of_another_body_is_refused(rig, sources):
     listening(fit)
     fit.SetInputConnection(1, sources[1].GetOutputPort())
     for other, part in ((sources[1], "3000 vertices, this one has 3055"), (man, "belongs to another body")):
-        wrong = changed(other.GetOutput(), lambda data: data.GetFieldData().ShallowCopy(rig.GetOutput(0).GetFieldData()))
+        field = rig.GetOutput(0).GetFieldData()
+        wrong = changed(other.GetOutput(), lambda data: data.GetFieldData().ShallowCopy(field))
         for name in ("JointIndices", "JointWeights"):
             wrong.GetPointData().AddArray(rig.GetOutput(0).GetPointData().GetArray(name))
         fit.SetInputData(0, wrong)
@@ -260,7 +262,8 @@ def test_what_the_executive_refuses_has_its_own_line_and_leaves_no_older_outputs
     fit = FitSkeleton(type="skirt")
     heard = listening(fit)
     fit.SetInputConnection(0, rig.GetOutputPort())
-    for garments, part in ((None, "nothing is connected to input 1, the garments"), (vtkImageData(), "is a vtkImageData")):
+    for garments, part in ((None, "nothing is connected to input 1, the garments"),
+                           (vtkImageData(), "is a vtkImageData")):
         fit.SetInputConnection(1, sources[1].GetOutputPort())
         fit.Update()
         assert fit.error is None and fit.GetOutput(0).GetNumberOfPoints() > 0 and not heard
@@ -293,7 +296,8 @@ def test_what_the_executive_refuses_leaves_no_older_line(sources):
 
 
 @pytest.mark.parametrize("name, value, part", [
-    ("frames", "many", 'frames: "many"'), ("frames", 10**12, "frames"), ("frames", -1, "frames"), ("density", np.nan, "nan"),
+    ("frames", "many", 'frames: "many"'), ("frames", 10**12, "frames"), ("frames", -1, "frames"),
+    ("density", np.nan, "nan"),
     ("unit", None, "TypeError"), ("joints", {"lknee": 5}, "TypeError"),
 ])
 def test_an_attribute_of_the_wrong_kind_leaves_a_line(name, value, part, sources):
@@ -362,7 +366,7 @@ def test_a_garment_that_is_too_small_is_a_warning(sources):
     heard = listening(dress)
     warned = []
     dress.AddObserver("WarningEvent", lambda o, e: warned.append(e))
-    heavy = reader(BODY.with_name("heavy_man_arms_down.ply"))  # kept: VTK's Python does not keep a producer
+    heavy = reader(BODY.with_name("heavy_man_arms_down.ply"))  # kept: VTK's Python does not keep a producer alive
     dress.SetInputConnection(0, heavy.GetOutputPort())
     dress.SetInputConnection(1, sources[1].GetOutputPort())
     dress.Update()

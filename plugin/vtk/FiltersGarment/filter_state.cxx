@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_state.h"
 
-#include "garmentfit/filters/warnings.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/warnings.h"
 
 #include "vtkDataObject.h"
 #include "vtkPolyData.h"
@@ -10,7 +10,7 @@
 namespace garmentfit {
 namespace {
 
-/// Parameters as plain numbers, to see whether they changed.
+/// Parameters as plain numbers, to detect changes.
 struct Numbers {
     std::vector<double> values;
     template <class Value>
@@ -39,9 +39,10 @@ FilterState::FilterState(const Filter& table_row) : filter(table_row)
 
 int FilterState::frames() const { return filter.makes(Data::recovered) ? parameters.recover.frames : 0; }
 
-// ---- what changed ----------------------------------------------------------------------------------------------------
+// ---- what changed
+// ----------------------------------------------------------------------------------------------------
 
-/// A source stands only when all of it was read.
+/// The source is set after a complete read: a failed one is repeated.
 void FilterState::read_changed_body(vtkPolyData& body)
 {
     const Source now { &body, body.GetMTime(), hints.on_body() };
@@ -66,7 +67,7 @@ void FilterState::read_changed_garments(vtkPolyData& body, vtkDataObject& garmen
     garment_source_ = now;
 }
 
-/// Only what this filter makes: what it was given stays.
+/// Forgets only what this filter makes, not its inputs.
 void FilterState::forget_from(Stage stage)
 {
     if (stage <= Stage::rig && filter.makes(Data::rig))
@@ -121,7 +122,7 @@ bool FilterState::has(Stage stage) const
     return false;
 }
 
-/// A stage that is stopped leaves nothing behind; those before it stay.
+/// A stage that is stopped leaves no result; earlier stages stay.
 void FilterState::run(Stage stage, const Progress& progress)
 {
     Parameters p = parameters;
@@ -155,9 +156,10 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
     run(progress);
 }
 
-// ---- what is shown ---------------------------------------------------------------------------------------------------
+// ---- what is shown
+// ---------------------------------------------------------------------------------------------------
 
-Snapshot FilterState::moment(double time) const { return snapshot_of(known_.scene, time, filter.cloth(parameters)); }
+Snapshot FilterState::snapshot(double time) const { return snapshot_of(known_.scene, time, filter.cloth(parameters)); }
 
 std::vector<std::string> FilterState::warnings() const
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a vtkFitFilter keeps between two executions: its parameters, and the scene they made.
+// What a vtkFitFilter keeps between two executions: its parameters, and the scene that was computed with them.
 
 #ifndef filter_state_h
 #define filter_state_h
@@ -29,21 +29,21 @@ public:
     Parameters parameters;
     Hints hints;
 
-    /// States on the way that are asked for; 0 where the filter goes no way.
+    /// Number of frames on the pose path; 0 where the filter does not recover the pose.
     int frames() const;
 
-    /// Brings the scene up to date: reads what changed, computes what depends on it.
-    /// @throws InvalidInput, SolverFailure, Cancelled; what was computed until then is kept.
+    /// Reads inputs that changed and computes what depends on them.
+    /// @throws InvalidInput, SolverFailure, Cancelled; finished stages are kept.
     void update(vtkPolyData& body, vtkDataObject* garments, const Progress& progress);
 
     const KnownScene& known() const { return known_; }
-    /// What the outputs show at a time.
-    Snapshot moment(double time) const;
-    /// What the user should know of how the garments ended up, one line each: first why they could not be put on as they should.
+    /// What the outputs show at a time step.
+    Snapshot snapshot(double time) const;
+    /// What limits the trust in the result, one line each; the first one says why it is not certified.
     std::vector<std::string> warnings() const;
 
 private:
-    /// What a part of the scene was made from.
+    /// Identifies the input that a part of the scene was read from.
     struct Source {
         const void* data = nullptr;
         vtkMTimeType time = 0;

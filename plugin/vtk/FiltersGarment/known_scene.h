@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A scene, which is in metres with +y up, and how it was given.
+// A scene, in metres with +y up, and the frames of its inputs.
 
 #ifndef known_scene_h
 #define known_scene_h
@@ -13,15 +13,15 @@
 
 namespace garmentfit {
 
-constexpr const char* k_own_position
-    = "OwnPosition";  ///< the array with the body's points as given, where they were moved
-constexpr const char* k_rest_position = "RestPosition";  ///< the same of garments
+/// Arrays with the points of the input, where they were moved: of the body, and of garments.
+constexpr const char* k_input_position = "InputPosition";
+constexpr const char* k_rest_position = "RestPosition";
 
 struct KnownScene {
     Scene scene;
     Frame body_frame;
     std::vector<Frame> garment_frames;
-    std::vector<std::string> garment_names;  ///< of their blocks
+    std::vector<std::string> garment_names;  ///< of their blocks in a composite
 };
 
 }  // namespace garmentfit

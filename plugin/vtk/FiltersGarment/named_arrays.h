@@ -18,11 +18,11 @@ namespace garmentfit {
 
 Rows rows_of(vtkDataArray& array);
 vtkNew<vtkDoubleArray> array_of(const char* name, const Eigen::Ref<const Rows>& rows);
-/// The same memory under another name; renaming the array itself would rename it in the input, too.
+/// Shares the memory under another name. Renaming the array itself would rename it in the input.
 vtkSmartPointer<vtkDataArray> under_name(vtkDataArray& array, const char* name);
 
 void put(vtkPolyData& data, const MeshArrays& arrays);
-/// Among the arrays of points and of the field.
+/// Looks among the arrays of points and of the field.
 FindArray find_in(vtkPolyData& data);
 
 }  // namespace garmentfit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A filter's parameters by their names in the schema, as numbers and as text. A name that is none, or null, is no parameter's.
+// A filter's parameters by their names in the schema, as numbers and as text. Unknown names and null are allowed.
 
 #ifndef named_parameters_h
 #define named_parameters_h
@@ -19,7 +19,7 @@ bool has_parameter(const Filter& filter, const char* name);
 /// Choices are numbered from 0, switches are 0 or 1; NaN is an optional value that is not given. 0 where there is no such
 /// parameter.
 double number_of(const Filter& filter, const Parameters& parameters, const char* name);
-/// The smallest and the largest it may be.
+/// Smallest and largest allowed value.
 std::pair<double, double> range_of_number(const Filter& filter, const char* name);
 /// Moves the number into its range. @return whether the parameter changed
 bool set_number(const Filter& filter, Parameters& parameters, const char* name, double number);
@@ -28,7 +28,7 @@ std::string text_of(const Filter& filter, const Parameters& parameters, const ch
 /// @return whether the parameter changed  @throws InvalidInput for a text that is no value
 bool set_text(const Filter& filter, Parameters& parameters, const char* name, const char* text);
 
-/// What it does, range and unit, in one line.
+/// Help, range and unit in one line.
 std::string help_on(const Filter& filter, const char* name);
 
 }  // namespace garmentfit

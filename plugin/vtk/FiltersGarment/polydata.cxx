@@ -40,7 +40,7 @@ Triangles fans_of(vtkCellArray& polygons)
     return Eigen::Map<const Triangles>(corners.data(), Eigen::Index(corners.size() / 3), 3);
 }
 
-void turn_normals(vtkPolyData& data, const Positions& positions, const Triangles& triangles)
+void update_normals(vtkPolyData& data, const Positions& positions, const Triangles& triangles)
 {
     data.GetCellData()->SetNormals(nullptr);
     if (vtkDataArray* normals = data.GetPointData()->GetNormals()) {
@@ -65,7 +65,7 @@ TriangleMesh mesh_of(vtkPolyData& data, const std::string& what)
 {
     if (data.GetNumberOfPolys() == 0 || data.GetNumberOfStrips() > 0 || data.GetNumberOfPoints() == 0)
         throw InvalidInput(what + " has " + std::to_string(data.GetNumberOfPolys()) + " polygons, " + cells_of(data)
-                           + "; give a surface of polygons, of strips vtkTriangleFilter makes one");
+                           + "; give a surface of polygons, and convert strips with vtkTriangleFilter");
     return { rows_of(*data.GetPoints()->GetData()), fans_of(*data.GetPolys()) };
 }
 
@@ -87,7 +87,7 @@ std::vector<vtkPolyData*> garments_in(vtkDataObject& data)
         garments.push_back(vtkPolyData::SafeDownCast(&leaf));
         if (!garments.back())
             throw InvalidInput("garment " + std::to_string(garments.size()) + " is a " + leaf.GetClassName()
-                               + "; give vtkPolyData, vtkGeometryFilter makes it");
+                               + "; give vtkPolyData, for example from vtkGeometryFilter");
     });
     return garments;
 }
@@ -120,7 +120,7 @@ void move_points(vtkPolyData& data, const char* name, const Positions& metres, c
     vtkNew<vtkPoints> points;
     points->SetData(array_of("Points", moved));
     data.SetPoints(points);
-    turn_normals(data, moved, triangles);
+    update_normals(data, moved, triangles);
 }
 
 void restore_points(vtkPolyData& data, const char* name)

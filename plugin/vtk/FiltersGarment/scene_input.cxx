@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "garmentfit/filters/joint_names.h"
-#include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/scene_arrays.h"
+#include "garmentfit/filters/snapshot.h"
 #include "named_arrays.h"
 #include "polydata.h"
 
@@ -54,7 +54,7 @@ KnownScene rigged_body(const Filter& filter, vtkPolyData& body)
     const FindArray find = find_in(body);
     KnownScene known;
     known.body_frame = body_frame_from(find);
-    set_body(known, mesh_at(body, k_own_position, "the body"));
+    set_body(known, mesh_at(body, k_input_position, "the body"));
     known.scene.rig = rig_from(find, known.scene.body->surface.positions);
     if (filter.reads(Data::fits) || (filter.reads(Data::draped) && find("FitPoses")))
         known.scene.fits = fits_from(find);
@@ -66,7 +66,7 @@ std::string called(const std::vector<std::string>& names, std::size_t i)
     return names.size() == 1 ? "the garment" : "garment " + std::to_string(i + 1) + " (" + names[i] + ")";
 }
 
-/// @param seen  by filters before: it is as it was given, in the frame that they found
+/// @param seen  by an earlier filter, which kept the rest positions and the frame as arrays
 void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const FrameChoice& choice)
 {
     const std::string name = called(known.garment_names, known.scene.garments.size());

@@ -17,24 +17,24 @@ class vtkPolyData;
 
 namespace garmentfit {
 
-/// What the user says of meshes that are hard to read.
+/// Units, axes and joints set by the user.
 struct Hints {
-    std::map<std::string, std::string> choices;  ///< of units and axes; what is missing is "auto"
+    std::map<std::string, std::string> choices;  ///< of units and axes; a missing one is "auto"
     std::map<std::string, Vec3> joints;  ///< in the body's units and axes
 
     std::string choice(const std::string& what) const;
-    /// All that a body is read by, as one text.
+    /// All hints on the body as one text, to detect changes.
     std::string on_body() const;
-    /// The same of garments.
+    /// The same for garments.
     std::string on_garments() const;
 };
 
-/// The body, and what filters before found out about it. Its rig is looked for as `options` say.
-/// @throws InvalidInput; so do the others.
+/// The body, and the results of earlier filters on it. Sets front and joints of `options`.
+/// @throws InvalidInput, as all functions here.
 KnownScene scene_of_body(const Filter& filter, vtkPolyData& body, const Hints& hints, RigOptions& options);
-/// Puts garments into the scene for those that are there.
+/// Replaces the garments of the scene.
 void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garments, const Hints& hints);
-/// Body and garments as they were left in the pose that the garments are worn in.
+/// Reads body and garments in the pose that the garments are worn in.
 void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments);
 
 }  // namespace garmentfit

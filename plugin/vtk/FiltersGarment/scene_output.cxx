@@ -28,15 +28,15 @@ void write_body(vtkPolyData& body, const Filter& filter, const KnownScene& known
 {
     const TriangleMesh& own = known.scene.body->surface;
     if (filter.makes(Data::rig)) {
-        body.GetPointData()->RemoveArray(k_own_position);  // of an earlier dressing
+        body.GetPointData()->RemoveArray(k_input_position);  // of an earlier dressing
         put(body, arrays_of(*known.scene.rig, known.body_frame));
     } else {
-        restore_points(body, k_own_position);
+        restore_points(body, k_input_position);
     }
     if (filter.makes(Data::fits))
         put(body, arrays_of_fits(known.scene));
     if (now.body != own.positions)
-        move_points(body, k_own_position, now.body, own.triangles, known.body_frame);
+        move_points(body, k_input_position, now.body, own.triangles, known.body_frame);
     if (const Dressing* dressing = final_dressing(known.scene))
         put(body, arrays_of(*dressing, now.pose, known.garment_names, known.body_frame));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// From a scene to a pipeline's outputs, which are shallow copies of the inputs: what stays as it was is not copied.
+// From a scene to a pipeline's outputs. They are shallow copies of the inputs: unchanged data are not copied.
 
 #ifndef scene_output_h
 #define scene_output_h

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkDrapeGarment
- * @brief   puts the posed body into the garment without letting cloth and body cross
+ * @brief   drapes the garment on the posed body; cloth and body never cross
  *
- * Inputs: the body of vtkFitSkeleton and the garments it was fitted to. Outputs 0 and 1 are body and garments in the pose of the
- * last garment.
+ * Inputs: the body of vtkFitSkeleton and the garments it was fitted to. Outputs 0 and 1 are body and garments in the
+ * pose of the last garment.
  *
  * @sa vtkFitFilter for ports, arrays and errors
  */
@@ -21,7 +21,7 @@ public:
     /// Parameters of the cloth and of draping.
     vtkFitDrapeParametersMacro();
 
-    /// How garments already worn move on to the pose of the next one; of that way no frames are handed out.
+    /// Parameters of the motion of worn garments to the pose of the next one. It has no frames.
     vtkFitRecoveryParametersMacro();
 
 protected:

@@ -4,7 +4,7 @@
  * @brief   dresses a body in garments made for somebody else: rig, fit, drape, recover
  *
  * Inputs: the body and the garments as given. A changed parameter or garment repeats only the steps that depend on it.
- * With SetFrames(n) it offers time steps as vtkRecoverPose does.
+ * SetFrames(n) adds time steps, as in vtkRecoverPose.
  *
  * @sa vtkFitFilter for ports, arrays and errors
  */
@@ -24,7 +24,7 @@ public:
     /// Units and axes of the body.
     vtkFitBodyChoicesMacro();
 
-    /// Joints that are known.
+    /// Known joints.
     vtkFitJointsMacro();
 
     /// Parameters of the fit.
@@ -36,7 +36,7 @@ public:
     /// Parameters of the cloth and of draping.
     vtkFitDrapeParametersMacro();
 
-    /// Parameters of the way back.
+    /// Parameters of the return to the input pose.
     vtkFitRecoveryParametersMacro();
     vtkFitFramesParameterMacro();
 

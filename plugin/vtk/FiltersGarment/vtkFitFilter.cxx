@@ -24,7 +24,7 @@ namespace {
 
 using garmentfit::Data;
 
-/// A copy of a composite's structure with shallow copies of its leaves, which are returned in order.
+/// Copies a composite's structure with shallow copies of its leaves, and returns the leaves in order.
 std::vector<vtkPolyData*> copy_leaves(vtkDataObject& from, vtkDataObject& to)
 {
     if (vtkPolyData* one = vtkPolyData::SafeDownCast(&to)) {
@@ -56,19 +56,19 @@ bool is_surface_or_several(vtkDataObject* data)
     return data && (data->IsA("vtkPolyData") || data->IsA("vtkCompositeDataSet"));
 }
 
-/// Whether a filter before this one was told to stop.
-bool is_stopped_before(vtkAlgorithm& filter)
+/// Whether a filter upstream was aborted.
+bool is_aborted_upstream(vtkAlgorithm& filter)
 {
     for (int port = 0; port < filter.GetNumberOfInputPorts(); ++port) {
         vtkAlgorithm* before
             = filter.GetNumberOfInputConnections(port) > 0 ? filter.GetInputAlgorithm(port, 0) : nullptr;
-        if (before && (before->GetAbortExecute() || is_stopped_before(*before)))
+        if (before && (before->GetAbortExecute() || is_aborted_upstream(*before)))
             return true;
     }
     return false;
 }
 
-double time_asked(vtkInformation* request, vtkInformationVector* outputs)
+double requested_time(vtkInformation* request, vtkInformationVector* outputs)
 {
     int port = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
     vtkInformation* info = outputs->GetInformationObject(std::max(port, 0));
@@ -78,7 +78,8 @@ double time_asked(vtkInformation* request, vtkInformationVector* outputs)
 
 }  // namespace
 
-vtkFitFilter::vtkFitFilter(const char* name) : State(std::make_unique<garmentfit::FilterState>(garmentfit::filter_of(name)))
+vtkFitFilter::vtkFitFilter(const char* name) :
+    State(std::make_unique<garmentfit::FilterState>(garmentfit::filter_of(name)))
 {
     const bool dresses = this->State->filter.reads(Data::garments);
     this->SetNumberOfInputPorts(dresses ? 2 : 1);
@@ -87,7 +88,8 @@ vtkFitFilter::vtkFitFilter(const char* name) : State(std::make_unique<garmentfit
 
 vtkFitFilter::~vtkFitFilter() = default;
 
-// ---- parameters ------------------------------------------------------------------------------------------------------
+// ---- parameters
+// ------------------------------------------------------------------------------------------------------
 
 void vtkFitFilter::SetNumber(const char* name, double number)
 {
@@ -100,9 +102,15 @@ double vtkFitFilter::GetNumber(const char* name)
     return garmentfit::number_of(this->State->filter, this->State->parameters, name);
 }
 
-double vtkFitFilter::GetSmallest(const char* name) { return garmentfit::range_of_number(this->State->filter, name).first; }
+double vtkFitFilter::GetSmallest(const char* name)
+{
+    return garmentfit::range_of_number(this->State->filter, name).first;
+}
 
-double vtkFitFilter::GetLargest(const char* name) { return garmentfit::range_of_number(this->State->filter, name).second; }
+double vtkFitFilter::GetLargest(const char* name)
+{
+    return garmentfit::range_of_number(this->State->filter, name).second;
+}
 
 void vtkFitFilter::SetParameter(const char* name, const char* text)
 {
@@ -123,7 +131,10 @@ std::string vtkFitFilter::GetParameter(const char* name)
     return garmentfit::text_of(this->State->filter, this->State->parameters, name);
 }
 
-int vtkFitFilter::GetNumberOfParameters() { return static_cast<int>(garmentfit::parameter_names(this->State->filter).size()); }
+int vtkFitFilter::GetNumberOfParameters()
+{
+    return static_cast<int>(garmentfit::parameter_names(this->State->filter).size());
+}
 
 std::string vtkFitFilter::GetParameterName(int index)
 {
@@ -162,23 +173,25 @@ void vtkFitFilter::ForgetJoints()
 void vtkFitFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
     this->Superclass::PrintSelf(os, indent);
-    garmentfit::describe(this->State->filter, this->State->parameters, [&](const auto& value, const garmentfit::About& about) {
-        os << indent << about.label << ": " << garmentfit::text_of(value, about) << (about.unit.empty() ? "" : " ")
-           << about.unit << "\n";
-    });
+    garmentfit::describe(this->State->filter, this->State->parameters,
+                         [&](const auto& value, const garmentfit::About& about) {
+                             os << indent << about.label << ": " << garmentfit::text_of(value, about)
+                                << (about.unit.empty() ? "" : " ") << about.unit << "\n";
+                         });
     for (const auto& [what, value] : this->State->hints.choices)
         os << indent << what << ": " << value << "\n";
     for (const auto& [name, place] : this->State->hints.joints)
         os << indent << "Joint " << name << ": " << place.transpose() << "\n";
 }
 
-// ---- the pipeline ----------------------------------------------------------------------------------------------------
+// ---- the pipeline
+// ----------------------------------------------------------------------------------------------------
 
 int vtkFitFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
     if (port == 0)
         return this->Superclass::FillInputPortInformation(port, info);
-    // the composite first: the executive asks the first type only whether it should hand over one block after another
+    // the composite first: the executive iterates over blocks unless the first type accepts composites
     info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
     info->Append(INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
     return 1;
@@ -217,16 +230,15 @@ int vtkFitFilter::RequestDataObject(vtkInformationVector** inputs, vtkInformatio
         info->Set(vtkDataObject::DATA_OBJECT(), output);
     }
     for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-        if (!is_surface_or_several(
-                vtkDataObject::GetData(inputs[port]))) {  // the executive says so and goes no further
+        if (!is_surface_or_several(vtkDataObject::GetData(inputs[port]))) {  // the executive reports this and stops
             empty(*outputs);
             this->SetErrorCode(InvalidInput);
         }
     return 1;
 }
 
-/// The times of the way back are this filter's own: a file with a time of its own would be read again, and all of it be
-/// computed again, for each of them.
+/// Time steps on the pose path belong to this filter. Passed upstream, each would make a reader with time steps read
+/// again, and this filter compute again.
 void vtkFitFilter::KeepTime(vtkInformationVector** inputs)
 {
     for (int port = 0; this->State->frames() > 0 && port < this->GetNumberOfInputPorts(); ++port)
@@ -279,7 +291,7 @@ void vtkFitFilter::Write(vtkPolyData* body, vtkDataObject* garments, vtkInformat
 {
     const garmentfit::Filter& filter = this->State->filter;
     const garmentfit::KnownScene& known = this->State->known();
-    const garmentfit::Snapshot now = this->State->moment(time);
+    const garmentfit::Snapshot now = this->State->snapshot(time);
     vtkPolyData* dressed = vtkPolyData::GetData(outputs, 0);
     dressed->ShallowCopy(body);
     garmentfit::write_body(*dressed, filter, known, now);
@@ -295,13 +307,13 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
     this->SetErrorCode(vtkErrorCode::NoError);
     vtkPolyData* body = vtkPolyData::GetData(inputs[0]);
     vtkDataObject* garments = this->GetNumberOfInputPorts() > 1 ? vtkDataObject::GetData(inputs[1]) : nullptr;
-    if (body->GetNumberOfPoints() == 0 && is_stopped_before(*this))
+    if (body->GetNumberOfPoints() == 0 && is_aborted_upstream(*this))
         return this->Refuse(outputs, vtkErrorCode::NoError, "");
     try {
         this->State->update(*body, garments, garmentfit::Progress([this](double fraction, std::string_view stage) {
             return this->GoesOn(fraction, std::string(stage));
         }));
-        this->Write(body, garments, outputs, time_asked(request, outputs));
+        this->Write(body, garments, outputs, requested_time(request, outputs));
         for (const std::string& warning : this->State->warnings())
             vtkWarningMacro(<< warning);
         return 1;

@@ -3,37 +3,42 @@
  * @class   vtkFitFilter
  * @brief   what the five filters that dress bodies have in common
  *
- * A filter reads a body (port 0, vtkPolyData) and, all but vtkRigBody, the garments (port 1): one as vtkPolyData, or several
- * from the inside out as a composite of vtkPolyData, such as vtkMultiBlockDataGroupFilter makes. What it found travels on as
- * arrays of its outputs, so that filters can be chained, and files written in between:
+ * A filter reads a body (port 0, vtkPolyData) and, except vtkRigBody, the garments (port 1): one as vtkPolyData, or
+ * several as a composite of vtkPolyData, innermost first, such as vtkMultiBlockDataGroupFilter makes. Results are
+ * arrays of the outputs, so that filters can be chained, and files written in between:
  *
  * port 0, the body
- * - point data `JointIndices`, `JointWeights` (4 components each): bones and how much the skin hangs on each
- * - point data `OwnPosition`: the points as given, where they were moved
- * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `FitLayers`, `DressedPose`: in metres with +y up;
- *   `BodyFrame`: metres per unit, and the up axis, of the body as given
- * - field data where several garments were fitted: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle` (degrees)
- * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest vertex; NaN
- *   where the garment is too small to be put on, and never settled),
- *   `HeldBackPart`, `HeldBackDistance`, `OverlapPart`, `OverlapOther`, `OverlapDepth`; `Note`: one line where it is not
- *   certified; `Warnings`: what else to know before believing the result, one line each
+ * - point data `JointIndices`, `JointWeights` (4 components each): skin weights, the bones of a vertex and their
+ *   weights
+ * - point data `InputPosition`: the points of the input, where they were moved
+ * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `FitLayers`, `DressedPose`: in metres
+ *   with +y up; `BodyFrame`: metres per unit and the up axis of the input
+ * - field data after a fit of several garments: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle`
+ *   (degrees)
+ * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest
+ *   vertex; NaN where the garment is too small and was never settled), `HeldBackPart`, `HeldBackDistance`,
+ *   `OverlapPart`, `OverlapOther`, `OverlapDepth`; `Note`: one line where it is not certified; `Warnings`: what limits
+ *   the trust in the result, one line each
  *
- * port 1, the garments, of the type of the input (not of vtkRigBody)
- * - point data `RestPosition`: as given; `Ease`: gap to the skin; `Strain`: mean stretch of the edges; `Pressure`: Pa
+ * port 1, the garments, of the data type of the input (not of vtkRigBody)
+ * - point data `RestPosition`: the points of the input; `Ease`: gap to the skin; `Strain`: mean stretch of the edges;
+ *   `Pressure`: Pa
  * - field data `FoundType`, `FoundTypeMargin`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
  *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentGap`, `StrainMedian`, `StrainP95`, `StrainMax`,
- *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`, `GirthBody`,
- *   `GirthGarment`
- * - a field data string `GarmentType` of an input is taken as its type
+ *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`,
+ *   `GirthBody`, `GirthGarment`
+ * - a string `GarmentType` in the field data of an input sets the garment's type
  *
- * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell data).
+ * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell
+ * data).
  *
- * Lengths are in the body's units. Cells and all other arrays are passed through without a copy; points that move are new, and
- * point normals are computed anew for them. Polygons are cut into fans as they are read; lines and vertices are let be.
+ * Lengths are in the body's unit. Cells and all other arrays are passed through without a copy. Points that move are
+ * new, and their point normals are computed anew. Polygons are read as fans of triangles; lines and vertices are
+ * ignored.
  *
- * Bad input raises an ErrorEvent with one line, the error code, and leaves the outputs empty. After AbortExecute outputs are
- * empty too; call Modified() and Update() to run again. A garment that is too small is no error but a result: a warning is given, `Certified` is 0
- * and `Note` says why. What stands in `Warnings` is given as warnings, too.
+ * Bad input raises an ErrorEvent with one line, sets the error code, and empties the outputs. AbortExecute empties
+ * them, too; call Modified() and Update() to run again. A garment that is too small is a result and not an error: a
+ * warning is raised, `Certified` is 0 and `Note` says why. The lines of `Warnings` are raised as warnings, too.
  *
  * @sa vtkRigBody vtkFitSkeleton vtkDrapeGarment vtkRecoverPose vtkDressBody
  */
@@ -59,8 +64,8 @@ public:
 
     /// What GetErrorCode() says after an error.
     enum ErrorCodes {
-        InvalidInput = vtkErrorCode::UserError,  ///< something given is wrong; the message says what to do
-        SolverFailure  ///< no answer was found
+        InvalidInput = vtkErrorCode::UserError,  ///< an input or a parameter is wrong; the message says what to do
+        SolverFailure  ///< no solution was found
     };
 
     ///@{
@@ -81,7 +86,7 @@ public:
     ///@}
 
     /**
-   * Which port has the skeleton: 1 of vtkRigBody, 2 of the others.
+   * The port of the skeleton: 1 of vtkRigBody, 2 of the others.
    */
     int GetSkeletonPort();
 

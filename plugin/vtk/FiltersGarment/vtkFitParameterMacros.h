@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
- * Set and Get of every parameter of filters/schema.h. A value out of its range is moved to the nearer end, as by
- * vtkSetClampMacro; range, unit, default and meaning stand in the schema only (vtkFitFilter::GetParameterHelp). A test fails
- * when the schema has a parameter that is missing here.
+ * Set and Get of every parameter of garmentfit/filters/schema.h. A value out of its range is moved to the nearer end,
+ * as by vtkSetClampMacro. Range, unit, default and meaning are in the schema only (vtkFitFilter::GetParameterHelp). A
+ * test fails when the schema has a parameter that is missing here.
  */
 #ifndef vtkFitParameterMacros_h
 #define vtkFitParameterMacros_h
@@ -60,8 +60,8 @@
 
 #define vtkFitFramesParameterMacro() vtkFitNumberMacro(Frames, int, frames)
 
-/// What a filter that reads bodies as they came wants to know of them: "auto", or "m", "dm", "cm", "mm", "in", "ft" for the
-/// unit, "+x" to "-z" for the axes up and (where the chest faces) front.
+/// Unit and axes of a body: "auto", or "m", "dm", "cm", "mm", "in", "ft" for the unit, "+x" to "-z" for the axes up and
+/// front (where the chest faces).
 #define vtkFitBodyChoicesMacro()                                                                                       \
     virtual void SetUnit(const char* unit) { this->SetChoice("Unit", unit); }                                          \
     virtual const char* GetUnit() { return this->GetChoice("Unit"); }                                                  \
@@ -77,7 +77,7 @@
     virtual void SetGarmentUp(const char* axis) { this->SetChoice("GarmentUp", axis); }                                \
     virtual const char* GetGarmentUp() { return this->GetChoice("GarmentUp"); }
 
-/// Joints that the user knows better ("lelbow", ...; docs/rig.md has the names), in the body's units and axes.
+/// Joints set by the user ("lelbow", ...; docs/rig.md has the names), in the body's units and axes.
 #define vtkFitJointsMacro()                                                                                            \
     virtual void SetJoint(const char* name, double x, double y, double z) { this->PutJoint(name, x, y, z); }           \
     virtual void RemoveAllJoints() { this->ForgetJoints(); }

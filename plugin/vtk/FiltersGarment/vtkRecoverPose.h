@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkRecoverPose
- * @brief   brings a dressed body back to its own pose, the garments along
+ * @brief   moves a dressed body and its garments back to the input pose of the body
  *
- * Inputs: body and garments of vtkDrapeGarment. Output 0 has the points that the body was given with, the very same array.
+ * Inputs: body and garments of vtkDrapeGarment. Output 0 has the array of points that the body was given with.
  *
- * With SetFrames(n) the filter offers n time steps from 0, the pose fitted, to 1, the body's own pose, so that the way can be
- * scrubbed and written as a series. All of them are computed at once and kept; another time computes nothing again.
+ * With SetFrames(n) the filter offers n time steps on the pose path from 0, the fitted pose, to 1, the input pose. All
+ * of them are computed at once and kept; another time step computes nothing.
  *
  * @sa vtkFitFilter for ports, arrays and errors
  */
@@ -23,7 +23,7 @@ public:
     /// Parameters of the cloth.
     vtkFitClothParametersMacro();
 
-    /// Parameters of the way back.
+    /// Parameters of the return to the input pose.
     vtkFitRecoveryParametersMacro();
     vtkFitFramesParameterMacro();
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkRigBody
- * @brief   finds the skeleton of a body and how the skin hangs on it
+ * @brief   finds the skeleton and the skin weights of a body
  *
- * Input: a body, closed or not; port 1 gives the skeleton.
+ * Input: a body, closed or not. Output 1 is the skeleton.
  *
  * @sa vtkFitFilter for ports, arrays and errors
  */
@@ -23,7 +23,7 @@ public:
     /// Units and axes of the body.
     vtkFitBodyChoicesMacro();
 
-    /// Joints that are known.
+    /// Known joints.
     vtkFitJointsMacro();
 
 protected:

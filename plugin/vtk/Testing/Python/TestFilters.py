@@ -135,7 +135,7 @@ class Files(unittest.TestCase):
     def test_points_that_move_are_double_and_those_given_are_kept(self):
         body = self.fit.GetOutputDataObject(0)
         self.assertEqual(body.GetPoints().GetDataType(), VTK_DOUBLE)
-        own = body.GetPointData().GetArray("OwnPosition")
+        own = body.GetPointData().GetArray("InputPosition")
         given = self.body.GetOutput().GetPoints().GetData()
         self.assertTrue(all(own.GetTuple(i) == given.GetTuple(i) for i in range(given.GetNumberOfTuples())))
         self.assertFalse(self.fit.GetOutputInformation(0).Has(pipeline.TIME_STEPS()))
