@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dresses bodies in garments with PyMeshLab, saves what came of it and draws the ease.
+"""Dresses bodies in garments with PyMeshLab, saves the results and draws the ease.
 
     dress_in_python.py PLUGIN -o FOLDER --bodies woman.ply man.ply --garments tshirt.ply trousers.ply skirt.ply
 """
@@ -20,7 +20,7 @@ WIDEST_SHARE = 0.03  # of the body's height: ease from here on is shown in the l
 
 
 class Dressed:
-    """One garment on one body, or the reason why it is not on."""
+    """One garment on one body, or the reason why it was not dressed."""
 
     def __init__(self, body, garment):
         self.meshes = pymeshlab.MeshSet()  # kept: PyMeshLab must not destroy a MeshSet in which a filter has failed
@@ -47,7 +47,9 @@ class Dressed:
         return self.garment.vertex_custom_scalar_attribute_array("ease")
 
     def in_words(self):
-        return self.failure or f"ease {numpy.median(self.ease):.3f} (median), {numpy.quantile(self.ease, 0.95):.3f} (95%)"
+        if self.failure:
+            return self.failure
+        return f"ease {numpy.median(self.ease):.3f} (median), {numpy.quantile(self.ease, 0.95):.3f} (95%)"
 
 
 def corners(mesh):
@@ -64,7 +66,7 @@ def shaded(triangles, rgb):
 def draw(axes, dressed, scale):
     """The body and what it wears, from the front: +y up, facing +z."""
     triangles, rgb = corners(dressed.body), [(0.75, 0.75, 0.75)] * dressed.body.face_number()
-    depth = triangles[:, :, 2].min(axis=1)  # cloth lies closer to the skin than faces are wide: of the two it is in front
+    depth = triangles[:, :, 2].min(axis=1)  # cloth is nearer to the skin than faces are wide: draw it in front
     if not dressed.failure:
         ease = dressed.ease[dressed.garment.face_matrix()].mean(axis=1)
         garment = corners(dressed.garment)
@@ -72,9 +74,8 @@ def draw(axes, dressed, scale):
         depth = numpy.concatenate([depth, garment[:, :, 2].max(axis=1)])
         rgb = numpy.concatenate([rgb, scale.to_rgba(ease)[:, :3]])
     order = numpy.argsort(depth)  # far ones first
-    axes.add_collection(
-        collections.PolyCollection(triangles[order][:, :, :2], facecolors=shaded(triangles, rgb)[order], edgecolors="face")
-    )
+    facecolors = shaded(triangles, rgb)[order]
+    axes.add_collection(collections.PolyCollection(triangles[order][:, :, :2], facecolors=facecolors, edgecolors="face"))
     axes.autoscale()
     axes.set_aspect("equal")
     axes.axis("off")
@@ -90,9 +91,8 @@ def draw_all(results, path):
     garments = list(dict.fromkeys(garment for _, garment in results))
     widest = WIDEST_SHARE * max(height(dressed.body) for dressed in results.values())
     scale = cm.ScalarMappable(colors.Normalize(0, widest), "turbo_r")
-    figure, grid = pyplot.subplots(
-        len(bodies), len(garments), figsize=(3 * len(garments) + 1, 4 * len(bodies)), squeeze=False, layout="constrained"
-    )
+    size = (3 * len(garments) + 1, 4 * len(bodies))
+    figure, grid = pyplot.subplots(len(bodies), len(garments), figsize=size, squeeze=False, layout="constrained")
     for (body, garment), dressed in results.items():
         axes = grid[bodies.index(body), garments.index(garment)]
         draw(axes, dressed, scale)
@@ -102,7 +102,7 @@ def draw_all(results, path):
 
 
 def main():
-    """Returns 1 where a garment is not on."""
+    """Returns 1 where a garment was not dressed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("plugin", type=pathlib.Path)
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)

@@ -32,8 +32,9 @@ Enum read_number(const RichParameterList& list, const QString& name, std::size_t
 {
     const int number = list.getEnum(name);
     if (number < 0 || std::size_t(number) >= choices)
-        throw InvalidInput(name.toStdString() + ": " + std::to_string(number) + " is out of range; give 0.."
-                           + std::to_string(choices - 1));
+        throw InvalidInput(ErrorCode::out_of_range,
+                           name.toStdString() + ": " + std::to_string(number) + " is out of range; give 0.."
+                               + std::to_string(choices - 1));
     return Enum(number);
 }
 
@@ -77,7 +78,8 @@ MeshModel* read_layer(const RichParameterList& list, const QString& name, MeshDo
 {
     MeshModel* layer = chosen_layer(list, name, document);
     if (!layer)
-        throw InvalidInput(name.toStdString() + ": this layer does not exist; choose a layer of the document");
+        throw InvalidInput(ErrorCode::wrong_call,
+                           name.toStdString() + ": this layer does not exist; choose a layer of the document");
     return layer;
 }
 
@@ -91,14 +93,16 @@ void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& 
     for (int i = 0; i < 3; ++i) {
         MeshModel* garment = read_layer(list, k_garments[i], document);
         if (garment == choice.body)
-            throw InvalidInput(k_garments[i].toStdString() + ": " + name_of(*garment)
-                               + " is already chosen as the body; choose the garment's layer");
+            throw InvalidInput(ErrorCode::wrong_call,
+                               k_garments[i].toStdString() + ": " + name_of(*garment)
+                                   + " is already chosen as the body; choose the garment's layer");
         if (i > 0 && garment == choice.garments.front())
             continue;
         if (std::find(choice.garments.begin(), choice.garments.end(), garment) != choice.garments.end())
             throw InvalidInput(
+                ErrorCode::wrong_call,
                 k_garments[i].toStdString() + ": " + name_of(*garment)
-                + " is already chosen as another garment; choose the first garment again for no further one");
+                    + " is already chosen as another garment; choose the first garment again for no further one");
         choice.garments.push_back(garment);
         choice.types.push_back(entry.filter->has(Stage::fit)
                                    ? read_number<GarmentType>(list, k_types[i], garment_type_names().size())
@@ -124,7 +128,8 @@ std::filesystem::path read_file_name(const RichParameterList& list, const MenuEn
     const std::filesystem::path path
         = name.isEmpty() ? rig_file_beside(body) : std::filesystem::path(name.toStdString());
     if (path.empty())
-        throw InvalidInput("file: " + name_of(body) + " has no file yet; give a file name that ends in .rig.json");
+        throw InvalidInput(ErrorCode::wrong_call,
+                           "file: " + name_of(body) + " has no file yet; give a file name that ends in .rig.json");
     return path;
 }
 
@@ -133,7 +138,7 @@ std::filesystem::path read_file_name(const RichParameterList& list, const MenuEn
 Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDocument& document)
 {
     if (layers_of(document).empty())
-        throw InvalidInput("the document has no layer; open a body first");
+        throw InvalidInput(ErrorCode::missing_input, "the document has no layer; open a body first");
     Choice choice;
     choice.body = read_layer(list, k_body, document);
     if (entry.reads(Data::garments))

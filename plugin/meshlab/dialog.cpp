@@ -79,19 +79,33 @@ QString tip_of(const About& about, const std::string& range)
 
 QString label_of(const About& about)
 {
-    return text(about.label) + (about.unit.empty() || is_length(about) ? "" : ", " + text(about.unit));
+    return (about.group == Group::research ? "Research: " : "") + text(about.label)
+        + (about.unit.empty() || is_length(about) ? "" : ", " + text(about.unit));
 }
 
+/// Adds a field for each parameter of one group.
 class AddToDialog {
 public:
-    AddToDialog(RichParameterList& list, const Defaults& defaults) : list_(list), defaults_(defaults) { }
+    AddToDialog(RichParameterList& list, const Defaults& defaults, Group group) :
+        list_(list), defaults_(defaults), group_(group)
+    {
+    }
 
     template <class Value>
     void operator()(const Value& value, const About& about) const
     {
+        if (about.group == group_)
+            add(value, about);
+    }
+
+private:
+    template <class Value>
+    void add(const Value& value, const About& about) const
+    {
         const QString name = text(about.name), label = label_of(about), tip = tip_of(about, range_of<Value>(about));
         if constexpr (is_optional<Value>)
-            list_.addParam(RichString(name, QString::fromStdString(text_of(value, about)), label, tip));
+            list_.addParam(RichString(name, QString::fromStdString(text_of(value, about)), label,
+                                      tip + ", or \"" + text(about.otherwise) + "\""));
         else if constexpr (std::is_enum_v<Value>)
             list_.addParam(RichEnum(name, int(value), list_of(*about.choices), label, tip));
         else if constexpr (std::is_same_v<Value, bool>)
@@ -106,9 +120,9 @@ public:
             list_.addParam(RichFloat(name, Scalarm(value), label, tip));
     }
 
-private:
     RichParameterList& list_;
     const Defaults& defaults_;
+    Group group_;
 };
 
 void add_choice(RichParameterList& list, const QString& name, const std::vector<std::string_view>& choices,
@@ -194,8 +208,9 @@ RichParameterList dialog_for(const MenuEntry& entry, ShownDocument& document)
     add_file(list, entry, *defaults.layers[0]);
     add_frames(list, entry);
     const Parameters parameters;
-    describe_entry(entry, parameters, AddToDialog(list, defaults));
+    describe_entry(entry, parameters, AddToDialog(list, defaults, Group::everyday));
     add_shown(list, entry);
+    describe_entry(entry, parameters, AddToDialog(list, defaults, Group::research));
     return list;
 }
 

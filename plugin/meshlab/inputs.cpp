@@ -12,7 +12,7 @@ Fitting new_fitting(const Choice& choice, Report& report)
 {
     const TriangleMesh mesh = mesh_of(*choice.body);
     if (mesh.triangles.rows() == 0)
-        throw InvalidInput(name_of(*choice.body) + " has no faces; choose the layer of the body");
+        throw InvalidInput(ErrorCode::no_faces, name_of(*choice.body) + " has no faces; choose the layer of the body");
     Fitting fitting;
     fitting.body_name = name_of(*choice.body);
     with_name(*choice.body, [&] {
@@ -57,8 +57,9 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
     for (const MeshModel* garment : choice.garments)
         names.push_back(name_of(*garment));
     if (names != fitting.garment_names)
-        throw InvalidInput(fitting.body_name + " was not fitted into " + names.front()
-                           + "; run Garment Fitting: Fit Skeleton with the same garments first");
+        throw InvalidInput(ErrorCode::missing_input,
+                           fitting.body_name + " was not fitted into " + names.front()
+                               + "; run Garment Fitting: Fit Skeleton with the same garments first");
     for (std::size_t i = 0; i < choice.garments.size(); ++i) {
         const TriangleMesh mesh = mesh_of(*choice.garments[i]);
         fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
@@ -86,8 +87,10 @@ Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDo
     const std::filesystem::path file = rig_file_beside(*choice.body);
     if (!file.empty() && std::filesystem::exists(file))
         return fitting_from_file(file, name_of(*choice.body), body);
-    throw InvalidInput(name_of(*choice.body)
-                       + " has no rig, or was changed after rigging; run Garment Fitting: Rig Body or Load Rig first");
+    throw InvalidInput(
+        ErrorCode::missing_input,
+        name_of(*choice.body)
+            + " has no rig, or was changed after rigging; run Garment Fitting: Rig Body or Load Rig first");
 }
 
 }  // namespace
@@ -102,9 +105,11 @@ Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocume
     else if (fitting.scene.garments.empty())
         put_on_fitted_garments(fitting, choice);
     else if (!fitting.is_of_garments(meshes_of(choice.garments)))
-        throw InvalidInput(fitting.body_name + " was not fitted into " + name_of(*choice.garments.front())
-                           + ", or the garment was changed after fitting; run Garment Fitting: Fit Skeleton with the "
-                             "same garments first");
+        throw InvalidInput(
+            ErrorCode::missing_input,
+            fitting.body_name + " was not fitted into " + name_of(*choice.garments.front())
+                + ", or the garment was changed after fitting; run Garment Fitting: Fit Skeleton with the "
+                  "same garments first");
     return fitting;
 }
 

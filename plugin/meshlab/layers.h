@@ -29,7 +29,7 @@ auto with_name(const MeshModel& layer, const Make& make)
     try {
         return make();
     } catch (const InvalidInput& error) {
-        throw InvalidInput(name_of(layer) + ": " + error.what());
+        throw InvalidInput(error.code(), name_of(layer) + ": " + error.what());
     }
 }
 

@@ -78,9 +78,10 @@ WornGarment worn_garment(const Choice& choice, const Fitting& fitting, const Tri
     const MeshModel& given = *choice.garments.front();
     const TriangleMesh rest = mesh_of(given), worn = mesh_of(*choice.worn);
     if (rest.positions.rows() != worn.positions.rows() || rest.triangles != worn.triangles)
-        throw InvalidInput(name_of(*choice.worn) + " has " + std::to_string(worn.positions.rows()) + " vertices, "
-                           + name_of(given) + " has " + std::to_string(rest.positions.rows())
-                           + "; choose the same garment as given and as worn");
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           name_of(*choice.worn) + " has " + std::to_string(worn.positions.rows()) + " vertices, "
+                               + name_of(given) + " has " + std::to_string(rest.positions.rows())
+                               + "; choose the same garment as given and as worn");
     const Frame rest_frame = garment_frame(rest.positions, rest.triangles, fitting.body_frame).frame;
     const GarmentMesh garment
         = with_name(given, [&] { return make_garment(rest_frame.to_metres(rest.positions), rest.triangles); });

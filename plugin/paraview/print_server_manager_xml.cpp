@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Prints what ParaView shows of the filters: menu entries, inputs and outputs, and a property for each parameter of the
-// schema.
+// Prints ParaView's description of the filters: menu entries, inputs and outputs, and a property for each parameter of
+// the schema.
 //   print_server_manager_xml FILE
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string escaped(std::string_view text)
     return made;
 }
 
-/// "contact_distance" -> "ContactDistance", as the setters are called.
+/// "contact_distance" -> "ContactDistance", the name of its setter.
 std::string in_camel_case(std::string_view name)
 {
     std::string made;
@@ -38,7 +38,7 @@ std::string in_camel_case(std::string_view name)
     return made;
 }
 
-/// "ContactDistance" -> "Contact Distance": ParaView's Python makes its names from labels, and gets the first one back.
+/// "ContactDistance" -> "Contact Distance": ParaView's Python makes the first from the second.
 std::string label_of(const std::string& name)
 {
     std::string made;
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// A number that may be left to something else: a text, as a number cannot be empty.
+    /// An optional number is a text, because a number cannot be empty.
     void print_text(const std::string& value, const std::string& range, const About& about)
     {
         const std::string name = in_camel_case(about.name);
@@ -128,7 +128,7 @@ void print_input(std::ostream& out, const char* name, int port, const char* help
         << "        <Documentation>" << help << "</Documentation>\n      </InputProperty>\n";
 }
 
-/// A text that the setter takes, out of a list.
+/// A text property with a list of values.
 void print_choice(std::ostream& out, const std::string& name, const std::string& help,
                   const std::vector<std::string_view>& values)
 {
@@ -146,7 +146,7 @@ void print_choices(std::ostream& out, const Filter& filter)
     if (filter.has(Stage::rig)) {
         print_choice(out, "Unit", "Unit of the body.", unit_choices());
         print_choice(out, "Up", "Up axis of the body.", axis_choices());
-        print_choice(out, "Front", "Where the chest faces.", axis_choices());
+        print_choice(out, "Front", "Axis that the chest faces.", axis_choices());
     }
     if (filter.has(Stage::fit)) {
         print_choice(out, "GarmentUnit", "Unit of the garments.", unit_choices());
@@ -171,9 +171,9 @@ void print_filter(std::ostream& out, const Filter& filter)
     out << "    <SourceProxy name=\"" << name << "\" class=\"vtk" << name << "\" label=\"" << filter.label << "\">\n"
         << "      <Documentation short_help=\"" << escaped(filter.help) << "\" long_help=\"" << escaped(filter.help)
         << "\">" << escaped(filter.help) << ".</Documentation>\n";
-    print_input(out, "Body", 0, "The body, as the filter before this one made it.", false);
+    print_input(out, "Body", 0, "The body; the output of the filter before, where this filter needs one.", false);
     if (dresses)
-        print_input(out, "Garments", 1, "One garment, or several grouped, from the inside out.", true);
+        print_input(out, "Garments", 1, "One garment, or several in a group, innermost first.", true);
     const Parameters defaults;
     describe(filter, defaults, PrintProperty(out));
     print_choices(out, filter);

@@ -62,6 +62,25 @@ int run_program(std::vector<std::string> words)
     return code;
 }
 
+/// The exception with the attribute `code`, the name of the ErrorCode.
+void bind_invalid_input(nb::module_& m)
+{
+    const nb::exception<InvalidInput> type(m, "InvalidInput", PyExc_ValueError);
+    type.attr("code") = std::string(name_of(ErrorCode::invalid_input));
+    nb::register_exception_translator(  // comes before the translator of nb::exception, which sets no code
+        [](const std::exception_ptr& thrown, void* payload) {
+            try {
+                std::rethrow_exception(thrown);
+            } catch (const InvalidInput& error) {
+                const nb::handle type(static_cast<PyObject*>(payload));
+                nb::object made = type(error.what());
+                made.attr("code") = std::string(name_of(error.code()));
+                PyErr_SetObject(type.ptr(), made.ptr());
+            }
+        },
+        type.ptr());
+}
+
 void bind_functions(nb::module_& m)
 {
     m.def("parameters_of", &parameters_of, "filter"_a,
@@ -140,7 +159,7 @@ NB_MODULE(_core, m)
     using namespace garmentfit::python;
     nb::set_leak_warnings(false);  // VTK's Python filters are reference cycles, which Python does not collect at exit
     m.attr("__version__") = GARMENTFIT_VERSION;
-    nb::exception<InvalidInput>(m, "InvalidInput", PyExc_ValueError);
+    bind_invalid_input(m);
     nb::exception<SolverFailure>(m, "SolverFailure", PyExc_RuntimeError);
     nb::exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);
     bind_functions(m);

@@ -41,7 +41,8 @@ Rows rows_from(const NumbersIn& array)
 Positions positions_from(const NumbersIn& array)
 {
     if (array.shape(1) != 3)
-        throw InvalidInput("positions have " + std::to_string(array.shape(1)) + " columns; give an array of n x 3");
+        throw InvalidInput(ErrorCode::wrong_call,
+                           "positions have " + std::to_string(array.shape(1)) + " columns; give an array of n x 3");
     return rows_from(array);
 }
 

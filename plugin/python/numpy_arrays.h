@@ -42,8 +42,8 @@ auto array_of(Matrix matrix)
 
 /// {"points": {name: array or list of texts}, "cells": ..., "field": ...}
 nb::dict dict_of(const MeshArrays& arrays);
-/// Finds arrays of float64 by a Python function: find(name) is an array or None. `find` may be None and must outlive the
-/// result.
+/// Finds arrays of float64 by a Python function: find(name) is an array or None. `find` may be None and must outlive
+/// the result.
 FindArray find_with(const nb::object& find);
 
 }  // namespace garmentfit::python

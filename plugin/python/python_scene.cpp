@@ -42,7 +42,8 @@ void set_parameter(const Filter& filter, Parameters& parameters, const std::stri
     std::string names;
     describe(filter, parameters,
              [&](const auto&, const About& about) { names += (names.empty() ? "" : ", ") + std::string(about.name); });
-    throw InvalidInput(std::string(filter.name) + " has no parameter called \"" + name + "\"; there are " + names);
+    throw InvalidInput(ErrorCode::unknown_name,
+                       std::string(filter.name) + " has no parameter called \"" + name + "\"; there are " + names);
 }
 
 Parameters parameters_from(const Filter& filter, const nb::dict& given)
@@ -87,7 +88,8 @@ std::string type_of(const About& about)
 Positions as_positions(const std::vector<double>& place, const std::string& joint)
 {
     if (place.size() != 3)
-        throw InvalidInput("joint " + joint + " has " + std::to_string(place.size()) + " coordinates; give x, y, z");
+        throw InvalidInput(ErrorCode::wrong_call,
+                           "joint " + joint + " has " + std::to_string(place.size()) + " coordinates; give x, y, z");
     return Eigen::Map<const Positions>(place.data(), 1, 3);
 }
 
@@ -117,7 +119,7 @@ Progress progress_to(const nb::object& progress)
 const Rig& PythonScene::rig() const
 {
     if (!scene.rig)
-        throw InvalidInput("the body has no rig; run rig_body first");
+        throw InvalidInput(ErrorCode::missing_input, "the body has no rig; run rig_body first");
     return *scene.rig;
 }
 
@@ -125,7 +127,7 @@ const Dressing& PythonScene::dressing() const
 {
     if (const Dressing* end = final_dressing(scene))
         return *end;
-    throw InvalidInput("no garment is draped; run drape_garment first");
+    throw InvalidInput(ErrorCode::missing_input, "no garment is draped; run drape_garment first");
 }
 
 PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,

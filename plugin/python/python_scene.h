@@ -44,7 +44,8 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
 void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);
 
-/// Runs a filter of the table on a copy. Other Python threads run meanwhile; progress(fraction, stage) returns False to stop.
+/// Runs a filter of the table on a copy. Other Python threads run meanwhile; progress(fraction, stage) returns False to
+/// stop.
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress);
 
 /// [(name, default, type, range, help), ...] of a filter.

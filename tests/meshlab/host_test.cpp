@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The plugin in MeshLab 2020.09's own PluginManager, without windows.
+// The plugin in MeshLab 2020.09's PluginManager, without windows.
 
 #include <array>
 #include <chrono>
@@ -128,14 +128,14 @@ const std::vector<std::string> k_filters {
 
 class MeshLab : public fixtures::TemporaryFolder {
 protected:
-    /// A body and a skirt, as MeshLab opens them.
+    /// Opens a body and a skirt as MeshLab does.
     void open_samples()
     {
         meshlab::open_layer(document, k_body);
         meshlab::open_layer(document, k_skirt);
     }
 
-    /// A failed filter says why and leaves everything as it was.
+    /// A filter that fails says why and changes nothing.
     void expect_refusal(const std::string& name, const RichParameterList& list, const std::string& words)
     {
         const std::vector<std::string> names = names_of(document), states = states_of(document);
@@ -177,7 +177,7 @@ TEST_F(MeshLab, ShowsEveryParameterOfTheSchemaWithLabelAndTip)
     }
 }
 
-TEST_F(MeshLab, AsksNothingOfAnEmptyDocumentAndRefusesToRun)
+TEST_F(MeshLab, HasNoFieldsForAnEmptyDocumentAndRefusesToRun)
 {
     for (const std::string& name : k_filters) {
         const RichParameterList list = dialog_of(name, document);
@@ -203,7 +203,7 @@ TEST_F(MeshLab, RigsABodyIntoTwoNewLayersAndTouchesNoOther)
     EXPECT_EQ(document.meshList[3]->cm.en, bone_count + extremity_count);
 }
 
-TEST_F(MeshLab, FindsTheVeryRigThatTheLibraryFinds)
+TEST_F(MeshLab, FindsTheSameRigAsTheLibrary)
 {
     open_samples();
     ASSERT_TRUE(run("Rig Body", document).well);
@@ -239,7 +239,7 @@ TEST_F(MeshLab, ShowsTheWeightOfTheChosenBoneAsQuality)
     EXPECT_GT(most, 0.9F);
 }
 
-/// Body and skirt with a matrix, or moved themselves; rigged and fitted.
+/// Rigs and fits body and skirt with a layer matrix, or with moved vertices.
 void fit_moved(MeshDocument& document, const Matrix44m& matrix, bool by_layer)
 {
     for (const fs::path& file : { k_body, k_skirt }) {
@@ -254,11 +254,11 @@ void fit_moved(MeshDocument& document, const Matrix44m& matrix, bool by_layer)
     ASSERT_TRUE(run("Fit Skeleton", document).well);
 }
 
-TEST_F(MeshLab, TakesTheLayersMatrixForWhatIsSeen)
+TEST_F(MeshLab, AppliesTheLayersMatrix)
 {
     const Matrix44m z_up = Matrix44m(std::array<float, 16> { 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1 }.data()),
                     aside = Matrix44m(std::array<float, 16> { 0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1 }.data()),
-                    millimetres = Matrix44m().SetScale(1024, 1024, 1024);  // nearly; a power of two rounds no number
+                    millimetres = Matrix44m().SetScale(1024, 1024, 1024);  // a power of two near 1000 rounds no number
     for (const Matrix44m& matrix : { z_up, aside, millimetres, millimetres * z_up * aside }) {
         MeshDocument by_layer, by_mesh;
         fit_moved(by_layer, matrix, true);
@@ -303,7 +303,7 @@ TEST_F(MeshLab, SkipsDeletedVerticesAndKeepsThem)
     EXPECT_TRUE(body.cm.vert.back().IsD());
 }
 
-TEST_F(MeshLab, GivesLengthsInTheBodysOwnUnit)
+TEST_F(MeshLab, ShowsLengthsInTheBodysUnit)
 {
     TriangleMesh mesh = body_mesh();
     mesh.positions *= 100;
@@ -313,7 +313,7 @@ TEST_F(MeshLab, GivesLengthsInTheBodysOwnUnit)
     EXPECT_NEAR(list.getAbsPerc("contact_distance"), 100 * ClothOptions().contact_distance, 1e-6);
 }
 
-TEST_F(MeshLab, RefusesWhatIsNoBody)
+TEST_F(MeshLab, RefusesLayersThatAreNoBody)
 {
     const Positions corners = (Positions(4, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1).finished();
     const Triangles faces = (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2).finished();
@@ -351,7 +351,7 @@ TEST_F(MeshLab, RefusesParametersOutOfRange)
     expect_refusal("Rig Body", list, "proxy_vertices: 7 is out of range");
 }
 
-TEST_F(MeshLab, RefusesChoicesThatAreNone)
+TEST_F(MeshLab, RefusesInvalidChoices)
 {
     open_samples();
     using Field = std::pair<std::string, std::string>;
@@ -382,7 +382,7 @@ TEST_F(MeshLab, ForgetsTheRigOfABodyThatWasChanged)
     expect_refusal("Fit Skeleton", dialog_of("Fit Skeleton", document), "was changed after rigging");
 }
 
-TEST_F(MeshLab, FindsTheRigAgainBesideTheBodysFile)
+TEST_F(MeshLab, FindsTheRigBesideTheBodysFile)
 {
     fs::copy(k_body, folder / "woman.ply");
     meshlab::open_layer(document, folder / "woman.ply");
@@ -455,7 +455,7 @@ TEST_F(MeshLab, RefusesAnotherBodysRig)
     EXPECT_NE(loaded_on_taller.message.find("belongs to another body"), std::string::npos) << loaded_on_taller.message;
 }
 
-TEST_F(MeshLab, StopsWhenToldToAndRunsAgainAfterwards)
+TEST_F(MeshLab, StopsOnRequestAndRunsAgainAfterwards)
 {
     open_samples();
     const Ended stopped
@@ -483,7 +483,7 @@ TEST_F(MeshLab, ReportsProgressTenTimesASecondAtMost)
     EXPECT_LE(reports, 1 + 10 * seconds.count());
 }
 
-/// Positions of the last layer and of a garment that the program garmentfit dressed.
+/// Compares a layer with a garment that the program garmentfit dressed.
 void expect_same_positions(const MeshModel& layer, const fs::path& file)
 {
     const Positions positions = MeshFile::read(file).positions();
@@ -539,7 +539,8 @@ TEST_F(SlowMeshLab, DressesABodyInInchesToTheNumbersOfTheCommandLine)
 
 TEST_F(SlowMeshLab, DressesTurnedAndScaledLayersToTheNumbersOfTheCommandLine)
 {
-    const Eigen::Matrix3d turned = (Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished() * 1024;  // z up, some mm
+    const Eigen::Matrix3d turned
+        = (Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished() * 1024;  // z up, about millimetres
     for (const fs::path& given : { k_small_body, k_skirt }) {
         const MeshFile file = MeshFile::read(given);
         file.write(folder / given.filename(), file.positions() * turned.transpose());
@@ -554,7 +555,7 @@ TEST_F(SlowMeshLab, DressesTurnedAndScaledLayersToTheNumbersOfTheCommandLine)
     expect_same_positions(*document.meshList.back(), folder / "dressed" / "skirt.ply");
 }
 
-TEST_F(SlowMeshLab, GoesTheSameWayStepByStep)
+TEST_F(SlowMeshLab, DressesStepByStep)
 {
     open_samples();
     for (const char* step : { "Rig Body", "Fit Skeleton", "Drape Garment", "Recover Pose" }) {
@@ -590,7 +591,7 @@ std::size_t resident_bytes()
 TEST_F(SlowMeshLab, KeepsMemoryLevelOverTwentyRuns)
 {
 #ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "the sanitizer keeps what is freed";
+    GTEST_SKIP() << "the sanitizer keeps freed memory";
 #endif
     meshlab::open_layer(document, k_small_body);
     meshlab::open_layer(document, k_skirt);
@@ -598,7 +599,7 @@ TEST_F(SlowMeshLab, KeepsMemoryLevelOverTwentyRuns)
         ASSERT_TRUE(run("Rig Body", document).well);
         ASSERT_TRUE(run("Fit Skeleton", document).well);
         while (document.size() > 2) {
-            document.meshList.back()->cm.ClearAttributes();  // MeshLab 2020.09 does not when it deletes a layer
+            document.meshList.back()->cm.ClearAttributes();  // MeshLab 2020.09 does not do so when it deletes a layer
             document.delMesh(document.meshList.back());
         }
     };
@@ -615,8 +616,7 @@ TEST_F(SlowMeshLab, KeepsMemoryLevelOverTwentyRuns)
 }  // namespace
 
 #ifdef __SANITIZE_ADDRESS__
-/// What MeshLab 2020.09 does not free, vertex attributes of a layer that it deletes, and Qt: its screen without a
-/// display.
+/// Known leaks: vertex attributes of deleted layers in MeshLab 2020.09, and Qt's screen without a display.
 extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions()
 {
     return "leak:AddPerVertexAttribute\nleak:libQt5\nleak:libqoffscreen\n";

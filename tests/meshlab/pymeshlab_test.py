@@ -16,7 +16,8 @@ import pymeshlab
 PLUGIN, SAMPLES, BODIES, PROGRAM = sys.argv[1:5]
 BODY, SKIRT = os.path.join(SAMPLES, "walking_woman.ply"), os.path.join(SAMPLES, "skirt.ply")
 SMALL_BODY = os.path.join(BODIES, "man_a_pose.ply")
-Percent = getattr(pymeshlab, "PercentageValue", getattr(pymeshlab, "Percentage", None))  # its name since 2023, and before
+# its name since 2023, and before
+Percent = getattr(pymeshlab, "PercentageValue", getattr(pymeshlab, "Percentage", None))
 
 
 # PyMeshLab corrupts memory when it destroys a MeshSet in which a filter has failed, also one of MeshLab's own.
@@ -47,7 +48,7 @@ class GarmentFitting(unittest.TestCase):
         pymeshlab.load_plugin(PLUGIN)
 
     def refusal(self, meshes, name, **parameters):
-        """Why a filter failed; it changed nothing."""
+        """Returns why a filter failed, and checks that it changed nothing."""
         KEPT.append(meshes)
         before, given = labels(meshes), [meshes.mesh(layer).vertex_matrix() for layer in range(len(meshes))]
         with self.assertRaises(pymeshlab.PyMeshLabException) as raised:
@@ -69,7 +70,7 @@ class GarmentFitting(unittest.TestCase):
         weights = [meshes.mesh(1).vertex_custom_scalar_attribute_array(f"weight{slot}") for slot in range(4)]
         numpy.testing.assert_allclose(sum(weights), 1, atol=1e-12)
 
-    def test_hands_the_rig_on_in_the_document(self):
+    def test_keeps_the_rig_in_the_document(self):
         meshes = opened(BODY, SKIRT)
         self.assertIn("run Garment Fitting: Rig Body", self.refusal(meshes, "generate_garment_fitting_fit"))
         meshes.apply_filter("generate_garment_fitting_rig")
@@ -79,9 +80,10 @@ class GarmentFitting(unittest.TestCase):
     def test_says_what_is_wrong(self):
         self.assertIn("at least one mesh", self.refusal(opened(), "generate_garment_fitting_rig"))
         self.assertIn("out of range", self.refusal(opened(BODY), "generate_garment_fitting_rig", proxy_vertices=3))
-        self.assertIn("is already chosen as the body", self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=0))
+        words = self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=0)
+        self.assertIn("is already chosen as the body", words)
         self.assertIn("give a human body", self.refusal(opened(SKIRT), "generate_garment_fitting_rig"))
-        self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=7)  # in words of PyMeshLab's own
+        self.refusal(opened(BODY, SKIRT), "generate_garment_fitting_dress", garment=7)  # with a message of PyMeshLab
 
     def test_says_where_a_garment_is_too_small(self):
         meshes = opened(SMALL_BODY, SKIRT)
@@ -90,7 +92,9 @@ class GarmentFitting(unittest.TestCase):
         centre = garment.vertex_matrix().mean(axis=0)
         narrow = centre + (garment.vertex_matrix() - centre) * [0.72, 1, 0.72]
         meshes.add_mesh(pymeshlab.Mesh(narrow, garment.face_matrix()), "narrow")
-        words = self.refusal(meshes, "generate_garment_fitting_dress", body=0, garment=2, second_garment=2, third_garment=2)
+        words = self.refusal(
+            meshes, "generate_garment_fitting_dress", body=0, garment=2, second_garment=2, third_garment=2
+        )
         self.assertIn("narrow is too small", words)
 
     def test_takes_lengths_as_a_share_of_the_bodys_box(self):
@@ -106,9 +110,9 @@ class GarmentFitting(unittest.TestCase):
         dressed = meshes.mesh(worn)
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "dress", SMALL_BODY, SKIRT, "--quiet", "-o", folder + "/out"], check=True)
-            by_program = opened(folder + "/out/skirt.ply")  # a file of floats
+            by_program = opened(folder + "/out/skirt.ply").current_mesh()  # a file of floats
             numpy.testing.assert_array_equal(
-                dressed.vertex_matrix().astype(numpy.float32), by_program.current_mesh().vertex_matrix().astype(numpy.float32)
+                dressed.vertex_matrix().astype(numpy.float32), by_program.vertex_matrix().astype(numpy.float32)
             )
         ease = dressed.vertex_custom_scalar_attribute_array("ease")
         numpy.testing.assert_allclose(dressed.vertex_scalar_array(), ease, atol=1e-6)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders how a body goes back to its own pose, the garment along: one picture for each time step, and one with four of them.
+"""Renders the return of a dressed body to its input pose: one picture for each time step, and one with four of them.
 
-    xvfb-run -a -s "-noreset -screen 0 1280x1024x24" pvbatch dressing_animation.py PLUGIN.so BODY.ply GARMENT.ply TYPE FOLDER
+    xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
+        pvbatch dressing_animation.py PLUGIN.so BODY.ply GARMENT.ply TYPE FOLDER
 """
 import os
 import sys
 
 import numpy as np
-from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and ours arrive here)
+from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and the plugin's)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loads the plugin into pvpython, dresses, goes through time, keeps that as a series, draws.
+"""Loads the plugin into pvpython, dresses a body, steps through time, writes a series, renders.
 
     pvpython TestPlugin.py PLUGIN.so BODY.ply SKIRT.ply FOLDER
 """
@@ -7,7 +7,7 @@ import os
 import sys
 
 from paraview import servermanager
-from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and ours arrive here)
+from paraview.simple import *  # noqa: F401,F403  (ParaView's filters and the plugin's)
 
 plugin, body_file, skirt_file, folder = sys.argv[1:5]
 LoadPlugin(plugin, ns=globals())
@@ -17,6 +17,7 @@ skirt = PLYReader(FileNames=[skirt_file])
 dress = DressBody(Body=body, Garments=skirt, Type="skirt", SettlingSteps=2, RecoverySettlingSteps=2, Frames=3)
 assert list(dress.TimestepValues) == [0, 0.5, 1], dress.TimestepValues
 assert dress.ContactDistance == 0.0025
+assert dress.Density == "of the fabric"
 
 dress.UpdatePipeline(1)
 dressed = servermanager.Fetch(dress, idx=1)

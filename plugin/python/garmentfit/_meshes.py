@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._errors import invalid_input
 
 Positions = npt.NDArray[np.float64]
 Triangles = npt.NDArray[np.int32]
@@ -38,7 +39,7 @@ class Mesh:
         elif Path(path).suffix.lower() == ".ply":
             _core.write_mesh(Path(path), moved, self.triangles)
         else:
-            raise _core.InvalidInput(f"{path}: a mesh made from arrays can be written as .ply only; give a name that ends in .ply")
+            raise invalid_input("wrong_call", f"{path}: a mesh made from arrays needs a name that ends in .ply")
 
 
 def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False) -> Mesh:
@@ -63,7 +64,7 @@ def as_mesh(given: MeshLike) -> Mesh:
         positions, triangles = given
     except (TypeError, ValueError, KeyError):
         kind = type(given).__name__
-        raise _core.InvalidInput(f"{kind} is no mesh; give a Mesh, or positions and triangles") from None
+        raise invalid_input("wrong_call", f"{kind} is no mesh; give a Mesh, or positions and triangles") from None
     return Mesh(positions, triangles)
 
 
@@ -71,14 +72,15 @@ def _numbers(values: npt.ArrayLike, what: str) -> Positions:
     """Copies only where the type is not float64."""
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise _core.InvalidInput(f"{what} are an array of shape {array.shape}; give n x 3")
+        raise invalid_input("wrong_call", f"{what} are an array of shape {array.shape}; give n x 3")
     return array
 
 
 def _indices(values: npt.ArrayLike) -> Triangles:
     array = np.asarray(values)
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":
-        raise _core.InvalidInput(f"triangles are {array.dtype} of shape {array.shape}; give integers, m x 3")
+        raise invalid_input("wrong_call", f"triangles are {array.dtype} of shape {array.shape}; give integers, m x 3")
     if array.size and (array.min() < 0 or array.max() > np.iinfo(np.int32).max):
-        raise _core.InvalidInput(f"triangles refer to vertices from {array.min()} to {array.max()}; count vertices from 0")
+        raise invalid_input("bad_index",
+                            f"triangles refer to vertices from {array.min()} to {array.max()}; count vertices from 0")
     return np.ascontiguousarray(array, dtype=np.int32)

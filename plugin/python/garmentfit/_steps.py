@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The five filters as functions. Arguments are never changed.
 
-Each function takes the parameters of its filter as keyword arguments. Their docstrings are generated from the schema, as the
-parameters of all other hosts are.
+Each function takes the parameters of its filter as keyword arguments. Their docstrings are generated from the schema.
 """
 from __future__ import annotations
 
@@ -13,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._errors import invalid_input
 from ._meshes import Mesh, MeshLike, Positions, Triangles, as_mesh
 from ._parameters import takes_parameters_of
 
@@ -219,7 +219,8 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
 
 def _scene_in(result: Any, maker: str) -> _core.Scene:
     if not isinstance(result, _Result):
-        raise _core.InvalidInput(f"{type(result).__name__} is no result of a step; give the result of {maker}")
+        raise invalid_input("missing_input",
+                            f"{type(result).__name__} is no result of a step; give the result of {maker}")
     return result._scene
 
 

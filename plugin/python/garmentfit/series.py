@@ -15,18 +15,18 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter
 
-from ._core import InvalidInput
+from ._errors import invalid_input
 
 
 def write_series(filter_: Any, path: Union[str, "os.PathLike[str]"]) -> List[Path]:
     """Writes all outputs at each of the filter's time steps as NAME_0000.vtm, ... beside NAME.pvd, which lists them.
 
-    Works with any vtkAlgorithm. The files are in VTK's binary mode, which ParaView 5.11 of Debian 12 can read. Returns the
-    paths of the .vtm files.
+    Works with any vtkAlgorithm. The files are in VTK's binary mode, which ParaView 5.11 of Debian 12 can read.
+    Returns the paths of the .vtm files.
     """
     path = Path(path)
     if path.suffix != ".pvd":
-        raise InvalidInput(f"{path} does not end in .pvd; give a name that does")
+        raise invalid_input("wrong_call", f"{path} does not end in .pvd; give a name that does")
     written = [(time, _write(filter_, time, path.with_name(f"{path.stem}_{i:04}.vtm")))
                for i, time in enumerate(_times_of(filter_))]
     path.write_text(_collection(written), encoding="utf-8")
@@ -38,20 +38,21 @@ def _times_of(filter_: Any) -> List[float]:
     _require_success(filter_)
     information, key = filter_.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     if not information.Has(key):
-        raise InvalidInput(f"{filter_.GetClassName()} has no time steps; set frames to their number")
+        raise invalid_input("wrong_call", f"{filter_.GetClassName()} has no time steps; set frames to their number")
     return [information.Get(key, i) for i in range(information.Length(key))]
 
 
 def _require_success(filter_: Any) -> None:
     if line := getattr(filter_, "error", None):  # of the filters of garmentfit.vtk
-        raise InvalidInput(line)
+        raise invalid_input(filter_.error_code, line)
 
 
 def _write(filter_: Any, time: float, file: Path) -> Path:
     updated = filter_.UpdateTimeStep(time)
     _require_success(filter_)
     if not updated or filter_.GetAbortExecute():
-        raise InvalidInput(f"{filter_.GetClassName()} has no output at time {time}; {file} is not written")
+        raise invalid_input("missing_input",
+                            f"{filter_.GetClassName()} has no output at time {time}; {file} is not written")
     outputs = vtkMultiBlockDataSet()
     ports = filter_.GetNumberOfOutputPorts()
     for port, name in enumerate(("body", "garments", "skeleton") if ports == 3 else map(str, range(ports))):
@@ -62,7 +63,7 @@ def _write(filter_: Any, time: float, file: Path) -> Path:
     writer.SetFileName(str(file))
     writer.SetDataModeToBinary()
     if writer.Write() != 1:
-        raise InvalidInput(f"cannot write {file}")
+        raise invalid_input("unwritable_file", f"cannot write {file}")
     return file
 
 

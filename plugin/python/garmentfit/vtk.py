@@ -29,6 +29,7 @@ from vtkmodules.vtkCommonExecutionModel import (vtkDemandDrivenPipeline, vtkExec
 
 from . import _core
 from ._core import Cancelled, InvalidInput, SolverFailure
+from ._errors import invalid_input
 from ._parameters import lines_on, with_keywords
 
 # ---- between VTK's arrays and numpy's --------------------------------------------------------------------------
@@ -71,9 +72,10 @@ def _find_in(data: vtkPolyData) -> Callable[[str], Optional[np.ndarray]]:
 def mesh_of(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, np.ndarray]:
     """Points, or those of the array `kept`, and polygons as fans of triangles."""
     if data.GetNumberOfPolys() == 0 or data.GetNumberOfStrips() or data.GetNumberOfPoints() == 0:
-        raise InvalidInput(f"{what} has {data.GetNumberOfPolys()} polygons, {data.GetNumberOfPoints()} points, "
-                           f"{data.GetNumberOfLines()} lines and {data.GetNumberOfStrips()} strips; give a surface "
-                           "of polygons, and convert strips with vtkTriangleFilter")
+        raise invalid_input("no_faces",
+                            f"{what} has {data.GetNumberOfPolys()} polygons, {data.GetNumberOfPoints()} points, "
+                            f"{data.GetNumberOfLines()} lines and {data.GetNumberOfStrips()} strips; give a surface "
+                            "of polygons, and convert strips with vtkTriangleFilter")
     points = vtk_to_numpy(data.GetPoints().GetData())
     own = _numbers(data.GetPointData(), kept) if kept else None
     positions = own if own is not None and own.shape == points.shape else points
@@ -98,8 +100,9 @@ def _leaves(data: vtkDataObject) -> List[Tuple[str, vtkPolyData]]:
     while not iterator.IsDoneWithTraversal():
         leaf = iterator.GetCurrentDataObject()
         if not isinstance(leaf, vtkPolyData):
-            raise InvalidInput(f"garment {len(leaves) + 1} is a {leaf.GetClassName()}; give vtkPolyData, for example from "
-                               "vtkGeometryFilter")
+            kind = leaf.GetClassName()
+            raise invalid_input("wrong_call", f"garment {len(leaves) + 1} is a {kind}; give vtkPolyData, for example "
+                                "from vtkGeometryFilter")
         named = iterator.HasCurrentMetaData() and iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME())
         leaves.append((named or f"garment {len(leaves) + 1}", leaf))
         iterator.GoToNextItem()
@@ -167,7 +170,8 @@ def _what_is_wrong(port: int, data: Optional[vtkDataObject]) -> Optional[str]:
     if data is None:
         return f"nothing is connected to input {port}, {named}"
     if not isinstance(data, (vtkPolyData, vtkCompositeDataSet)):
-        return f"input {port}, {named}, is a {data.GetClassName()}; give vtkPolyData, for example from vtkGeometryFilter"
+        kind = data.GetClassName()
+        return f"input {port}, {named}, is a {kind}; give vtkPolyData, for example from vtkGeometryFilter"
     return None
 
 
@@ -210,13 +214,15 @@ class _FitFilter(VTKPythonAlgorithmBase):
         self.front: str = front
         self.garment_unit: str = garment_unit
         self.garment_up: str = garment_up
-        self.joints: Mapping[str, Sequence[float]] = joints or {}  #: read only, so that a change is noticed: set all anew
+        #: read only, so that a change is noticed: set all anew
+        self.joints: Mapping[str, Sequence[float]] = joints or {}
         self.error: Optional[str] = None  #: message of the last execution; None after success
+        self.error_code: Optional[str] = None  #: for programs: "rig_mismatch", ..., "solver_failure"; None likewise
         self._scenes: Dict[str, Any] = {}  # by step: identity of its inputs, and its result
         for name, value in parameters.items():
             if name not in self._values:
-                raise InvalidInput(f"{type(self).__name__} has no parameter called {name!r}; there are "
-                                   + ", ".join(self._values))
+                kind, names = type(self).__name__, ", ".join(self._values)
+                raise invalid_input("unknown_name", f"{kind} has no parameter called {name!r}; there are {names}")
             setattr(self, name, value)
 
     # parameters are attributes
@@ -280,8 +286,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
         return int(frames) if isinstance(frames, Integral) and 0 < frames <= _MOST_FRAMES else 0
 
     def _keep_time(self, inputs: Any) -> None:
-        """Time steps on the pose path belong to this filter. Passed upstream, each would make a reader with time steps read
-        again, and this filter compute again."""
+        """Time steps on the pose path belong to this filter. Passed upstream, each would make a reader with time steps
+        read again, and this filter compute again."""
         for port in range(self.GetNumberOfInputPorts() if self._frames() else 0):
             for i in range(inputs[port].GetNumberOfInformationObjects()):
                 inputs[port].GetInformationObject(i).Remove(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP())
@@ -298,6 +304,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
             if made is None or made.GetClassName() != kind:
                 info.Set(vtkDataObject.DATA_OBJECT(), like.NewInstance() if like is not None else vtkPolyData())
         self.error = next((wrong for wrong in map(_what_is_wrong, range(len(data)), data) if wrong), None)
+        self.error_code = "missing_input" if self.error else None
         if self.error:
             self._empty([outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                          for port in range(self.GetNumberOfOutputPorts())])
@@ -321,7 +328,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 for port in range(self.GetNumberOfInputPorts())]
         made = [outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                 for port in range(self.GetNumberOfOutputPorts())]
-        self.error = None
+        self.error = self.error_code = None
         if data[0].GetNumberOfPoints() == 0 and _is_aborted_upstream(self):
             self._empty(made)
             return 1
@@ -337,12 +344,12 @@ class _FitFilter(VTKPythonAlgorithmBase):
             self._empty(made)
             return 1
         except (InvalidInput, SolverFailure) as error:
-            self.error = str(error)
+            self.error, self.error_code = str(error), getattr(error, "code", "solver_failure")
             self._empty(made)
             self._tell("ErrorEvent", self.error)
             return 0
         except BaseException as error:  # VTK prints it: Ctrl-C, a value of the wrong kind
-            self.error = f"{type(error).__name__}: {error}"
+            self.error, self.error_code = f"{type(error).__name__}: {error}", "invalid_input"
             self._empty(made)
             raise
 

@@ -91,6 +91,22 @@ def test_bad_input_is_refused_in_one_line(call, part, body, skirt):
     assert part in str(refused.value) and "\n" not in str(refused.value)
 
 
+@pytest.mark.parametrize("call, code", [
+    (lambda b, g: garmentfit.rig_body(b, colour="red"), "unknown_name"),
+    (lambda b, g: garmentfit.rig_body(b, proxy_vertices=1), "out_of_range"),
+    (lambda b, g: garmentfit.rig_body((b.positions, b.triangles - 1)), "bad_index"),
+    (lambda b, g: garmentfit.fit_skeleton(b, g), "missing_input"),
+])
+def test_bad_input_has_a_code_for_programs(call, code, body, skirt):
+    with pytest.raises(InvalidInput) as refused:
+        call(body, skirt)
+    assert refused.value.code == code and InvalidInput("").code == "invalid_input"
+
+
+def test_figures_of_the_cloth_may_be_left_to_its_fabric():
+    assert {name: default for name, default, *_ in _core.parameters_of("drape")}["density"] is None
+
+
 def test_progress_is_told_and_can_stop(body):
     told = []
     garmentfit.rig_body(body, progress=lambda done, stage: told.append((done, stage)))

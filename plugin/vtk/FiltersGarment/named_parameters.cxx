@@ -59,13 +59,12 @@ bool has_parameter(const Filter& filter, const char* name)
 double number_of(const Filter& filter, const Parameters& parameters, const char* name)
 {
     double number = 0;
-    with_parameter(filter, parameters, name,
-                   [&](const auto& value, const About&) {
-                       if constexpr (is_optional<decltype(value)>)
-                           number = value.value_or(std::numeric_limits<double>::quiet_NaN());
-                       else
-                           number = static_cast<double>(value);
-                   });
+    with_parameter(filter, parameters, name, [&](const auto& value, const About&) {
+        if constexpr (is_optional<decltype(value)>)
+            number = value.value_or(std::numeric_limits<double>::quiet_NaN());
+        else
+            number = static_cast<double>(value);
+    });
     return number;
 }
 

@@ -16,8 +16,8 @@ namespace garmentfit {
 std::vector<std::string> parameter_names(const Filter& filter);
 bool has_parameter(const Filter& filter, const char* name);
 
-/// Choices are numbered from 0, switches are 0 or 1; NaN is an optional value that is not given. 0 where there is no such
-/// parameter.
+/// Choices are numbered from 0, switches are 0 or 1; NaN is an optional value that is not given. 0 where there is no
+/// such parameter.
 double number_of(const Filter& filter, const Parameters& parameters, const char* name);
 /// Smallest and largest allowed value.
 std::pair<double, double> range_of_number(const Filter& filter, const char* name);

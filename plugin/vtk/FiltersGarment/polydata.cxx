@@ -64,8 +64,9 @@ void for_each_leaf(vtkDataObject& composite, const Use& use)
 TriangleMesh mesh_of(vtkPolyData& data, const std::string& what)
 {
     if (data.GetNumberOfPolys() == 0 || data.GetNumberOfStrips() > 0 || data.GetNumberOfPoints() == 0)
-        throw InvalidInput(what + " has " + std::to_string(data.GetNumberOfPolys()) + " polygons, " + cells_of(data)
-                           + "; give a surface of polygons, and convert strips with vtkTriangleFilter");
+        throw InvalidInput(ErrorCode::no_faces,
+                           what + " has " + std::to_string(data.GetNumberOfPolys()) + " polygons, " + cells_of(data)
+                               + "; give a surface of polygons, and convert strips with vtkTriangleFilter");
     return { rows_of(*data.GetPoints()->GetData()), fans_of(*data.GetPolys()) };
 }
 
@@ -86,8 +87,9 @@ std::vector<vtkPolyData*> garments_in(vtkDataObject& data)
     for_each_leaf(data, [&](vtkDataObject& leaf, vtkCompositeDataIterator&) {
         garments.push_back(vtkPolyData::SafeDownCast(&leaf));
         if (!garments.back())
-            throw InvalidInput("garment " + std::to_string(garments.size()) + " is a " + leaf.GetClassName()
-                               + "; give vtkPolyData, for example from vtkGeometryFilter");
+            throw InvalidInput(ErrorCode::wrong_call,
+                               "garment " + std::to_string(garments.size()) + " is a " + leaf.GetClassName()
+                                   + "; give vtkPolyData, for example from vtkGeometryFilter");
     });
     return garments;
 }

@@ -233,6 +233,7 @@ int vtkFitFilter::RequestDataObject(vtkInformationVector** inputs, vtkInformatio
         if (!is_surface_or_several(vtkDataObject::GetData(inputs[port]))) {  // the executive reports this and stops
             empty(*outputs);
             this->SetErrorCode(InvalidInput);
+            this->ErrorName = name_of(garmentfit::ErrorCode::missing_input);
         }
     return 1;
 }
@@ -277,12 +278,17 @@ bool vtkFitFilter::GoesOn(double fraction, const std::string& stage)
 #endif
 }
 
-int vtkFitFilter::Refuse(vtkInformationVector* outputs, unsigned long code, const char* message)
+int vtkFitFilter::Stop(vtkInformationVector* outputs)
 {
     empty(*outputs);
-    if (code == vtkErrorCode::NoError)
-        return 1;
+    return 1;
+}
+
+int vtkFitFilter::Refuse(vtkInformationVector* outputs, unsigned long code, std::string_view name, const char* message)
+{
+    empty(*outputs);
     this->SetErrorCode(code);
+    this->ErrorName = name;
     vtkErrorMacro(<< message);
     return 0;
 }
@@ -305,10 +311,11 @@ void vtkFitFilter::Write(vtkPolyData* body, vtkDataObject* garments, vtkInformat
 int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
     this->SetErrorCode(vtkErrorCode::NoError);
+    this->ErrorName.clear();
     vtkPolyData* body = vtkPolyData::GetData(inputs[0]);
     vtkDataObject* garments = this->GetNumberOfInputPorts() > 1 ? vtkDataObject::GetData(inputs[1]) : nullptr;
     if (body->GetNumberOfPoints() == 0 && is_aborted_upstream(*this))
-        return this->Refuse(outputs, vtkErrorCode::NoError, "");
+        return this->Stop(outputs);
     try {
         this->State->update(*body, garments, garmentfit::Progress([this](double fraction, std::string_view stage) {
             return this->GoesOn(fraction, std::string(stage));
@@ -318,10 +325,10 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
             vtkWarningMacro(<< warning);
         return 1;
     } catch (const garmentfit::Cancelled&) {
-        return this->Refuse(outputs, vtkErrorCode::NoError, "");
+        return this->Stop(outputs);
     } catch (const garmentfit::InvalidInput& error) {
-        return this->Refuse(outputs, InvalidInput, error.what());
+        return this->Refuse(outputs, InvalidInput, name_of(error.code()), error.what());
     } catch (const std::exception& error) {
-        return this->Refuse(outputs, SolverFailure, error.what());
+        return this->Refuse(outputs, SolverFailure, "solver_failure", error.what());
     }
 }

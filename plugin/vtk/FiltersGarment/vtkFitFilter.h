@@ -36,9 +36,10 @@
  * new, and their point normals are computed anew. Polygons are read as fans of triangles; lines and vertices are
  * ignored.
  *
- * Bad input raises an ErrorEvent with one line, sets the error code, and empties the outputs. AbortExecute empties
- * them, too; call Modified() and Update() to run again. A garment that is too small is a result and not an error: a
- * warning is raised, `Certified` is 0 and `Note` says why. The lines of `Warnings` are raised as warnings, too.
+ * Bad input raises an ErrorEvent with one line, sets error code and error name, and empties the outputs. AbortExecute
+ * empties them, too; call Modified() and Update() to run again. A garment that is too small is a result and not an
+ * error: a warning is raised, `Certified` is 0 and `Note` says why. The lines of `Warnings` are raised as warnings,
+ * too.
  *
  * @sa vtkRigBody vtkFitSkeleton vtkDrapeGarment vtkRecoverPose vtkDressBody
  */
@@ -52,6 +53,7 @@
 
 #include <memory>  // for std::unique_ptr
 #include <string>  // for std::string
+#include <string_view>  // for std::string_view
 
 namespace garmentfit {
 class FilterState;
@@ -67,6 +69,12 @@ public:
         InvalidInput = vtkErrorCode::UserError,  ///< an input or a parameter is wrong; the message says what to do
         SolverFailure  ///< no solution was found
     };
+
+    /**
+   * The kind of the last error for programs: "rig_mismatch", ... of garmentfit/error.h, "solver_failure", or "" without
+   * one.
+   */
+    std::string GetErrorName() { return this->ErrorName; }
 
     ///@{
     /**
@@ -119,9 +127,11 @@ private:
     void KeepTime(vtkInformationVector**);
     bool GoesOn(double fraction, const std::string& stage);
     void Write(vtkPolyData* body, vtkDataObject* garments, vtkInformationVector* outputs, double time);
-    int Refuse(vtkInformationVector* outputs, unsigned long code, const char* message);
+    int Stop(vtkInformationVector* outputs);
+    int Refuse(vtkInformationVector* outputs, unsigned long code, std::string_view name, const char* message);
 
     std::unique_ptr<garmentfit::FilterState> State;
+    std::string ErrorName;
 };
 
 #endif

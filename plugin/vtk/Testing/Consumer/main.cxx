@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A stranger's program: nothing is refused in words, and a body from a file comes out dressed.   consumer BODY GARMENT
-// TYPE
+// A program that uses the installed module: empty input is an error, and a body from a file is dressed.
+//   consumer BODY GARMENT TYPE
 
 #include <cstdlib>
 #include <iostream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The VTK filters as citizens of a pipeline: the same numbers as the filters behind them, nothing copied, nothing
-// computed twice, and usable after whatever went wrong.
+// The VTK filters in a pipeline: the same numbers as the filters behind them, no copies, no repeated computation, and
+// usable after errors.
 
 #include <cmath>
 #include <map>
@@ -49,7 +49,7 @@ namespace {
 using namespace garmentfit;
 using namespace garmentfit::fixtures;
 
-// ---- what goes in ----------------------------------------------------------------------------------------------
+// ---- inputs ----------------------------------------------------------------------------------------------
 
 vtkSmartPointer<vtkFloatArray> some_numbers(const char* name, vtkIdType count, int components)
 {
@@ -84,14 +84,14 @@ vtkSmartPointer<vtkPolyData> shorts(double ease = 0.02)
     return data;
 }
 
-void hurry(vtkDressBody& filter)
+void shorten(vtkDressBody& filter)
 {
     filter.SetTypeByName("shorts");
     filter.SetSettlingSteps(2);
     filter.SetRecoverySettlingSteps(2);
 }
 
-// ---- what comes out --------------------------------------------------------------------------------------------
+// ---- outputs --------------------------------------------------------------------------------------------
 
 vtkPolyData* polydata(vtkAlgorithm& filter, int port)
 {
@@ -120,7 +120,7 @@ struct Stages {
         command->SetClientData(this);
         command->SetCallback([](vtkObject* caller, unsigned long, void* self, void*) {
             auto* sender = static_cast<vtkAlgorithm*>(caller);
-            if (sender->GetProgress() > 0 && sender->GetProgress() < 1)  // the executive reports both ends by itself
+            if (sender->GetProgress() > 0 && sender->GetProgress() < 1)  // the executive reports 0 and 1 itself
                 static_cast<Stages*>(self)->seen.insert(sender->GetProgressText());
         });
         filter.AddObserver(vtkCommand::ProgressEvent, command);
@@ -161,7 +161,7 @@ struct Chain {
     }
 };
 
-/// A reader of a body that was kept with a time: another time is read anew.
+/// A reader with a time step: it reads again for each time step that is requested.
 class TimedBody : public vtkPolyDataAlgorithm {
 public:
     static TimedBody* New();
@@ -207,7 +207,7 @@ struct Dressed {
     {
         dress->SetInputData(0, person);
         dress->SetInputData(1, garment);
-        hurry(*dress);
+        shorten(*dress);
         dress->Update();
     }
 };
@@ -220,7 +220,7 @@ Dressed& dressed()
 
 // ---- the tests -------------------------------------------------------------------------------------------------
 
-TEST(DressBody, GivesTheVeryNumbersOfTheFilterBehindIt)
+TEST(DressBody, GivesTheNumbersOfTheFilterBehindIt)
 {
     const Scene scene = dressed_by_the_filters();
     vtkDressBody* dress = dressed().dress;
@@ -244,7 +244,7 @@ TEST(Chain, OfFourFiltersGivesWhatDressBodyGives)
     EXPECT_EQ(number(polydata(*chain.recover, 1), "StrainP95"), number(polydata(*dress, 1), "StrainP95"));
 }
 
-TEST(DressBody, CopiesNothingThatStaysAsItWas)
+TEST(DressBody, CopiesNoUnchangedData)
 {
     const auto& [person, garment, dress] = dressed();
     EXPECT_EQ(polydata(*dress, 0)->GetPoints(), person->GetPoints());
@@ -260,12 +260,12 @@ TEST(DressBody, CopiesNothingThatStaysAsItWas)
     EXPECT_EQ(person->GetFieldData()->GetNumberOfArrays(), 0);
 }
 
-TEST(DressBody, RepeatsOnlyWhatAChangedParameterConcerns)
+TEST(DressBody, RepeatsOnlyStepsThatDependOnAChangedParameter)
 {
     vtkNew<vtkDressBody> dress;
     dress->SetInputData(0, body());
     dress->SetInputData(1, shorts());
-    hurry(*dress);
+    shorten(*dress);
     dress->Update();
     {
         Stages stages(*dress);
@@ -305,7 +305,7 @@ TEST(RigBody, GivesASkeletonOfNamedJointsAndWeightsThatSumToOne)
         EXPECT_LT(parents->GetComponent(j, 0), j);
 }
 
-TEST(RigBody, TakesJointsThatTheUserKnowsAndSpeaksTheBodysUnits)
+TEST(RigBody, TakesKnownJointsInTheBodysUnits)
 {
     auto in_decimetres = polydata_of({ 10 * body_mesh().positions, body_mesh().triangles });
     const Vec3 elbow = 10 * person_skeleton({ .arm_angle = 20 }).tails[lhumerus];
@@ -320,7 +320,7 @@ TEST(RigBody, TakesJointsThatTheUserKnowsAndSpeaksTheBodysUnits)
     EXPECT_EQ(number(polydata(*rig, 0), "BodyFrame"), 0.1);
 }
 
-TEST(FitSkeleton, FindsLayersAnewWhereTheirOrderIsAskedFor)
+TEST(FitSkeleton, SortsLayersWhereTheirOrderIsAutomatic)
 {
     vtkNew<vtkMultiBlockDataSet> layers;
     layers->SetBlock(0, shorts(0.04));
@@ -337,7 +337,7 @@ TEST(FitSkeleton, FindsLayersAnewWhereTheirOrderIsAskedFor)
     EXPECT_EQ(number(polydata(*fit, 0), "FitLayers"), 1) << "the wider one";
 }
 
-TEST(DressBody, PutsOnLayersOfACompositeAndGivesThemBackAsOne)
+TEST(DressBody, DressesLayersOfACompositeAndReturnsAComposite)
 {
     vtkNew<vtkMultiBlockDataSet> layers;
     layers->SetBlock(0, shorts(0.015));
@@ -346,7 +346,7 @@ TEST(DressBody, PutsOnLayersOfACompositeAndGivesThemBackAsOne)
     vtkNew<vtkDressBody> dress;
     dress->SetInputData(0, body());
     dress->SetInputData(1, layers);
-    hurry(*dress);
+    shorten(*dress);
     dress->Update();
     auto* dressed = vtkMultiBlockDataSet::SafeDownCast(dress->GetOutputDataObject(1));
     ASSERT_TRUE(dressed);
@@ -360,7 +360,7 @@ TEST(DressBody, PutsOnLayersOfACompositeAndGivesThemBackAsOne)
     EXPECT_TRUE(polydata(*dress, 1));
 }
 
-TEST(RecoverPose, OffersItsWayAsTimeSteps)
+TEST(RecoverPose, OffersItsPosePathAsTimeSteps)
 {
     Chain chain(body(), shorts());
     chain.recover->SetFrames(4);
@@ -379,13 +379,13 @@ TEST(RecoverPose, OffersItsWayAsTimeSteps)
     EXPECT_TRUE(rigged.seen.empty());
 }
 
-TEST(DressBody, ScrubsWhereTheBodysFileHasATimeOfItsOwn)
+TEST(DressBody, ComputesFramesOnceWhereTheBodysFileHasATimeStep)
 {
     vtkNew<TimedBody> reader;
     vtkNew<vtkDressBody> dress;
     dress->SetInputConnection(0, reader->GetOutputPort());
     dress->SetInputData(1, shorts());
-    hurry(*dress);
+    shorten(*dress);
     dress->SetFrames(2);
     dress->UpdateTimeStep(1);
     Stages stages(*dress);
@@ -405,7 +405,7 @@ TEST(Chain, DoesNotRigAgainWhenTheFitChanges)
     EXPECT_FALSE(fitted.seen.empty());
 }
 
-/// Two triangles each that share an edge become a quad, whose first fan they are.
+/// Joins pairs of triangles that share an edge to quads; fans of the quads are these triangles.
 vtkSmartPointer<vtkCellArray> quads_of(const TriangleMesh& mesh)
 {
     struct Side {
@@ -431,7 +431,7 @@ vtkSmartPointer<vtkCellArray> quads_of(const TriangleMesh& mesh)
     return cells;
 }
 
-TEST(DressBody, TakesQuadsAndGivesThemBackAsQuads)
+TEST(DressBody, KeepsQuads)
 {
     auto garment = shorts();
     garment->SetPolys(quads_of(shorts_mesh(0.02)));
@@ -439,20 +439,20 @@ TEST(DressBody, TakesQuadsAndGivesThemBackAsQuads)
     vtkNew<vtkDressBody> dress;
     dress->SetInputData(0, body());
     dress->SetInputData(1, garment);
-    hurry(*dress);
+    shorten(*dress);
     dress->Update();
     EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 1);
     EXPECT_EQ(polydata(*dress, 1)->GetPolys(), garment->GetPolys());
     EXPECT_EQ(polydata(*dress, 1)->GetPointData()->GetArray("Ease")->GetNumberOfTuples(), garment->GetNumberOfPoints());
 }
 
-TEST(DressBody, SaysThatAGarmentIsTooSmallAndGoesOn)
+TEST(DressBody, WarnsOfAGarmentThatIsTooSmall)
 {
     vtkNew<vtkDressBody> dress;
     Errors errors(*dress);
     dress->SetInputData(0, body());
     dress->SetInputData(1, shorts(-0.02));
-    hurry(*dress);
+    shorten(*dress);
     dress->Update();
     EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
     ASSERT_TRUE(errors.heard->GetWarning());
@@ -510,6 +510,7 @@ TEST(RigBody, RefusesBadInputInOneLineAndWorksAfterwards)
         rig->Update();
         EXPECT_NE(errors.heard->GetErrorMessage().find(part), std::string::npos) << errors.heard->GetErrorMessage();
         EXPECT_EQ(rig->GetErrorCode(), vtkFitFilter::InvalidInput);
+        EXPECT_NE(rig->GetErrorName(), "");
         EXPECT_EQ(polydata(*rig, 0)->GetNumberOfPoints(), 0);
         EXPECT_EQ(polydata(*rig, 1)->GetNumberOfPoints(), 0);
         errors.heard->Clear();
@@ -518,10 +519,20 @@ TEST(RigBody, RefusesBadInputInOneLineAndWorksAfterwards)
     rig->Update();
     EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
     EXPECT_EQ(rig->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_EQ(rig->GetErrorName(), "");
     EXPECT_GT(polydata(*rig, 1)->GetNumberOfPoints(), 0);
 }
 
-TEST(FitSkeleton, RefusesABodyWithoutARigOrWithAnothers)
+TEST(RigBody, NamesTheKindOfAnErrorForPrograms)
+{
+    vtkNew<vtkRigBody> rig;
+    Errors errors(*rig);
+    rig->SetInputData(lines_only());
+    rig->Update();
+    EXPECT_EQ(rig->GetErrorName(), name_of(ErrorCode::no_faces));
+}
+
+TEST(FitSkeleton, RefusesABodyWithoutARigOrWithTheRigOfAnother)
 {
     vtkNew<vtkRigBody> rig;
     rig->SetInputData(body());
@@ -589,7 +600,7 @@ TEST(DressBody, RefusesAnUnknownUnitAndWorksAfterwards)
     EXPECT_NE(errors.heard->GetErrorMessage().find("cubit"), std::string::npos);
     errors.heard->Clear();
     dress->SetUnit("auto");
-    hurry(*dress);
+    shorten(*dress);
     dress->Update();
     EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
     EXPECT_EQ(number(polydata(*dress, 0), "Certified"), 1);
@@ -608,7 +619,7 @@ TEST(DressBody, StopsWhenAbortedAndRunsWhenModified)
     const unsigned long tag = dress->AddObserver(vtkCommand::ProgressEvent, abort);
     dress->SetInputData(0, body());
     dress->SetInputData(1, shorts());
-    hurry(*dress);
+    shorten(*dress);
     dress->Update();
     EXPECT_EQ(polydata(*dress, 1)->GetNumberOfPoints(), 0);
     dress->RemoveObserver(tag);
@@ -621,7 +632,7 @@ TEST(DressBody, StopsWhenAbortedAndRunsWhenModified)
     EXPECT_EQ(stages.seen.count("rigging the body"), 0u);  // kept from before
 }
 
-TEST(Chain, IsSilentAndEmptyWhenItsFirstFilterIsAborted)
+TEST(Chain, IsEmptyWithoutErrorsWhenItsFirstFilterIsAborted)
 {
     Chain chain(body(), shorts());
     Errors errors(*chain.fit), later_errors(*chain.drape);
@@ -658,6 +669,19 @@ TEST(DressBody, ClampsNumbersAndRefusesTextThatIsNoValue)
     errors.heard->Clear();
     dress->SetParameter("colour", "red");
     EXPECT_NE(errors.heard->GetErrorMessage().find("colour"), std::string::npos);
+}
+
+TEST(DressBody, TakesFiguresOfTheClothFromItsFabricUnlessGiven)
+{
+    vtkNew<vtkDressBody> dress;
+    EXPECT_TRUE(std::isnan(dress->GetDensity()));
+    EXPECT_EQ(dress->GetParameter("density"), "of the fabric");
+    dress->SetDensity(0.3);
+    EXPECT_EQ(dress->GetDensity(), 0.3);
+    const vtkMTimeType time = dress->GetMTime();
+    dress->SetDensity(NAN);
+    EXPECT_TRUE(std::isnan(dress->GetDensity()));
+    EXPECT_GT(dress->GetMTime(), time);
 }
 
 TEST(EveryFilter, PrintsAllItsParameters)
