@@ -154,7 +154,7 @@ def of_a_type_unknown(data):
 
 
 def with_a_quad(polygons):
-    """Instead of the first two; the others as they were."""
+    """Replaces the first two triangles by one quad."""
     corners = vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)[2:].tolist()
     cells = vtkCellArray()
     for cell in ([0, 1, 2, 3], *corners):

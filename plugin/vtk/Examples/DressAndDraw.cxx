@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A body and a garment from files, dressed, the ease on the cloth and the skeleton inside, drawn into a picture.
+// Dresses a body in a garment, and draws the ease on the cloth and the skeleton inside into a picture.
 //   DressAndDraw BODY.ply GARMENT.ply TYPE PICTURE.png
 
 #include <cstdlib>

@@ -39,8 +39,7 @@ FilterState::FilterState(const Filter& table_row) : filter(table_row)
 
 int FilterState::frames() const { return filter.makes(Data::recovered) ? parameters.recover.frames : 0; }
 
-// ---- what changed
-// ----------------------------------------------------------------------------------------------------
+// ---- what changed -------------------------------------------------------------------------------
 
 /// The source is set after a complete read: a failed one is repeated.
 void FilterState::read_changed_body(vtkPolyData& body)
@@ -156,8 +155,7 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
     run(progress);
 }
 
-// ---- what is shown
-// ---------------------------------------------------------------------------------------------------
+// ---- what is shown ------------------------------------------------------------------------------
 
 Snapshot FilterState::snapshot(double time) const { return snapshot_of(known_.scene, time, filter.cloth(parameters)); }
 

@@ -88,8 +88,7 @@ vtkFitFilter::vtkFitFilter(const char* name) :
 
 vtkFitFilter::~vtkFitFilter() = default;
 
-// ---- parameters
-// ------------------------------------------------------------------------------------------------------
+// ---- parameters ---------------------------------------------------------------------------------
 
 void vtkFitFilter::SetNumber(const char* name, double number)
 {
@@ -184,8 +183,7 @@ void vtkFitFilter::PrintSelf(ostream& os, vtkIndent indent)
         os << indent << "Joint " << name << ": " << place.transpose() << "\n";
 }
 
-// ---- the pipeline
-// ----------------------------------------------------------------------------------------------------
+// ---- the pipeline -------------------------------------------------------------------------------
 
 int vtkFitFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
