@@ -11,55 +11,35 @@
 #include "nearest.h"
 #include "parallel.h"
 #include "surface_measures.h"
+#include "topology.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// Of the ball that needs room above the skin, in square roots of the body's area, which no pose changes: 1 cm for an adult. Larger
-// balls fill laps and crotches further than they have to.
-constexpr double k_ball = 0.0075;
-constexpr double k_fits = 0.9;  // skin is not smooth: a ball that has so much of its room does fit
-// A bridge is drawn so tight between the lips of its crease; the rest is left to a soap film, that no face loses its area.
-constexpr double k_tight = 0.9;
-// Metres; cloth further away from a crease at the start does not get into it on the way.
-constexpr double k_reach = 0.15;
-// A patch with fewer of the body's vertices than this share is an island in a crease, not a limb beyond it.
-constexpr double k_enclosed = 0.01;
-
-/// Vertices at which a ball has no room.
-std::vector<char> cramped(const TriangleMesh& surface)
+/// Vertices at which a ball has no clearance above the skin.
+std::vector<char> mark_creases(const TriangleMesh& surface)
 {
     const TriangleTree tree(surface);
     const Positions normals = vertex_normals(surface.positions, surface.triangles);
-    const double radius = k_ball * std::sqrt(area(surface));
-    const double above
+    const double radius = k_crease_ball * std::sqrt(area(surface));
+    const double above  // unit: keeps the ray off the triangles that it starts from
         = 1e-6 * (surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff()).norm();
     std::vector<char> result(surface.positions.rows(), 0);
     parallel_for(surface.positions.rows(), [&](Eigen::Index v) {
         const Vec3 p = surface.positions.row(v), n = normals.row(v);
         if (n.isZero())
             return;
-        const auto hit = tree.first_hit(p + above * n, n);  // from behind when the vertex is inside another part
-        result[v] = (hit && (hit->from_behind || hit->distance < k_fits * 2 * radius))
-            || tree.distance(p + radius * n) < k_fits * radius;
+        const auto hit = tree.first_hit(p + above * n, n);  // from behind: the vertex is inside another part
+        result[v] = (hit && (hit->from_behind || hit->distance < k_ball_tolerance * 2 * radius))
+            || tree.distance(p + radius * n) < k_ball_tolerance * radius;
     });
     return result;
 }
 
-using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
-
-std::vector<std::vector<int>> neighbours_of(const Edges& edges, std::size_t vertices)
-{
-    std::vector<std::vector<int>> neighbours(vertices);
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        neighbours[edges(e, 0)].push_back(edges(e, 1));
-        neighbours[edges(e, 1)].push_back(edges(e, 0));
-    }
-    return neighbours;
-}
-
-// Patches of skin that a crease encloses belong to it: left out, they would be lips at its bottom.
-void add_enclosed(std::vector<char>& marked, const std::vector<std::vector<int>>& neighbours)
+/// Adds the patches of skin that a crease encloses: left out, they would be part of the boundary, at the bottom of the
+/// crease.
+void add_enclosed_patches(std::vector<char>& marked, const MeshTopology& topology)
 {
     std::vector<char> seen = marked;
     for (std::size_t seed = 0; seed < marked.size(); ++seed) {
@@ -68,19 +48,19 @@ void add_enclosed(std::vector<char>& marked, const std::vector<std::vector<int>>
         std::vector<int> patch { int(seed) };
         seen[seed] = 1;
         for (std::size_t i = 0; i < patch.size(); ++i)
-            for (int n : neighbours[patch[i]])
+            for (const int n : topology.neighbours(patch[i]))
                 if (!seen[n]) {
                     seen[n] = 1;
                     patch.push_back(n);
                 }
-        if (patch.size() < k_enclosed * marked.size())
-            for (int v : patch)
+        if (patch.size() < k_enclosed_patch * marked.size())
+            for (const int v : patch)
                 marked[v] = 1;
     }
 }
 
-// Creases that no cloth will come to stay as they are: mouths and toes would be smoothed away on the way.
-void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std::vector<char>& near)
+/// Drops creases without cloth near them: mouths and toes would be smoothed away.
+void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std::vector<char>& near_cloth)
 {
     DisjointSets creases(int(marked.size()));
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
@@ -88,60 +68,61 @@ void drop_without_cloth(std::vector<char>& marked, const Edges& edges, const std
             creases.join(edges(e, 0), edges(e, 1));
     std::vector<char> kept(marked.size(), 0);
     for (std::size_t v = 0; v < marked.size(); ++v)
-        if (near[v])
+        if (near_cloth[v])
             kept[creases.root(int(v))] = 1;
     for (std::size_t v = 0; v < marked.size(); ++v)
         marked[v] = marked[v] && kept[creases.root(int(v))];
 }
 
-/// Of each vertex of a crease the nearest one on its lips, along edges, by Dijkstra's algorithm; -1 for all others. Pieces that lie in a
-/// crease as a whole (eyeballs, say) have no lips, and are left alone.
-std::vector<int> nearest_lips(const Positions& positions, const std::vector<char>& marked,
-                              const std::vector<std::vector<int>>& neighbours)
+/// For each vertex of a crease the nearest vertex of its boundary, along edges, by Dijkstra's algorithm; -1 for all
+/// others. A piece that is crease as a whole (an eyeball, say) has no boundary and is left alone.
+std::vector<int> find_nearest_boundary(const Positions& positions, const std::vector<char>& marked,
+                                       const MeshTopology& topology)
 {
-    std::vector<int> lips(marked.size(), -1);
-    std::vector<double> way(marked.size(), INFINITY);
+    std::vector<int> boundary(marked.size(), -1);
+    std::vector<double> distance(marked.size(), INFINITY);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    const auto look_from = [&](int v, double here, int lip) {
-        for (int n : neighbours[v])
-            if (const double there = here + (positions.row(v) - positions.row(n)).norm(); marked[n] && there < way[n]) {
-                lips[n] = lip;
-                front.emplace(way[n] = there, n);
+    const auto relax_from = [&](int v, double here, int source) {
+        for (const int n : topology.neighbours(v))
+            if (const double there = here + (positions.row(v) - positions.row(n)).norm();
+                marked[n] && there < distance[n]) {
+                boundary[n] = source;
+                front.emplace(distance[n] = there, n);
             }
     };
     for (std::size_t v = 0; v < marked.size(); ++v)
         if (!marked[v])
-            look_from(int(v), 0, int(v));
+            relax_from(int(v), 0, int(v));
     while (!front.empty()) {
         const auto [here, v] = front.top();
         front.pop();
-        if (here == way[v])
-            look_from(v, here, lips[v]);
+        if (here == distance[v])
+            relax_from(v, here, boundary[v]);
     }
-    return lips;
+    return boundary;
 }
 
-/// Where a soap film over the lips has the inner vertices, m x 3: each in the middle of its neighbours.
-Positions soap_film(const Positions& positions, const std::vector<int>& inner,
-                    const std::vector<std::vector<int>>& neighbours)
+/// The inner vertices on a soap film over the boundary, m x 3: each in the middle of its neighbours (uniform
+/// Laplacian).
+Positions solve_soap_film(const Positions& positions, const std::vector<int>& inner, const MeshTopology& topology)
 {
-    std::vector<int> row(neighbours.size(), -1);
+    std::vector<int> row(positions.rows(), -1);
     for (std::size_t i = 0; i < inner.size(); ++i)
         row[inner[i]] = int(i);
     std::vector<Eigen::Triplet<double>> laplacian;
-    Eigen::MatrixXd lips = Eigen::MatrixXd::Zero(Eigen::Index(inner.size()), 3);
+    Eigen::MatrixXd boundary = Eigen::MatrixXd::Zero(Eigen::Index(inner.size()), 3);
     for (std::size_t i = 0; i < inner.size(); ++i) {
-        laplacian.emplace_back(int(i), int(i), double(neighbours[inner[i]].size()));
-        for (int n : neighbours[inner[i]])
+        laplacian.emplace_back(int(i), int(i), double(topology.neighbours(inner[i]).size()));
+        for (const int n : topology.neighbours(inner[i]))
             if (row[n] >= 0)
                 laplacian.emplace_back(int(i), row[n], -1.0);
             else
-                lips.row(Eigen::Index(i)) += positions.row(n);
+                boundary.row(Eigen::Index(i)) += positions.row(n);
     }
-    Eigen::SparseMatrix<double> system(lips.rows(), lips.rows());
+    Eigen::SparseMatrix<double> system(boundary.rows(), boundary.rows());
     system.setFromTriplets(laplacian.begin(), laplacian.end());
-    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(lips);
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(boundary);
 }
 
 }  // namespace
@@ -149,35 +130,35 @@ Positions soap_film(const Positions& positions, const std::vector<int>& inner,
 Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth) :
     surface_(surface.positions), bridged_(surface.positions)
 {
-    const Edges edges = edges_of(surface.triangles);
-    const auto neighbours = neighbours_of(edges, std::size_t(surface_.rows()));
-    std::vector<char> marked = cramped(surface);
-    add_enclosed(marked, neighbours);
-    drop_without_cloth(marked, edges, near_cloth);
-    const std::vector<int> lips = nearest_lips(surface_, marked, neighbours);
-    for (std::size_t v = 0; v < lips.size(); ++v)
-        if (lips[v] >= 0)
+    const MeshTopology topology(surface.triangles, int(surface_.rows()));
+    std::vector<char> marked = mark_creases(surface);
+    add_enclosed_patches(marked, topology);
+    drop_without_cloth(marked, topology.edges(), near_cloth);
+    const std::vector<int> boundary = find_nearest_boundary(surface_, marked, topology);
+    for (std::size_t v = 0; v < boundary.size(); ++v)
+        if (boundary[v] >= 0)
             inner_.push_back(int(v));
     if (inner_.empty())
         return;
-    const Positions film = soap_film(surface_, inner_, neighbours);
+    const Positions film = solve_soap_film(surface_, inner_, topology);
     for (std::size_t i = 0; i < inner_.size(); ++i)
-        bridged_.row(inner_[i]) = k_tight * surface_.row(lips[inner_[i]]) + (1 - k_tight) * film.row(Eigen::Index(i));
+        bridged_.row(inner_[i]) = k_bridge_tautness * surface_.row(boundary[inner_[i]])
+            + (1 - k_bridge_tautness) * film.row(Eigen::Index(i));
 }
 
-Positions Creases::withdrawn(const Positions& core) const
+Positions Creases::withdrawn_surface(const Positions& core) const
 {
     Positions result = surface_;
-    for (int v : inner_)
-        result.row(v) = 0.5 * (core.row(v) + surface_.row(v));
+    for (const int v : inner_)
+        result.row(v) = k_crease_withdrawal * core.row(v) + (1 - k_crease_withdrawal) * surface_.row(v);
     return result;
 }
 
-std::vector<char> near_cloth(const Positions& body, const Positions& cloth)
+std::vector<char> mark_near_cloth(const Positions& body, const Positions& cloth)
 {
     const NearestPoint nearest(cloth);
     std::vector<char> result(body.rows());
-    parallel_for(body.rows(), [&](Eigen::Index v) { result[v] = nearest.distance(body.row(v)) < k_reach; });
+    parallel_for(body.rows(), [&](Eigen::Index v) { result[v] = nearest.distance(body.row(v)) < k_crease_reach; });
     return result;
 }
 

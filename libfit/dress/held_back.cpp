@@ -9,7 +9,8 @@
 
 namespace garmentfit {
 
-std::vector<HeldBack> held_back(const Positions& reached, const Positions& target, const SkinWeights& weights)
+std::vector<HeldBack> list_held_back_parts(const Positions& reached, const Positions& target,
+                                           const SkinWeights& weights)
 {
     const std::vector<int> bones = strongest_bones(weights);
     std::array<double, k_body_parts> longest {};

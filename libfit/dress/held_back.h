@@ -7,7 +7,8 @@
 
 namespace garmentfit {
 
-/// Parts that are not yet in their places, worst first.
-std::vector<HeldBack> held_back(const Positions& reached, const Positions& target, const SkinWeights& weights);
+/// Lists the parts of a body (n x 3) that have not reached their targets, worst first.
+std::vector<HeldBack> list_held_back_parts(const Positions& reached, const Positions& target,
+                                           const SkinWeights& weights);
 
 }  // namespace garmentfit

@@ -5,7 +5,7 @@
 
 namespace garmentfit {
 
-void put_positions(std::vector<WornGarment>& garments, const Positions& positions)
+void set_positions(std::vector<WornGarment>& garments, const Positions& positions)
 {
     Eigen::Index first = 0;
     for (WornGarment& garment : garments) {
@@ -14,12 +14,12 @@ void put_positions(std::vector<WornGarment>& garments, const Positions& position
     }
 }
 
-void add_slips(std::vector<WornGarment>& garments, const Positions& along)
+void add_slips(std::vector<WornGarment>& garments, const Positions& followed)
 {
     Eigen::Index first = 0;
     for (WornGarment& garment : garments) {
         const Eigen::Index vertices = garment.positions.rows();
-        Eigen::VectorXd down = along.col(1).segment(first, vertices) - garment.positions.col(1);
+        Eigen::VectorXd down = followed.col(1).segment(first, vertices) - garment.positions.col(1);
         const auto middle = down.begin() + vertices / 2;
         std::nth_element(down.begin(), middle, down.end());
         garment.slipped += *middle;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One mesh of several garments as several again.
+// Tells the rows of one mesh of several garments apart again.
 
 #include <vector>
 
@@ -9,10 +9,11 @@
 
 namespace garmentfit {
 
-/// Puts the rows of `positions`, garment after garment, back into the garments.
-void put_positions(std::vector<WornGarment>& garments, const Positions& positions);
+/// Writes the rows of `positions`, garment after garment, into the garments.
+void set_positions(std::vector<WornGarment>& garments, const Positions& positions);
 
-/// Adds how far each garment sank from where it would be, its vertices garment after garment, had it gone along with the body.
-void add_slips(std::vector<WornGarment>& garments, const Positions& along);
+/// Adds to each garment how far it sank, by the median of its vertices.
+/// @param followed  where the vertices would be, garment after garment, had they gone along with the body
+void add_slips(std::vector<WornGarment>& garments, const Positions& followed);
 
 }  // namespace garmentfit

@@ -8,12 +8,10 @@
 #include "garmentfit/mesh.h"
 #include "nearest.h"
 #include "skin_weights.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
-
-// Metres; shallower than that is how creases of skin are modelled.
-constexpr double k_least_depth = 2e-3;
 
 TriangleMesh skin_of(int part, const TriangleMesh& body, const std::vector<int>& parts)
 {
@@ -24,15 +22,15 @@ TriangleMesh skin_of(int part, const TriangleMesh& body, const std::vector<int>&
     return { body.positions, body.triangles(rows, Eigen::all) };
 }
 
-/// Vertices near cloth that look out at the inside of another part.
-std::vector<int> vertices_inside(const TriangleMesh& body, const std::vector<int>& parts,
-                                 const std::vector<char>& near_cloth)
+/// Vertices near cloth whose outward ray meets the inside of another part first.
+std::vector<int> list_vertices_inside(const TriangleMesh& body, const std::vector<int>& parts,
+                                      const std::vector<char>& near_cloth)
 {
     const TriangleTree surface(body);
     const Positions normals = vertex_normals(body.positions, body.triangles);
     std::vector<int> result;
     for (int v = 0; v < int(normals.rows()); ++v) {
-        const Vec3 outwards = normals.row(v), above = body.positions.row(v).transpose() + k_least_depth * outwards;
+        const Vec3 outwards = normals.row(v), above = body.positions.row(v).transpose() + k_least_overlap * outwards;
         if (!near_cloth[v] || parts[v] < 0 || outwards.isZero())
             continue;
         const auto hit = surface.first_hit(above, outwards);
@@ -44,7 +42,8 @@ std::vector<int> vertices_inside(const TriangleMesh& body, const std::vector<int
 
 }  // namespace
 
-std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weights, const std::vector<char>& near_cloth)
+std::vector<Overlap> find_overlaps(const TriangleMesh& body, const SkinWeights& weights,
+                                   const std::vector<char>& near_cloth)
 {
     std::vector<int> parts = strongest_bones(weights);
     std::transform(parts.begin(), parts.end(), parts.begin(), part_of);
@@ -53,7 +52,7 @@ std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weigh
         skins.emplace_back(skin_of(p, body, parts));
 
     Eigen::MatrixXd depths = Eigen::MatrixXd::Zero(k_body_parts, k_body_parts);
-    for (int v : vertices_inside(body, parts, near_cloth)) {
+    for (int v : list_vertices_inside(body, parts, near_cloth)) {
         double depth = INFINITY;
         int nearest = -1;
         for (int p = 0; p < k_body_parts; ++p)
@@ -70,7 +69,7 @@ std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weigh
     std::vector<Overlap> result;
     for (int a = 0; a < k_body_parts; ++a)
         for (int b = a + 1; b < k_body_parts; ++b)
-            if (depths(a, b) > k_least_depth)
+            if (depths(a, b) > k_least_overlap)
                 result.push_back({ part_name(a), part_name(b), depths(a, b) });
     std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.depth > b.depth; });
     return result;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where a body enters itself, as posed bodies do at armpits, laps and crossed arms: nothing can lie between such parts, whoever drapes it.
+// Finds where a body enters itself, as posed bodies do at armpits, laps and crossed arms: no cloth can lie between such
+// parts.
 
 #include <vector>
 
@@ -9,9 +10,9 @@
 
 namespace garmentfit {
 
-/// Parts of a body that enter each other, deepest first. O(n log n).
-/// @param near_cloth  of each vertex; what is far from cloth does not matter
-std::vector<Overlap> overlaps(const TriangleMesh& body, const SkinWeights& weights,
-                              const std::vector<char>& near_cloth);
+/// Pairs of parts of a body that enter each other, deepest first. O(n log n).
+/// @param near_cloth  of each vertex; only those count
+std::vector<Overlap> find_overlaps(const TriangleMesh& body, const SkinWeights& weights,
+                                   const std::vector<char>& near_cloth);
 
 }  // namespace garmentfit

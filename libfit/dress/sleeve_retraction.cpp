@@ -10,21 +10,15 @@
 #include "extremity_skin.h"
 #include "nearest.h"
 #include "segment.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
 constexpr std::array<Extremity, 4> k_ends { lhand_tip, rhand_tip, lfoot_tip, rfoot_tip };
-// How far along the bone sleeves are pushed up: clear of the skin that grows with a hand.
-constexpr double k_pushed_to = 0.76;
-// What hangs together with other cloth further along than this is no sleeve of this limb.
-constexpr double k_latest_begin = 0.5;
-// Cloth that goes round a limb leaves no wider angle about it open.
-constexpr double k_widest_gap = std::numbers::pi / 2;
-// Buttons and the like lie no further from the cloth that they belong to, m.
-constexpr double k_attached = 0.02;
 
-/// The limb that each point is nearest to, by the hand or foot at its end; -1 for all others. Hands and feet count as lying straight on.
+/// The limb that a point is nearest to, by the hand or foot at its end; -1 for all other bones. Hands and feet count as
+/// straight.
 int limb_of(const Vec3& p, const Skeleton& joints)
 {
     int limb = -1;
@@ -47,6 +41,7 @@ int limb_of(const Vec3& p, const Skeleton& joints)
     return limb;
 }
 
+/// Radians, between neighbours of a set of directions.
 double widest_gap(std::vector<double> angles)
 {
     if (angles.empty())
@@ -58,7 +53,7 @@ double widest_gap(std::vector<double> angles)
     return widest;
 }
 
-/// A bone with cloth about it.
+/// The last bone of an arm or a leg, as an axis to measure cloth along.
 class Limb {
 public:
     Limb(const Skeleton& joints, int bone) :
@@ -68,9 +63,11 @@ public:
     }
 
     double length() const { return length_; }
-    double at(const Vec3& p) const { return (p - head_).dot(along_); }
-    /// The mean of the points about the bone's line straight on, beyond a place on it; across the line.
-    Vec3 middle_beyond(double place, const Positions& points, const std::vector<int>& which) const
+    const Vec3& along() const { return along_; }
+    double at(const Vec3& p) const { return (p - head_).dot(along_); }  ///< m, from the head along the bone
+
+    /// The mean offset from the bone's line, across it, of the points beyond a place on the line.
+    Vec3 mean_offset_beyond(double place, const Positions& points, const std::vector<int>& which) const
     {
         Vec3 sum = Vec3::Zero();
         int count = 0;
@@ -81,16 +78,15 @@ public:
             }
         return sum / std::max(1, count);
     }
-    const Vec3& along() const { return along_; }
 
-    /// Whether these points go all round the bone's outer half.
-    bool is_enclosed(const Positions& points, const std::vector<int>& which) const
+    /// Whether these points go all round the outer part of the bone.
+    bool is_enclosed_by(const Positions& points, const std::vector<int>& which) const
     {
         std::vector<double> angles;
         for (const int v : which)
-            if (const Vec3 p = points.row(v).transpose(); at(p) > 0.5 * length_)
+            if (const Vec3 p = points.row(v).transpose(); at(p) > k_enclosed_from * length_)
                 angles.push_back(std::atan2((p - head_).dot(other_), (p - head_).dot(side_)));
-        return widest_gap(std::move(angles)) < k_widest_gap;
+        return widest_gap(std::move(angles)) < k_widest_open_angle;
     }
 
 private:
@@ -98,80 +94,116 @@ private:
     double length_;
 };
 
-/// Vertices that hang together, of those that are marked alike.
-std::map<int, std::vector<int>> pieces_of(const Triangles& triangles, const std::vector<int>& mark, int wanted)
+/// Connected pieces of the vertices with the wanted mark, by their roots.
+std::map<int, std::vector<int>> pieces_of(const Triangles& triangles, const std::vector<int>& marks, int wanted)
 {
-    DisjointSets joined(int(mark.size()));
+    DisjointSets joined(int(marks.size()));
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k)
-            if (const int a = triangles(f, k), b = triangles(f, (k + 1) % 3); mark[a] == mark[b])
+            if (const int a = triangles(f, k), b = triangles(f, (k + 1) % 3); marks[a] == marks[b])
                 joined.join(a, b);
     std::map<int, std::vector<int>> pieces;
-    for (int v = 0; v < int(mark.size()); ++v)
-        if (mark[v] == wanted)
+    for (int v = 0; v < int(marks.size()); ++v)
+        if (marks[v] == wanted)
             pieces[joined.root(v)].push_back(v);
     return pieces;
+}
+
+/// A garment's vertices told apart by limbs.
+struct LimbMap {
+    const GarmentMesh& garment;
+    std::vector<int> limbs;  // of each vertex, from limb_of
+    std::vector<char> is_border;  // has an edge to a vertex of another limb
+
+    LimbMap(const Skeleton& joints, const GarmentMesh& given) :
+        garment(given), limbs(given.positions.rows()), is_border(limbs.size(), 0)
+    {
+        for (std::size_t v = 0; v < limbs.size(); ++v)
+            limbs[v] = limb_of(garment.positions.row(Eigen::Index(v)), joints);
+        for (const auto& corners : garment.triangles.rowwise())
+            for (int k = 0; k < 3; ++k)
+                if (limbs[corners[k]] != limbs[corners[(k + 1) % 3]])
+                    is_border[corners[k]] = is_border[corners[(k + 1) % 3]] = 1;
+    }
+};
+
+/// What goes round one limb.
+struct Sleeve {
+    std::vector<int> vertices;
+    std::vector<std::vector<int>> beside;  // other pieces at the limb, that do not go round it
+    double begin
+        = 0;  // m along the bone; no cloth further along goes over into other cloth, so that no vertex jumps there
+    double reach = 0;  // m along the bone, of the hem
+};
+
+Sleeve find_sleeve(const LimbMap& map, const Limb& limb, Extremity end)
+{
+    Sleeve result;
+    for (const auto& [root, piece] : pieces_of(map.garment.triangles, map.limbs, end))
+        if (limb.is_enclosed_by(map.garment.positions, piece))
+            result.vertices.insert(result.vertices.end(), piece.begin(), piece.end());
+        else
+            result.beside.push_back(piece);
+    for (const int v : result.vertices) {
+        const double at = limb.at(map.garment.positions.row(v));
+        result.reach = std::max(result.reach, at);
+        if (map.is_border[v])
+            result.begin = std::max(result.begin, at);
+    }
+    return result;
+}
+
+/// Adds buttons and the like: pieces that lie on the sleeve with all their vertices.
+void add_attached_pieces(Sleeve& sleeve, const Positions& positions)
+{
+    const NearestPoint cloth(positions(sleeve.vertices, Eigen::all));
+    for (const auto& piece : sleeve.beside)
+        if (std::all_of(piece.begin(), piece.end(),
+                        [&](int v) { return cloth.distance(positions.row(v)) < k_attached_distance; }))
+            sleeve.vertices.insert(sleeve.vertices.end(), piece.begin(), piece.end());
+}
+
+/// Maps the sleeve linearly along the bone, from its begin to k_retracted_end. A sleeve that follows a bent hand leaves
+/// the bone's line: its end is drawn back to the line, evenly from the wrist on.
+void retract(Sleeve sleeve, const Limb& limb, const Positions& given, Positions& positions)
+{
+    const double share = (k_retracted_end * limb.length() - sleeve.begin) / (sleeve.reach - sleeve.begin);
+    const double beyond = sleeve.reach - limb.length();
+    const Vec3 offset = limb.mean_offset_beyond(sleeve.reach - k_hem_share * beyond, given, sleeve.vertices);
+    add_attached_pieces(sleeve, given);
+    for (const int v : sleeve.vertices)
+        if (const double at = limb.at(given.row(v)); at > sleeve.begin)
+            positions.row(v) -= (1 - share) * (at - sleeve.begin) * limb.along()
+                + std::max(0.0, (at - limb.length()) / beyond) * offset;
 }
 
 }  // namespace
 
 SleeveRetraction::SleeveRetraction(const Skeleton& joints, const GarmentMesh& garment) : positions_(garment.positions)
 {
-    std::vector<int> limbs(garment.positions.rows());
-    for (std::size_t v = 0; v < limbs.size(); ++v)
-        limbs[v] = limb_of(garment.positions.row(Eigen::Index(v)), joints);
-    std::vector<char> goes_over(limbs.size(), 0);  // to a vertex of another limb
-    for (const auto& corners : garment.triangles.rowwise())
-        for (int k = 0; k < 3; ++k)
-            if (limbs[corners[k]] != limbs[corners[(k + 1) % 3]])
-                goes_over[corners[k]] = goes_over[corners[(k + 1) % 3]] = 1;
+    const LimbMap map(joints, garment);
     for (const Extremity end : k_ends) {
-        const Limb limb(joints, bone_before(end));
         if (ExtremityBend(joints, end).is_stump)
             continue;
-        std::vector<int> tube;
-        std::vector<std::vector<int>> others;
-        for (const auto& [name, piece] : pieces_of(garment.triangles, limbs, end))
-            if (limb.is_enclosed(garment.positions, piece))
-                tube.insert(tube.end(), piece.begin(), piece.end());
-            else
-                others.push_back(piece);
-        double begin = 0, reach = 0;  // no vertex jumps where the tube goes over into other cloth
-        for (const int v : tube) {
-            const double at = limb.at(garment.positions.row(v));
-            reach = std::max(reach, at);
-            if (goes_over[v])
-                begin = std::max(begin, at);
-        }
-        pushed_[end] = reach > limb.length() && begin < k_latest_begin * limb.length();
-        if (!pushed_[end])
-            continue;
-        const double share = (k_pushed_to * limb.length() - begin) / (reach - begin), beyond = reach - limb.length();
-        // a sleeve may lead off the bone's line where the hand is bent: its end comes back to it
-        const Vec3 off = limb.middle_beyond(reach - 0.3 * beyond, garment.positions, tube);
-        const NearestPoint sleeve(garment.positions(tube, Eigen::all));
-        for (const auto& piece : others)
-            if (std::all_of(piece.begin(), piece.end(),
-                            [&](int v) { return sleeve.distance(garment.positions.row(v)) < k_attached; }))
-                tube.insert(tube.end(), piece.begin(), piece.end());
-        for (const int v : tube)
-            if (const double at = limb.at(garment.positions.row(v)); at > begin)
-                positions_.row(v)
-                    -= (1 - share) * (at - begin) * limb.along() + std::max(0.0, (at - limb.length()) / beyond) * off;
+        const Limb limb(joints, bone_before(end));
+        const Sleeve sleeve = find_sleeve(map, limb, end);
+        retracted_[end] = sleeve.reach > limb.length() && sleeve.begin < k_latest_sleeve_begin * limb.length();
+        if (retracted_[end])
+            retract(sleeve, limb, garment.positions, positions_);
     }
 }
 
-bool SleeveRetraction::any() const
+bool SleeveRetraction::is_any() const
 {
-    return std::any_of(pushed_.begin(), pushed_.end(), [](bool pushed) { return pushed; });
+    return std::any_of(retracted_.begin(), retracted_.end(), [](bool retracted) { return retracted; });
 }
 
-std::vector<double> SleeveRetraction::freed(const Positions& skin, const SkinWeights& weights,
-                                            const Skeleton& joints) const
+std::vector<double> SleeveRetraction::min_scales(const Positions& skin, const SkinWeights& weights,
+                                                 const Skeleton& joints) const
 {
     std::vector<double> result(skin.rows(), 0);
     for (const Extremity end : k_ends) {
-        if (!pushed_[end])
+        if (!retracted_[end])
             continue;
         const ExtremityBend bend(joints, end);
         for (Eigen::Index v = 0; v < skin.rows(); ++v)

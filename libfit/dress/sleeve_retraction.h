@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sleeves and trouser legs that reach beyond wrists and ankles are pushed up before the body grows, as people do who put a garment on: a thumb
-// or a heel that grew inside a cuff would be caught there.
+// Retracts sleeves and trouser legs that reach beyond wrists and ankles, before the body grows, as people do who put a
+// garment on. A thumb or a heel that grew inside a cuff would be caught there
+// (docs/decisions/0014-sleeves-pushed-up.md).
 
 #include <array>
 #include <vector>
@@ -17,15 +18,17 @@ public:
     /// @param joints  in the garment's pose
     SleeveRetraction(const Skeleton& joints, const GarmentMesh& garment);
 
-    bool any() const;
-    /// The garment's vertices with its sleeves and legs pushed up, n x 3: along each limb a map without folds. What
-    /// lies in narrow folds may cross all the same, for triangles stay flat.
+    /// Whether any sleeve or leg was retracted.
+    bool is_any() const;
+    /// The garment's vertices with sleeves and legs retracted, n x 3. Along each limb the map has no folds. Cloth in
+    /// narrow folds may cross all the same, because triangles stay flat.
     const Positions& positions() const { return positions_; }
-    /// Of each vertex of skin (m x 3, in the garment's pose) how far it belongs to a hand or foot that stands free now, 0 to 1.
-    std::vector<double> freed(const Positions& skin, const SkinWeights& weights, const Skeleton& joints) const;
+    /// For each vertex of skin (m x 3, in the garment's pose) the least body scale: 1 on hands and feet that are free
+    /// of cloth now, 0 elsewhere, and the share of the hand or foot in between.
+    std::vector<double> min_scales(const Positions& skin, const SkinWeights& weights, const Skeleton& joints) const;
 
 private:
-    std::array<bool, extremity_count> pushed_ {};
+    std::array<bool, extremity_count> retracted_ {};
     Positions positions_;
 };
 

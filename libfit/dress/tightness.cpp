@@ -7,30 +7,22 @@
 #include "nearest.h"
 #include "skin_weights.h"
 #include "stretch.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// Edges within 30 degrees of "across the bone" run round it.
-constexpr double k_across = 0.5;
-// A part speaks when its edges would go round it this often: a hem that just reaches it does not stretch as a whole.
-constexpr double k_fewest_rounds = 6;
-// Single edges stretch for many reasons; what counts is what all but a twentieth of them stay below.
-constexpr double k_most = 0.95;
-// An edge that is stretched by more than half is caught somewhere (a cuff on a thumb), and no more a measure of girth.
-constexpr double k_caught = 0.5;
-
 // The hip joints point sideways: what goes round the hips goes round the spine.
-int bone_inside(int bone) { return bone == lhipjoint || bone == rhipjoint ? int(lowerback) : bone; }
+int encircled_bone(int bone) { return bone == lhipjoint || bone == rhipjoint ? int(lowerback) : bone; }
 
-// Metres from the bone that it goes round, or from the bone's line.
-double radius(const Vec3& p, const Skeleton& skeleton, int bone)
+// m, from the bone's line.
+double distance_to_line(const Vec3& p, const Skeleton& skeleton, int bone)
 {
     const Vec3 out = p - skeleton.head(bone), axis = skeleton.direction(bone);
     return (out - out.dot(axis) * axis).norm();
 }
 
-std::vector<TooTight> worst_first(std::vector<TooTight> parts)
+std::vector<TooTight> sort_worst_first(std::vector<TooTight> parts)
 {
     std::sort(parts.begin(), parts.end(),
               [](const auto& a, const auto& b) { return a.missing_girth > b.missing_girth; });
@@ -39,79 +31,81 @@ std::vector<TooTight> worst_first(std::vector<TooTight> parts)
 
 }  // namespace
 
-Tightness::Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton, int index) :
-    garment_(garment), skeleton_(skeleton), index_(index), bones_(strongest_bones(weights))
+Tightness::Tightness(const Positions& rest, const Edges& edges, const SkinWeights& weights, const Skeleton& skeleton,
+                     int index) :
+    rest_(rest),
+    edges_(edges), skeleton_(skeleton), index_(index), bones_(strongest_bones(weights))
 {
 }
 
-std::vector<Tightness::Round> Tightness::rounds(const Positions& positions) const
+std::vector<Tightness::PartStretch> Tightness::measure_parts(const Positions& positions) const
 {
     struct Sums {
         double now = 0, rest = 0, radius = 0;
         std::vector<double> stretches;
     };
     std::array<Sums, k_body_parts> sums;
-    const auto edges = edges_of(garment_.triangles);
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
-        const int i = edges(e, 0), j = edges(e, 1), part = part_of(bones_[i]);
+    for (Eigen::Index e = 0; e < edges_.rows(); ++e) {
+        const int i = edges_(e, 0), j = edges_(e, 1), part = part_of(bones_[i]);
         const Vec3 edge = positions.row(j) - positions.row(i);
-        const int bone = bone_inside(bones_[i]);
+        const int bone = encircled_bone(bones_[i]);
         if (part < 0 || part != part_of(bones_[j])
-            || std::abs(edge.dot(skeleton_.direction(bone))) > k_across * edge.norm())
+            || std::abs(edge.dot(skeleton_.direction(bone))) > k_across_bone * edge.norm())
             continue;
         Sums& s = sums[part];
-        const double rest = (garment_.positions.row(i) - garment_.positions.row(j)).norm();
-        s.now += std::min(edge.norm(), (1 + k_caught) * rest);
+        const double rest = (rest_.row(i) - rest_.row(j)).norm();
+        s.now += std::min(edge.norm(), (1 + k_caught_stretch) * rest);
         s.rest += rest;
-        s.radius += radius(positions.row(i), skeleton_, bone);
+        s.radius += distance_to_line(positions.row(i), skeleton_, bone);
         s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
     }
-    std::vector<Round> result;
+    std::vector<PartStretch> result;
     for (std::size_t p = 0; p < sums.size(); ++p)
         if (const Sums& s = sums[p]; s.rest > 0)
             if (const double girth = 2 * M_PI * s.radius / double(s.stretches.size()); s.now > k_fewest_rounds * girth)
-                result.push_back({ int(p), s.now / s.rest - 1, quantile(s.stretches, k_most), girth });
+                result.push_back({ int(p), s.now / s.rest - 1, quantile(s.stretches, k_stretch_quantile), girth });
     return result;
 }
 
 double Tightness::largest_stretch(const Positions& positions) const
 {
     double largest = 0;
-    for (const Round& round : rounds(positions))
-        largest = std::max(largest, round.stretch);
+    for (const PartStretch& part : measure_parts(positions))
+        largest = std::max(largest, part.mean);
     return largest;
 }
 
-TooTight Tightness::missing(const Round& round, double stretch, double growth) const
+TooTight Tightness::missing_girth(const PartStretch& part, double stretch, double growth) const
 {
-    const double needed = round.girth * (1 + growth), unstretched = round.girth / (1 + stretch);
-    return { index_, part_name(round.part), needed - unstretched, needed / unstretched - 1 };
+    const double needed = part.girth * (1 + growth), unstretched = part.girth / (1 + stretch);
+    return { index_, part_name(part.part), needed - unstretched, needed / unstretched - 1 };
 }
 
-std::vector<TooTight> Tightness::too_tight(const Positions& positions, double allowed, const PerPart& growth) const
+std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, double allowed,
+                                                  const PerPart& growth) const
 {
     std::vector<TooTight> result;
-    for (const Round& round : rounds(positions))
-        if (round.stretch > allowed)
-            result.push_back(missing(round, round.stretch, growth[round.part]));
-    return worst_first(result);
+    for (const PartStretch& part : measure_parts(positions))
+        if (part.mean > allowed)
+            result.push_back(missing_girth(part, part.mean, growth[part.part]));
+    return sort_worst_first(result);
 }
 
-std::vector<TooTight> Tightness::too_tight_at_rest(const Positions& positions, double allowed) const
+std::vector<TooTight> Tightness::list_tight_parts_at_rest(const Positions& positions, double allowed) const
 {
-    if (quantile(stretches(garment_, positions), k_most) < allowed)
-        return too_tight(positions, allowed, {});
+    if (quantile(stretches(rest_, positions, edges_), k_stretch_quantile) < allowed)
+        return list_tight_parts(positions, allowed, {});
     std::vector<TooTight> result;
-    for (const Round& round : rounds(positions))
-        if (round.tightest > allowed)
-            result.push_back(missing(round, std::min(round.tightest, k_caught), 0));
-    return worst_first(result);
+    for (const PartStretch& part : measure_parts(positions))
+        if (part.tightest > allowed)
+            result.push_back(missing_girth(part, std::min(part.tightest, k_caught_stretch), 0));
+    return sort_worst_first(result);
 }
 
 namespace {
 
-/// How much wider than the skin under each vertex of cloth something is, on the mean round each part.
-/// @param outer  (vertex of the cloth, of the skin under it) -> the place to compare
+/// How much wider than the skin under the cloth something is, as a mean over the vertices of cloth round each part.
+/// @param outer  (vertex of the cloth, vertex of the skin under it) -> the point to compare
 template <class Outer>
 PerPart wider_than(const Positions& skin, const Positions& cloth, const SkinWeights& weights, const Skeleton& skeleton,
                    const Outer& outer)
@@ -120,11 +114,12 @@ PerPart wider_than(const Positions& skin, const Positions& cloth, const SkinWeig
     const NearestPoint nearest(skin);
     PerPart wide {}, needed {}, result {};
     for (int v = 0; v < int(cloth.rows()); ++v) {
-        const int under = nearest.index(cloth.row(v)), part = part_of(bones[under]), bone = bone_inside(bones[under]);
+        const int under = nearest.index(cloth.row(v)), part = part_of(bones[under]),
+                  bone = encircled_bone(bones[under]);
         if (part < 0)
             continue;
-        wide[part] += radius(outer(v, under), skeleton, bone);
-        needed[part] += radius(skin.row(under), skeleton, bone);
+        wide[part] += distance_to_line(outer(v, under), skeleton, bone);
+        needed[part] += distance_to_line(skin.row(under), skeleton, bone);
     }
     for (std::size_t p = 0; p < result.size(); ++p)
         result[p] = needed[p] > 0 ? wide[p] / needed[p] - 1 : 0;

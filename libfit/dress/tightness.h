@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How far a garment is stretched round each part of a body, and how much girth it lacks there.
+// Measures how far a garment is stretched round each part of a body, and how much girth it lacks there.
+//
+// Stretch is l / l0 - 1 of an edge, dimensionless. Girths are metres.
 
 #include <array>
 #include <vector>
 
 #include "body_parts.h"
 #include "garmentfit/drape_garment.h"
+#include "topology.h"
 
 namespace garmentfit {
 
@@ -16,43 +19,51 @@ using PerPart = std::array<double, k_body_parts>;
 /// Follows one garment on one body, in one pose.
 class Tightness {
 public:
+    /// @param edges     of the garment; must outlive this
     /// @param weights   skin weights of the garment's vertices
     /// @param skeleton  in the pose of the garment
     /// @param index     of the garment, from the inside out
-    Tightness(const GarmentMesh& garment, const SkinWeights& weights, const Skeleton& skeleton, int index = 0);
+    Tightness(const Positions& rest, const Edges& edges, const SkinWeights& weights, const Skeleton& skeleton,
+              int index = 0);
 
-    /// The largest mean stretch round a part of the body, dimensionless; 0 = nowhere stretched.
+    /// From now on the rest shape is this: the same garment in another size.
+    void set_rest(const Positions& rest) { rest_ = rest; }
+
+    /// The largest mean stretch round a part of the body; 0: nowhere stretched.
     double largest_stretch(const Positions& positions) const;
 
-    /// Parts stretched beyond `allowed`, worst first, on a body that has not grown to its full size yet.
+    /// Lists the parts stretched beyond `allowed`, worst first, on a body below its full size.
     /// @param growth  by how much its girth under the cloth still has to grow, from growth_left
-    std::vector<TooTight> too_tight(const Positions& positions, double allowed, const PerPart& growth) const;
+    std::vector<TooTight> list_tight_parts(const Positions& positions, double allowed, const PerPart& growth) const;
 
-    /// For cloth at rest on a body of full size. When as a whole more than a twentieth of it is stretched beyond `allowed`, the
-    /// parts it is stretched round by that much at their tightest places count, too.
-    std::vector<TooTight> too_tight_at_rest(const Positions& positions, double allowed) const;
+    /// The same for cloth at rest on a body of full size. When more than a twentieth of all edges is stretched beyond
+    /// `allowed`, a part also counts if a twentieth of the edges round it is.
+    std::vector<TooTight> list_tight_parts_at_rest(const Positions& positions, double allowed) const;
 
 private:
-    struct Round {
+    struct PartStretch {
         int part;
-        double stretch;  // mean over the edges that run round the part
+        double mean;  // over the edges that run round the part
         double tightest;  // a twentieth of these edges is stretched more than this
         double girth;  // m, of the cloth as it is now
     };
-    std::vector<Round> rounds(const Positions& positions) const;
-    TooTight missing(const Round& round, double stretch, double growth) const;
+    std::vector<PartStretch> measure_parts(const Positions& positions) const;
+    TooTight missing_girth(const PartStretch& part, double stretch, double growth) const;
 
-    GarmentMesh garment_;
+    Positions rest_;
+    const Edges& edges_;
     Skeleton skeleton_;
     int index_;
     std::vector<int> bones_;  // of each garment vertex, the one it follows most
 };
 
-/// By how much of the body's girth a garment that lies on it is wider, round each part: 0.1 = by a tenth, 0 where there is no cloth.
+/// By how much of the body's girth a garment that lies on it is wider, round each part: 0.1 = by a tenth, 0 where there
+/// is no cloth.
 /// @param cloth, body  n x 3 and m x 3, metres, in the skeleton's pose
 PerPart slack(const Positions& cloth, const Positions& body, const SkinWeights& weights, const Skeleton& skeleton);
 
-/// By how much the girth under a garment still has to grow until a body is of full size, round each part; 0 where there is no cloth.
+/// By how much the girth under a garment still has to grow until a body is of full size, round each part; 0 where there
+/// is no cloth.
 /// @param cloth, body, full  n x 3, and m x 3 each, metres, in the skeleton's pose
 PerPart growth_left(const Positions& cloth, const Positions& body, const Positions& full, const SkinWeights& weights,
                     const Skeleton& skeleton);

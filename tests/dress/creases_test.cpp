@@ -40,10 +40,10 @@ TriangleMesh table_with_slit()
 
 std::vector<char> all_of(const TriangleMesh& mesh, char near) { return std::vector<char>(mesh.positions.rows(), near); }
 
-TEST(Creases, AreBridgedFromLipToLip)
+TEST(Creases, AreBridgedAcrossTheirBoundary)
 {
     const TriangleMesh table = table_with_slit();
-    const Positions bridged = Creases(table, all_of(table, 1)).bridged();
+    const Positions bridged = Creases(table, all_of(table, 1)).bridged_surface();
     for (Eigen::Index v = 0; v < bridged.rows(); ++v) {
         EXPECT_GT(bridged(v, 1), k_top - 0.01) << "vertex " << v << " hangs in the slit";
         if (std::abs(table.positions(v, 0)) > 0.02) {
@@ -55,14 +55,14 @@ TEST(Creases, AreBridgedFromLipToLip)
 TEST(Creases, WithoutClothNearThemAreLeftAlone)
 {
     const TriangleMesh table = table_with_slit();
-    EXPECT_EQ(Creases(table, all_of(table, 0)).bridged(), table.positions);
+    EXPECT_EQ(Creases(table, all_of(table, 0)).bridged_surface(), table.positions);
 }
 
 TEST(Creases, WithdrawHalfwayToTheCore)
 {
     const TriangleMesh table = table_with_slit();
     const Positions core = Positions::Zero(table.positions.rows(), 3);
-    const Positions withdrawn = Creases(table, all_of(table, 1)).withdrawn(core);
+    const Positions withdrawn = Creases(table, all_of(table, 1)).withdrawn_surface(core);
     for (Eigen::Index v = 0; v < withdrawn.rows(); ++v) {
         const double share = table.positions(v, 1) < k_top ? 0.5 : 1;
         if (share < 1 || std::abs(table.positions(v, 0)) > 0.02) {
@@ -77,7 +77,7 @@ TEST(Creases, OfSmoothSkinAreNone)
     table.positions.col(1).setConstant(k_top);
     for (Eigen::Index v = 0; v < table.positions.rows(); ++v)
         table.positions(v, 1) += 0.05 * std::cos(10 * table.positions(v, 2));  // hollows of 20 cm radius
-    EXPECT_EQ(Creases(table, all_of(table, 1)).bridged(), table.positions);
+    EXPECT_EQ(Creases(table, all_of(table, 1)).bridged_surface(), table.positions);
 }
 
 }  // namespace

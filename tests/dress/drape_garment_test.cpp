@@ -59,7 +59,7 @@ TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
     const GarmentMesh garment = trousers(0.02);
     const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
     EXPECT_TRUE(result.certified);
-    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_EQ(result.scale_reached, 1);
     EXPECT_TRUE(result.too_tight.empty());
     EXPECT_EQ(result.body, d.body.surface.positions);
     ASSERT_EQ(result.garments.size(), 1u);
@@ -85,7 +85,7 @@ TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
     const Dressing d = person();
     const DrapeResult result = drape_garment(d.rig, d.body, {}, trousers(-0.03), short_settling());
     EXPECT_FALSE(result.certified);
-    EXPECT_LT(result.size_reached, 1);
+    EXPECT_LT(result.scale_reached, 1);
     ASSERT_FALSE(result.too_tight.empty());
     // 3 cm all round are 19 cm of girth
     EXPECT_NEAR(result.too_tight[0].missing_girth, 2 * M_PI * 0.03, 0.05);
@@ -100,14 +100,14 @@ TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
     options.cloth.largest_enlargement = 1;
     const DrapeResult result = drape_garment(d.rig, d.body, {}, small, options);
     EXPECT_TRUE(result.certified);
-    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_EQ(result.scale_reached, 1);
     ASSERT_EQ(result.garments.size(), 1u);
     const double size = result.garments[0].size;
     EXPECT_GT(size, 1.05);
     EXPECT_LT(size, 1.5);
     EXPECT_EQ(result.garments[0].rest.positions, size * small.positions);
     options.cloth.largest_enlargement = 0.5 * (size - 1);
-    EXPECT_LT(drape_garment(d.rig, d.body, {}, small, options).size_reached, 1);
+    EXPECT_LT(drape_garment(d.rig, d.body, {}, small, options).scale_reached, 1);
 }
 
 TEST(DrapeGarment, RefusesAGarmentThatTheSkeletonPassesThrough)
@@ -145,7 +145,7 @@ TEST(DrapeGarment, StartsThinnerWhereClothIsVeryNearToABone)
     const GarmentMesh garment = trousers_with_patch(d.rig.skeleton, 3e-4);
     const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
     EXPECT_TRUE(result.certified);
-    EXPECT_EQ(result.size_reached, 1);
+    EXPECT_EQ(result.scale_reached, 1);
     EXPECT_THROW(drape_garment(d.rig, d.body, {}, trousers_with_patch(d.rig.skeleton, 0), short_settling()),
                  InvalidInput);
 }
@@ -168,7 +168,7 @@ TEST(DrapeGarment, LeavesInnerGarmentsCleanWhereTheOuterOneIsTooSmall)
     const DrapeResult inner = drape_garment(d.rig, d.body, {}, trousers(0.012), short_settling());
     const DrapeResult both = drape_garment(d.rig, d.body, inner, trousers(-0.03), short_settling());
     EXPECT_FALSE(both.certified);
-    EXPECT_LT(both.size_reached, 1);
+    EXPECT_LT(both.scale_reached, 1);
     ASSERT_FALSE(both.too_tight.empty());
     EXPECT_EQ(both.too_tight[0].garment, 1);
     for (const WornGarment& garment : both.garments)
@@ -296,7 +296,7 @@ TEST_P(RealGarment, IsPutOnAndStaysOn)
     const GarmentMesh garment = make_garment(cloth.positions(), cloth.triangles());
     const Pose fitted = fit_skeleton(rig, garment).pose;
     const DrapeResult draped = drape_garment(rig, body, { fitted }, garment, short_settling());
-    ASSERT_EQ(draped.size_reached, 1);
+    ASSERT_EQ(draped.scale_reached, 1);
     RecoverOptions options;
     options.settling_steps = 10;
     EXPECT_TRUE(recover_pose(rig, body, draped, Pose(), options).certified);

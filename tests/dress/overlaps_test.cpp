@@ -30,30 +30,30 @@ struct ChestAndArm {
         weights = fixtures::on_bone(thorax, chest.positions.rows());
         append(weights, fixtures::on_bone(lhumerus, arm.positions.rows()));
     }
-    std::vector<Overlap> overlaps(char near_cloth) const
+    std::vector<Overlap> find(char near_cloth) const
     {
-        return garmentfit::overlaps(body, weights, std::vector<char>(body.positions.rows(), near_cloth));
+        return find_overlaps(body, weights, std::vector<char>(body.positions.rows(), near_cloth));
     }
 };
 
 TEST(Overlaps, NameTheTwoPartsAndHowDeepTheyEnterEachOther)
 {
-    const auto found = ChestAndArm(0.18).overlaps(1);
+    const auto found = ChestAndArm(0.18).find(1);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].part, "chest");
     EXPECT_EQ(found[0].other, "left upper arm");
     EXPECT_NEAR(found[0].depth, 0.02, 2e-3);
 }
 
-TEST(Overlaps, AreNoneWherePartsOnlyComeNear) { EXPECT_TRUE(ChestAndArm(0.205).overlaps(1).empty()); }
+TEST(Overlaps, AreNoneWherePartsOnlyComeNear) { EXPECT_TRUE(ChestAndArm(0.205).find(1).empty()); }
 
-TEST(Overlaps, DoNotMatterFarFromCloth) { EXPECT_TRUE(ChestAndArm(0.18).overlaps(0).empty()); }
+TEST(Overlaps, DoNotMatterFarFromCloth) { EXPECT_TRUE(ChestAndArm(0.18).find(0).empty()); }
 
-TEST(Overlaps, OfAPartWithItselfAreItsOwnAffair)
+TEST(Overlaps, OfAPartWithItselfDoNotCount)
 {
     ChestAndArm d(0.18);
     d.weights = fixtures::on_bone(thorax, d.body.positions.rows());
-    EXPECT_TRUE(d.overlaps(1).empty());
+    EXPECT_TRUE(d.find(1).empty());
 }
 
 }  // namespace

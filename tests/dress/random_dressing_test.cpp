@@ -106,7 +106,7 @@ TEST_P(RandomDressing, NothingCrosses)
         const GarmentMesh garment = random_garment(whim, person.skeleton, ease, whim.between(0, 0.01));
         dressed = drape_garment(rig, body, dressed, garment, drape);
         expect_no_crossing(dressed.garments, places(dressed.garments), { dressed.body, skin });
-        if (dressed.size_reached < 1)
+        if (dressed.scale_reached < 1)
             return;  // too small, and handed out as it is
     }
     RecoverOptions recover;

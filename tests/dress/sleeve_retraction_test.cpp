@@ -46,16 +46,16 @@ GarmentMesh with_button(const GarmentMesh& sleeve, const Vec3& middle, const Vec
     return result;
 }
 
-TEST_F(Sleeve, ThatReachesBeyondTheWristIsPushedUpBehindIt)
+TEST_F(Sleeve, ThatReachesBeyondTheWristIsRetractedBehindIt)
 {
     const GarmentMesh given = sleeve(wrist + 0.1);
-    const SleeveRetraction pushed(joints, given);
-    ASSERT_TRUE(pushed.any());
-    EXPECT_LT(furthest(pushed.positions()), 0.8 * wrist);
+    const SleeveRetraction retraction(joints, given);
+    ASSERT_TRUE(retraction.is_any());
+    EXPECT_LT(furthest(retraction.positions()), 0.8 * wrist);
     for (Eigen::Index v = 0; v < given.positions.rows(); ++v) {
-        const Vec3 moved = (pushed.positions().row(v) - given.positions.row(v)).transpose();
+        const Vec3 moved = (retraction.positions().row(v) - given.positions.row(v)).transpose();
         EXPECT_LT(moved.cross(joints.direction(lradius)).norm(), 1e-12) << "it goes along the bone";
-        EXPECT_GT(along(pushed.positions(), v), 0) << "it does not pass the elbow";
+        EXPECT_GT(along(retraction.positions(), v), 0) << "it does not pass the elbow";
     }
 }
 
@@ -66,18 +66,18 @@ TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
     for (Eigen::Index v = 0; v < given.positions.rows(); ++v)
         if (const double beyond = along(given.positions, v) - wrist; beyond > 0)
             given.positions.row(v) += beyond * side;
-    const SleeveRetraction pushed(joints, given);
-    ASSERT_TRUE(pushed.any());
-    const TriangleTree cloth({ pushed.positions(), given.triangles });
+    const SleeveRetraction retraction(joints, given);
+    ASSERT_TRUE(retraction.is_any());
+    const TriangleTree cloth({ retraction.positions(), given.triangles });
     EXPECT_FALSE(cloth.is_met(joints.head(lradius), joints.tail(lradius)));
 }
 
 TEST_F(Sleeve, ThatEndsBeforeTheWristStays)
 {
     const GarmentMesh given = sleeve(wrist - 0.02);
-    const SleeveRetraction pushed(joints, given);
-    EXPECT_FALSE(pushed.any());
-    EXPECT_EQ(pushed.positions(), given.positions);
+    const SleeveRetraction retraction(joints, given);
+    EXPECT_FALSE(retraction.is_any());
+    EXPECT_EQ(retraction.positions(), given.positions);
 }
 
 TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
@@ -99,7 +99,7 @@ TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
             const int v = panel.triangles(kept[f], k);
             given.triangles(Eigen::Index(f), k) = v / 24 * 13 + v % 24;
         }
-    EXPECT_FALSE(SleeveRetraction(joints, given).any());
+    EXPECT_FALSE(SleeveRetraction(joints, given).is_any());
 }
 
 TEST_F(Sleeve, TakesItsButtonsAlong)
@@ -108,25 +108,25 @@ TEST_F(Sleeve, TakesItsButtonsAlong)
     const Vec3 axis = joints.direction(lradius), side = axis.unitOrthogonal();
     const Vec3 on_cuff = joints.head(lradius) + (wrist + 0.08) * axis + 0.064 * side;
     const GarmentMesh given = with_button(plain, on_cuff, axis, axis.cross(side));
-    const SleeveRetraction pushed(joints, given);
-    ASSERT_TRUE(pushed.any());
+    const SleeveRetraction retraction(joints, given);
+    ASSERT_TRUE(retraction.is_any());
     for (Eigen::Index v = plain.positions.rows(); v < given.positions.rows(); ++v)
-        EXPECT_LT(along(pushed.positions(), v), 0.8 * wrist);
+        EXPECT_LT(along(retraction.positions(), v), 0.8 * wrist);
 }
 
 TEST_F(Sleeve, SetsFreeTheHandThatItCovered)
 {
-    const SleeveRetraction pushed(joints, sleeve(wrist + 0.1));
+    const SleeveRetraction retraction(joints, sleeve(wrist + 0.1));
     Positions points(4, 3);
     points << joints.tips[lhand_tip].transpose(), joints.head(lradius).transpose(), joints.tips[rhand_tip].transpose(),
         joints.tail(lradius).transpose();
     SkinWeights weights = on_bone(lradius, 4);
     weights.bones(2, 0) = rradius;
-    const std::vector<double> freed = pushed.freed(points, weights, joints);
-    EXPECT_EQ(freed[0], 1) << "fingertip";
-    EXPECT_EQ(freed[1], 0) << "elbow";
-    EXPECT_EQ(freed[2], 0) << "the other hand";
-    EXPECT_NEAR(freed[3], 0.5, 1e-9) << "wrist";
+    const std::vector<double> scales = retraction.min_scales(points, weights, joints);
+    EXPECT_EQ(scales[0], 1) << "fingertip";
+    EXPECT_EQ(scales[1], 0) << "elbow";
+    EXPECT_EQ(scales[2], 0) << "the other hand";
+    EXPECT_NEAR(scales[3], 0.5, 1e-9) << "wrist";
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Puts a body into a garment that its skeleton was fitted to, without ever letting cloth and body cross.
+// Puts a garment on a body whose skeleton was fitted to it. Cloth and body never cross.
 //
-// Method   The posed body is collapsed onto its bones, which run inside the garment, and inflated to full size; the
-//          cloth is pushed outwards (projective dynamics [bouaziz_2014_projective_dynamics]) and every motion is cut to
-//          its intersection-free part (additive CCD [li_2021_cipc]). Then it settles under gravity.
+// Method   The posed body is collapsed onto its bones, which run inside the garment, and grows to full size. Contact
+//          pushes the cloth outwards (projective dynamics [bouaziz_2014_projective_dynamics]). Every motion is cut to
+//          its intersection-free part (additive CCD [li_2021_cipc]). Then the cloth settles under gravity.
 // Units    metres, kilograms, seconds.
 // Cost     contact search dominates: O((n + c) log n) a step, n vertices, c close pairs; some 100 steps.
 // Promise  every state returned or shown is certified, or says in its certificate what is wrong with it.
@@ -22,9 +22,10 @@
 
 namespace garmentfit {
 
+/// Defaults are fitted: guesses on the pairs that dress/tuning.h names.
 struct DrapeOptions {
     ClothOptions cloth;
-    int inflation_steps = 24;  ///< from the bones to full size
+    int inflation_steps = 24;  ///< in which the body grows from its bones to full size
     int settling_steps = 20;  ///< time steps under gravity
 };
 
@@ -32,14 +33,14 @@ struct DrapeOptions {
 struct TooTight {
     int garment;  ///< which: from the inside out, as all of libfit counts them
     std::string part;  ///< "chest", "waist", "hips", "left thigh", ...
-    double missing_girth;  ///< m; girth the cloth lacks there to lie unstretched
+    double missing_girth;  ///< m; girth that the cloth lacks there to lie unstretched
     double enlargement;  ///< share by which the garment would have to be larger for that
 };
 
 /// Where cloth keeps a part of the body from its place.
 struct HeldBack {
     std::string part;  ///< as in TooTight
-    double distance;  ///< m; what is left of the way of its furthest vertex
+    double distance;  ///< m; of its furthest vertex from its place
 };
 
 /// A garment on a body.
@@ -48,39 +49,44 @@ struct WornGarment {
     Positions positions;  ///< as worn, n x 3
     Certificate certificate;
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
-    /// m that it sank along the body since it was put on, by the median of its vertices. A large value: the garment is too wide to stay.
+    /// m that it sank along the body since it was put on, by the median of its vertices. A large value: the garment is
+    /// too wide to stay.
     double slipped = 0;
 };
 
 /// A body in a pose, and the garments on it.
 struct DressedBody {
     Pose pose = {};  ///< takes the body from the pose of its input into this one
-    /// The body's vertices, n x 3; cloth may hold parts of the body back from the pose, and hands may be stretched out. Empty: exactly the pose.
+    /// The body's vertices, n x 3; cloth may hold parts of the body back from the pose, and hands may be stretched out.
+    /// Empty: exactly the pose.
     Positions body = {};
     std::vector<WornGarment> garments = {};  ///< from the inside out
 };
 
-/// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n). @return whether all are clean
+/// Writes the certificate of each garment, judged against the body and the garments under it. O(n log n).
+/// @return whether all are clean
 GARMENTFIT_API bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body);
 
-/// The dressed body as draping left it, at the body scale reached. The last garment is the new one. It is left out where it is too small to be
-/// put on over the others. Hands that would stand across a sleeve are stretched out.
+/// The dressed body as draping left it, at the body scale reached. The last garment is the new one. It is left out
+/// where it is too small to be put on over the others. Hands that would stand across a sleeve are stretched out.
 struct DrapeResult : DressedBody {
-    double size_reached = 1;  ///< of the body's thickness; less than 1 where the garment is too small
+    double scale_reached = 1;  ///< of the body's thickness, 1 = full size; less where the garment is too small
     std::vector<TooTight> too_tight;
-    std::vector<HeldBack> held_back;  ///< at full size, where cloth had no room; worst first
-    std::optional<double>
-        speed;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None where
-    ///< the garment is too small: it was not let settle
+    std::vector<HeldBack> held_back;  ///< parts that cloth holds back from their places at full size; worst first
+    /// m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None where the garment is too
+    /// small: then nothing settles.
+    std::optional<double> speed;
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
     ClothSeconds seconds;
 };
 
 /// Puts one more garment on a body.
-/// @param wearer  the body in the pose of the new garment (FitResult::pose), and the garments that it wears already, which give way with it.
-///                A body that wears nothing: `{ fit.pose }`. Another layer: the DrapeResult of the layer below.
-/// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does. Cancelled.
-GARMENTFIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& wearer,
+/// @param dressed  the body in the pose of the new garment (FitResult::pose), and the garments that it wears already;
+///                 these give way with the body. A body that wears nothing: `{ fit.pose }`. Another layer: the
+///                 DrapeResult of the layer below.
+/// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does.
+///         Cancelled.
+GARMENTFIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed,
                                          const GarmentMesh& garment, const DrapeOptions& options = {},
                                          const Progress& progress = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which of several garments goes over which.
+// Decides which of several garments goes over which.
 
 #include <string_view>
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace garmentfit {
 
-/// Of several garments: as they were given, from the inside out, or as order_layers has it.
+/// From the inside out as the garments are given, or as order_layers decides.
 enum class LayerOrder { given, automatic };
 /// "given", "auto".
 GARMENTFIT_API const std::vector<std::string_view>& layer_order_names();
 
-/// Which garment goes over which: the layer of each, 0 for the innermost. Of two that go round the same parts of the body, the type says it
-/// (a coat goes over a jacket, that over a hoodie, that over shirts) or, where it does not, the one that is clearly wider goes over the
-/// other; where that says nothing either, they stay in the order they are in. O(n log n).
+/// The layer of each garment, 0 for the innermost. Of two garments round the same parts of the body the type decides
+/// (coats over jackets, jackets over hoodies, hoodies over shirts). Of two types of one layer, the clearly wider
+/// garment goes over the other. Else both stay in the order in which they are given. O(n log n).
+/// docs/decisions/0015-layer-order.md
 /// @param body  the user's vertices, metres
 /// @param fits  of each garment, with its type
 GARMENTFIT_API std::vector<int> order_layers(const Rig& rig, const Positions& body,

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The fitted numbers of this room: chosen on data, neither derived nor taken from literature.
+//
+// Units    "m" means body metres: metres on a body of human size. Numbers without a unit are dimensionless.
+// Data     "house pairs": twelve pairs of a body and a garment, real and modelled. "Samples": docs/samples on
+//          tests/bodies.
+// Score    a pair counts when its result is certified; among those, the smaller largest stretch of an edge is better.
+// A guess  is a number that worked on these data and was not varied against a score.
+//
+// Defaults of DrapeOptions and RecoverOptions stand in their headers, because they are part of the interface. They are
+// fitted, too: guesses on the house pairs, a compromise between time and certified results.
+
+#include <array>
+#include <numbers>
+
+namespace garmentfit {
+
+// ---- growing the body (growing_body.cpp, drape_garment.cpp) ------------------------------------------------------
+
+/// Body scales to start with, tried from the first. The first is below 2 mm for a limb; the others serve bones that run
+/// nearer to the cloth. None leaves faces without area. Fitted: samples on all test bodies; with the first alone, poses
+/// with cloth very near to a bone were refused.
+inline constexpr std::array<double, 3> k_initial_body_scales { 0.01, 0.003, 0.001 };
+/// m; the longest move of a vertex in one step while the body grows. Fitted: guess, on the house pairs.
+inline constexpr double k_growing_move = 1e-2;
+/// Where one part ends the growth, other parts stretched beyond this share of the limit are named, too. Fitted: guess,
+/// on the house pairs.
+inline constexpr double k_named_stretch_share = 0.7;
+/// An enlarged garment is stretched by this share of the allowed stretch, so that the next step does not ask for more.
+/// Fitted: guess.
+inline constexpr double k_enlarged_stretch_share = 0.5;
+
+// ---- hands (hand_stretch.cpp) ------------------------------------------------------------------------------------
+
+/// Shares of its bend that are taken back from a hand, tried from the first. Fitted: of half stretches, a jacket with
+/// crumpled cuffs failed, because the hand grew into the folds (docs/decisions/0010-straight-hands.md).
+inline constexpr std::array<double, 2> k_hand_stretches { 0, 1 };
+
+// ---- sleeve retraction (sleeve_retraction.cpp), docs/decisions/0014-sleeves-pushed-up.md --------------------------
+
+/// Share of the forearm's or shin's length up to which a sleeve is retracted. The skin of a hand or foot blends into
+/// its limb from 0.88 on (ExtremityBend::blend); this leaves as much again. Fitted: guess, on the house pairs.
+inline constexpr double k_retracted_end = 0.76;
+/// Share of the bone's length: cloth that goes over into other cloth further along is no sleeve of this limb. Fitted:
+/// guess.
+inline constexpr double k_latest_sleeve_begin = 0.5;
+/// Share of the bone's length: whether cloth encloses a limb is asked beyond it. Fitted: guess.
+inline constexpr double k_enclosed_from = 0.5;
+/// Radians; cloth that encloses a limb leaves no wider angle open. Fitted: guess; a coat's front beside a hand leaves
+/// more.
+inline constexpr double k_widest_open_angle = std::numbers::pi / 2;
+/// Share of the cloth beyond the wrist, from the hem: its mean tells how far the sleeve leads off the bone's line.
+/// Fitted: guess.
+inline constexpr double k_hem_share = 0.3;
+/// m; buttons and the like lie no further from the sleeve that they belong to. Fitted: guess.
+inline constexpr double k_attached_distance = 0.02;
+
+// ---- creases (creases.cpp), docs/decisions/0012-taut-bridges.md ---------------------------------------------------
+
+/// Radius of the ball that needs clearance above the skin, in square roots of the body's area, which no pose changes: 1
+/// cm for an adult. Fitted: five pairs of sitting and raised legs; 2.5 mm leave shirts in a lap, 15 mm bridge more than
+/// need be.
+inline constexpr double k_crease_ball = 0.0075;
+/// Skin is not smooth: a ball with this share of its clearance does fit. Fitted: guess.
+inline constexpr double k_ball_tolerance = 0.9;
+/// Share of a bridge that is drawn to the crease boundary; the rest is a soap film, so that no face loses its area.
+/// Fitted: guess, on the same five pairs.
+inline constexpr double k_bridge_tautness = 0.9;
+/// m; cloth further from a crease at the start does not get into it on the way. Fitted: guess; without a limit, mouths
+/// and toes were smoothed away.
+inline constexpr double k_crease_reach = 0.15;
+/// Share of the body's vertices: a patch with fewer is an island in a crease, not a limb beyond it. Fitted: guess.
+inline constexpr double k_enclosed_patch = 0.01;
+/// Share of the way to the core that skin in creases is withdrawn before it goes to its place. Fitted: guess.
+inline constexpr double k_crease_withdrawal = 0.5;
+
+// ---- tightness (tightness.cpp) -----------------------------------------------------------------------------------
+
+/// |cosine| between an edge and a bone: below it, the edge runs round the bone (within 30 degrees of straight across).
+/// Fitted: guess.
+inline constexpr double k_across_bone = 0.5;
+/// A part is judged when its edges would go round it this often: a hem that just reaches it does not stretch as a
+/// whole. Fitted: guess, on the house pairs.
+inline constexpr double k_fewest_rounds = 6;
+/// Quantile of the stretch that counts for cloth at rest: single edges stretch for many reasons. Fitted: guess.
+inline constexpr double k_stretch_quantile = 0.95;
+/// An edge stretched by more is caught (a cuff on a thumb) and no measure of girth; it counts as stretched by this.
+/// Fitted: guess; without it, garments were called too small by up to 137 %.
+inline constexpr double k_caught_stretch = 0.5;
+
+// ---- moving to another pose (pose_path.cpp, recover_pose.cpp) ------------------------------------------------------
+
+/// Passes over the edges that even out the skin weights of the cloth: what lies between two limbs follows both. Fitted:
+/// guess.
+inline constexpr int k_weight_smoothing_passes = 30;
+/// Share of the friction that is left while the body moves: a moving body works its clothes loose. Fitted: guess.
+inline constexpr double k_moving_friction = 0.25;
+/// Time steps more, at most, for cloth that still creeps at the end. Fitted: on the house pairs; most garments ended
+/// just above the bound of rest.
+inline constexpr int k_steps_to_rest = 60;
+/// m; with no part of the body further from its place, a pose on the path counts as reached. Fitted: guess.
+inline constexpr double k_in_place = 1e-3;
+/// m; a part that lags by this much more than at the start has no clearance further on: the cloth would only be torn.
+/// Fitted: on paths that end well no part lags by more than 0.02, but hands that cross reach 0.07
+/// (docs/decisions/0011-turning-back.md).
+inline constexpr double k_stuck_lag = 0.08;
+/// Share of the path after which creases are fully bridged. Fitted: guess.
+inline constexpr double k_bridged_from = 0.5;
+
+// ---- what is measured and reported (overlaps.cpp, layer_order.cpp, fit_map.cpp, girths.cpp) ------------------------
+
+/// m; shallower overlaps are how creases of skin are modelled. Fitted: guess, on the test bodies.
+inline constexpr double k_least_overlap = 2e-3;
+/// Share of the body's girth: a garment that is wider by less may as well lie inside. Fitted: on four bodies with eight
+/// sets of garments (docs/decisions/0015-layer-order.md).
+inline constexpr double k_clearly_wider = 0.05;
+/// In contact distances: cloth this near to the skin presses on it. Fitted: guess.
+inline constexpr double k_pressing_distance = 1.5;
+/// Of the sectors about a bone, those in which a cut must have points to be a girth. Fitted: guess.
+inline constexpr int k_girth_sectors = 8, k_needed_sectors = 6;
+
+/// Where the tape is laid, as shares of the bone's length from its head. Fitted: guesses, after where tailors measure.
+inline constexpr double k_neck_at = 0.7;
+inline constexpr double k_chest_from = 0.5, k_chest_to = 0.6;  // of upperback and of thorax
+inline constexpr double k_waist_from = 0.5, k_waist_to = 1;  // of lowerback and of upperback
+inline constexpr double k_seat_at = 0.3;  // of the thigh's length, below the root
+inline constexpr double k_thigh_at = 0.25, k_upper_arm_at = 0.5;
+/// Planes tried between two places, both included. Fitted: guess.
+inline constexpr int k_girth_planes = 9;
+/// Cosine of the angle between thigh and spine: a thigh raised further is not cut across by the tape of the hips.
+/// Fitted: guess, 45 degrees.
+inline constexpr double k_hanging_thigh = std::numbers::sqrt2 / 2;
+
+}  // namespace garmentfit
