@@ -45,24 +45,24 @@ public:
         return best;
     }
 
-    /// Minimises the weighted sum of squared distances along the tree: on each segment that is a parabola.
+    /// The weighted mean: minimises the sum of squared distances along the tree. On each segment the sum is a parabola.
     Place mean(const std::array<Place, 4>& places, const std::array<double, 4>& weights) const
     {
         Place best { 0, 0 };
         double least = INFINITY;
         for (int s = 0; s < k_segments; ++s) {
-            std::array<double, 4> seen;  // where each place seems to lie when one looks along the segment
+            std::array<double, 4> along;  // m from the segment's head, with the tree unfolded onto its line
             double total = 0, sum = 0, cost = 0;
             for (int k = 0; k < 4; ++k)
                 if (weights[k] > 0) {
-                    seen[k] = unfolded(places[k], s);
+                    along[k] = unfold(places[k], s);
                     total += weights[k];
-                    sum += weights[k] * seen[k];
+                    sum += weights[k] * along[k];
                 }
             const double at = std::clamp(sum / total, 0.0, length_[s]);
             for (int k = 0; k < 4; ++k)
                 if (weights[k] > 0)
-                    cost += weights[k] * (seen[k] - at) * (seen[k] - at);
+                    cost += weights[k] * (along[k] - at) * (along[k] - at);
             if (cost < least) {
                 least = cost;
                 best = { s, at };
@@ -89,13 +89,14 @@ private:
         int common = parent(a);
         while (common >= 0 && !is_above(common, p.segment))
             common = parent(common);
-        if (common == p.segment)  // the way leaves that segment at its tail, or the place lies on the way up
+        if (common == p.segment)  // the tree path leaves that segment at its tail, or the place lies towards the root
             return depth_[a] - depth_[common] - p.at;
         const double branch = common < 0 ? 0 : depth_[common] + length_[common];
         return (depth_[a] - branch) + (depth_[p.segment] + p.at - branch);
     }
 
-    double unfolded(const Place& p, int s) const
+    /// Where the place lies on the line of segment `s` when the tree is unfolded onto it; metres from the head.
+    double unfold(const Place& p, int s) const
     {
         if (p.segment == s)
             return p.at;

@@ -9,6 +9,7 @@
 #include "creases.h"
 #include "garmentfit/error.h"
 #include "garmentfit/fit_skeleton.h"
+#include "number_text.h"
 #include "skin_weights.h"
 #include "sleeve_retraction.h"
 #include "tuning.h"
@@ -82,12 +83,6 @@ void tuck_corners(GrowingBody& inside, const TriangleMesh& cloth)
     }
 }
 
-std::string place_text(const Vec3& p)
-{
-    const auto number = [](double x) { return std::to_string(x).substr(0, std::to_string(x).find('.') + 3); };
-    return '(' + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") m";
-}
-
 }  // namespace
 
 Positions GrowingBody::at(double scale) const
@@ -138,9 +133,10 @@ void refuse(const GrowingBody& inside, const TriangleMesh& cloth, const SkinWeig
         : inside.full.triangles(found.through_body.front().second, 0);
     const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
                                                            : std::string("a garment worn under it");
-    throw InvalidInput("drape: the garment passes through the body's skeleton, " + what + " at "
-                       + place_text(inside.core.row(vertex))
-                       + "; fit the skeleton to this garment first, or give its type");
+    throw InvalidInput(ErrorCode::crossing_start,
+                       "drape: the garment passes through the body's skeleton, " + what + " at "
+                           + place_text(inside.core.row(vertex))
+                           + "; fit the skeleton to this garment first, or give its type");
 }
 
 }  // namespace garmentfit

@@ -42,8 +42,9 @@ struct Outfit {
 void require_no_crossings(const TriangleMesh& cloth, const TriangleMesh& body)
 {
     if (const int crossing = crossing_count(cloth, body); crossing > 0)
-        throw InvalidInput("recover: garment and body cross at " + std::to_string(crossing)
-                           + " places at the start; drape the garment first");
+        throw InvalidInput(ErrorCode::crossing_start,
+                           "recover: garment and body cross at " + std::to_string(crossing)
+                               + " places at the start; drape the garment first");
 }
 
 /// Skin weights that change slowly over the cloth, so that what lies between two limbs follows both.

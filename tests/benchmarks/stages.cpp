@@ -76,7 +76,7 @@ BENCHMARK(rig)
     ->Unit(benchmark::kSecond)
     ->Complexity();
 
-/// The whole of it, each time: nothing that is known of a garment is kept.
+/// Each run begins anew: no result of a run before is kept.
 void fit_to(benchmark::State& state, const char* path, GarmentType type)
 {
     const Rig rigged = rig_body(body());

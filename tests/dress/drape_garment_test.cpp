@@ -216,7 +216,7 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
 }
 
-TEST(RecoverPose, HandsOutAsManyFramesAsAskedForAndOneIsTheEnd)
+TEST(RecoverPose, ReturnsAsManyFramesAsAskedForAndOneIsTheEnd)
 {
     const Dressing d = person();
     const GarmentMesh rest = trousers(0.02);
@@ -248,7 +248,7 @@ TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
     EXPECT_EQ(result.garments[0].certificate.body_crossings, 0);
 }
 
-TEST(RecoverPose, LetsPartsThatWereHeldBackCatchUp)
+TEST(RecoverPose, BringsPartsThatWereHeldBackToTheirPlaces)
 {
     const Dressing d = person();
     const GarmentMesh loose = trousers(0.02);
@@ -261,7 +261,7 @@ TEST(RecoverPose, LetsPartsThatWereHeldBackCatchUp)
     EXPECT_EQ(result.body, skin);
 }
 
-TEST(RecoverPose, TurnsBackWhereThereIsNoRoomForClothOnTheWay)
+TEST(RecoverPose, TurnsBackWhereClothHasNoClearanceOnThePath)
 {
     const Dressing d = person();
     const GarmentMesh loose = trousers(0.02);
@@ -280,7 +280,7 @@ TEST(RecoverPose, TurnsBackWhereThereIsNoRoomForClothOnTheWay)
     EXPECT_LT((result.body - posed).rowwise().norm().maxCoeff(), 1e-3);
 }
 
-// Each was refused once, or stopped on the way.
+// Each was refused once, or got stuck on its path.
 struct Wearing {
     const char *name, *body, *garment;
 };

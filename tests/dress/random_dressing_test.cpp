@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// People in random poses, random crumpled garments over each other, and a random pose to go to: nothing may cross, whatever the outcome.
+// People in random poses put on random crumpled garments and go to a random pose: nothing may cross.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace garmentfit {
 namespace {
 
-class Whim {
+class RandomChoice {
 public:
-    explicit Whim(unsigned seed) : random_(seed) { }
+    explicit RandomChoice(unsigned seed) : random_(seed) { }
     double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
     bool one_in(int count) { return std::uniform_int_distribution(1, count)(random_) == 1; }
     Vec3 direction() { return Vec3(between(-1, 1), between(-1, 1), between(-1, 1)).normalized(); }
@@ -23,22 +23,22 @@ private:
     std::mt19937 random_;
 };
 
-fixtures::Person random_person(Whim& whim)
+fixtures::Person random_person(RandomChoice& random)
 {
     fixtures::PersonOptions options;
-    options.arm_angle = whim.between(-50, 70);
-    options.elbow_angle = whim.between(0, 60);
-    options.wrist_angle = whim.between(0, 40);
-    options.hip_angle = whim.between(0, 60);
-    options.knee_angle = whim.between(0, 60);
+    options.arm_angle = random.between(-50, 70);
+    options.elbow_angle = random.between(0, 60);
+    options.wrist_angle = random.between(0, 40);
+    options.hip_angle = random.between(0, 60);
+    options.knee_angle = random.between(0, 60);
     return fixtures::capsule_person(options);
 }
 
 /// A shirt or trousers, of some length, as far off the skin as that, each vertex out of its place by up to `crumpled`.
-GarmentMesh random_garment(Whim& whim, const Skeleton& skeleton, double ease, double crumpled)
+GarmentMesh random_garment(RandomChoice& random, const Skeleton& skeleton, double ease, double crumpled)
 {
-    const bool shirt = whim.one_in(2);
-    const double bone_end = whim.between(0.1, 0.35);  // m, of sleeves and legs from shoulders and hips
+    const bool shirt = random.one_in(2);
+    const double bone_end = random.between(0.1, 0.35);  // m, of sleeves and legs from shoulders and hips
     const Vec3 waist = skeleton.tail(lowerback), neck = skeleton.tail(thorax);
     const auto beyond = [&](const Vec3& p, Bone bone) {
         return skeleton.direction(bone).dot(p - skeleton.head(bone)) > bone_end
@@ -52,15 +52,15 @@ GarmentMesh random_garment(Whim& whim, const Skeleton& skeleton, double ease, do
     });
     GarmentMesh garment = make_garment(mesh.positions, mesh.triangles);
     for (auto p : garment.positions.rowwise())
-        p += crumpled * whim.between(0, 1) * whim.direction().transpose();
+        p += crumpled * random.between(0, 1) * random.direction().transpose();
     return garment;
 }
 
-Pose random_pose(Whim& whim, double most_degrees)
+Pose random_pose(RandomChoice& random, double most_degrees)
 {
     Pose pose;
     for (Eigen::Quaterniond& turn : pose.rotations)
-        turn = Eigen::AngleAxisd(whim.between(0, most_degrees) * M_PI / 180, whim.direction());
+        turn = Eigen::AngleAxisd(random.between(0, most_degrees) * M_PI / 180, random.direction());
     return pose;
 }
 
@@ -92,27 +92,27 @@ class RandomDressing : public testing::TestWithParam<unsigned> { };
 
 TEST_P(RandomDressing, NothingCrosses)
 {
-    Whim whim(GetParam());
-    const fixtures::Person person = random_person(whim);
+    RandomChoice random(GetParam());
+    const fixtures::Person person = random_person(random);
     const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
     const Triangles& skin = body.surface.triangles;
     const Rig rig = rig_body(body);
     DrapeOptions drape;
     drape.settling_steps = 5;
     DrapeResult dressed;
-    const int layers = whim.one_in(3) ? 2 : 1;
-    double ease = whim.between(-0.01, 0.03);
-    for (int layer = 0; layer < layers; ++layer, ease += whim.between(0.01, 0.04)) {
-        const GarmentMesh garment = random_garment(whim, person.skeleton, ease, whim.between(0, 0.01));
+    const int layers = random.one_in(3) ? 2 : 1;
+    double ease = random.between(-0.01, 0.03);
+    for (int layer = 0; layer < layers; ++layer, ease += random.between(0.01, 0.04)) {
+        const GarmentMesh garment = random_garment(random, person.skeleton, ease, random.between(0, 0.01));
         dressed = drape_garment(rig, body, dressed, garment, drape);
         expect_no_crossing(dressed.garments, places(dressed.garments), { dressed.body, skin });
         if (dressed.scale_reached < 1)
-            return;  // too small, and handed out as it is
+            return;  // too small, and returned as it is
     }
     RecoverOptions recover;
     recover.settling_steps = 5;
     recover.frames = 4;
-    const RecoverResult moved = recover_pose(rig, body, dressed, random_pose(whim, 35), recover);
+    const RecoverResult moved = recover_pose(rig, body, dressed, random_pose(random, 35), recover);
     for (const RecoverFrame& frame : moved.frames)
         expect_no_crossing(dressed.garments, frame.garments, { frame.body, skin });
     expect_no_crossing(moved.garments, places(moved.garments), { moved.body, skin });
