@@ -58,7 +58,7 @@ std::vector<GarmentMesh> meshes_of(const std::vector<GarmentInput>& garments)
 /// One pose for all garments where there is one, else each keeps its own.
 void fit_together(Scene& scene, const Progress& progress)
 {
-    const CommonFit common = common_fit(*scene.rig, meshes_of(scene.garments), scene.fits, progress);
+    const CommonFit common = fit_common_pose(*scene.rig, meshes_of(scene.garments), scene.fits, progress);
     scene.fits = common.fits;
     scene.one_pose = common.one_pose;
     scene.conflicts = common.conflicts;

@@ -9,43 +9,37 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "climb.h"
+#include "coordinate_ascent.h"
+#include "limb_search.h"
 #include "parallel.h"
+#include "posture_moves.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_place_spacing = 0.05;  // m
-constexpr double k_places_apart = 0.08;  // m; the thickness of an upper arm
-constexpr std::size_t k_places_a_heading = 4, k_wide_starts = 6;
-constexpr double k_clear_front = 0.5;  // m; a garment that much better one way round leaves no doubt
-constexpr double k_early_crossing = 0.1;  // of a crossing's cost
-constexpr double k_same_heading = 0.25;  // rad
-constexpr double k_promising = 0.3;  // m of energy; worth the work of freeing bones
-constexpr Reach k_coarse_limbs { 1.8, 0.35, 3, false };
-constexpr Reach k_wide_limbs { 2 * std::numbers::pi / 3, 0.26, 8, true };  // the paper's extent
-constexpr Reach k_near_limbs { 0.6, 0.15, 8, true };
-constexpr Steps k_rough { 0.16, 0.04 }, k_fine { 0.08, 0.01 };
-
-struct Scored {
+struct Candidate {
     Posture posture;
-    double score = 0;
+    double score = 0;  // m
 };
+using Candidates = std::vector<Candidate>;
 
-bool better(const Scored& a, const Scored& b) { return a.score > b.score; }
-
-bool is_worn(const SkeletonSearch& search, const Limb& limb) { return search.metric().figure().covered[limb.bones[0]]; }
-
-Posture with_worn_limbs(const SkeletonSearch& search, Posture posture, const Reach& reach)
+void sort_best_first(Candidates& candidates)
 {
-    for (const Limb& limb : k_limbs)
-        if (is_worn(search, limb))
-            posture = search.limb_moved(posture, limb, reach);
-    return posture;
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
+bool covers_first_bone(const FitEnergy& energy, const Limb& limb) { return energy.metric().covers(limb.bones[0]); }
+
+bool covers_both_bones(const FitEnergy& energy, const Limb& limb)
+{
+    return energy.metric().covers(limb.bones[0]) && energy.metric().covers(limb.bones[1]);
+}
+
+// ---------------------------------------------------------------- facings
+
 // The horizontal direction in which the cloth is spread most.
-Eigen::Vector2d widest(const ClearanceField& cloth)
+Eigen::Vector2d widest_direction(const ClearanceField& cloth)
 {
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     for (const ClothPatch& patch : cloth.patches()) {
@@ -57,214 +51,263 @@ Eigen::Vector2d widest(const ClearanceField& cloth)
 }
 
 // From sleeve to sleeve or from leg to leg, or else as the cloth is spread.
-double heading_across(const SkeletonSearch& search)
+double heading_across(const FitEnergy& energy)
 {
-    const Vec3& across = search.cues().across;
+    const Vec3& across = energy.cues().across;
     const Eigen::Vector2d level
-        = across.isZero() ? widest(search.metric().cloth()) : Eigen::Vector2d(across.x(), across.z());
+        = across.isZero() ? widest_direction(energy.metric().cloth()) : Eigen::Vector2d(across.x(), across.z());
     return std::atan2(-level.y(), level.x());
 }
 
-double turned_apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+double angle_apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
 
-// Left to right as the garment is, either way round; where no pair of sleeves or legs tells how that is, also across it, and as the body stands.
-// What is nearly as the body stands is taken for that.
-std::vector<double> headings(const Rig& rig, const SkeletonSearch& search)
+// Rotations of the input body about the vertical, rad. A heading close to the input body's is replaced by it.
+std::vector<double> candidate_headings(const FitEnergy& energy)
 {
-    const Vec3 left = rig.up.cross(rig.front);
-    const double own = std::atan2(-left.z(), left.x()), across = heading_across(search) - own;
-    const bool is_told = !search.cues().across.isZero();
-    std::vector<double> result;
-    for (int quarter = 0; quarter < 4; quarter += is_told ? 2 : 1) {
+    const Vec3 left = energy.rig().up.cross(energy.rig().front);
+    const double input = std::atan2(-left.z(), left.x()), across = heading_across(energy) - input;
+    const bool cues_tell = !energy.cues().across.isZero();
+    std::vector<double> headings;
+    for (int quarter = 0; quarter < 4; quarter += cues_tell ? 2 : 1) {
         const double heading = across + quarter * std::numbers::pi / 2;
-        result.push_back(turned_apart(heading, 0) > k_same_heading ? heading : 0);
+        headings.push_back(angle_apart(heading, 0) > k_same_heading ? heading : 0);
     }
-    if (!is_told && std::find(result.begin(), result.end(), 0.0) == result.end())
-        result.push_back(0);
-    std::stable_partition(result.begin(), result.end(), [](double heading) { return heading == 0; });
-    return result;
+    if (!cues_tell && std::find(headings.begin(), headings.end(), 0.0) == headings.end())
+        headings.push_back(0);
+    std::stable_partition(headings.begin(), headings.end(), [](double heading) { return heading == 0; });
+    return headings;
 }
 
-// The best, no two of them alike: what is as near as that, the polish makes one.
-std::vector<Scored> distinct(std::vector<Scored> all, std::size_t count)
+bool face_apart(const Rig& rig, const Posture& a, const Posture& b)
 {
-    std::stable_sort(all.begin(), all.end(), better);
-    std::vector<Scored> kept;
-    for (const Scored& one : all) {
-        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Scored& other) {
-            return (one.posture.root - other.posture.root).norm() < k_places_apart
-                && one.posture.turn.angularDistance(other.posture.turn) < k_same_heading;
+    return (a.turn * rig.front).dot(b.turn * rig.front) < 0;
+}
+
+// ---------------------------------------------------------------- stages
+
+Posture search_covered_limbs(const FitEnergy& energy, Posture posture, const LimbGrid& grid)
+{
+    for (const Limb& limb : k_limbs)
+        if (covers_first_bone(energy, limb))
+            posture = search_limb(energy, posture, limb, grid);
+    return posture;
+}
+
+// First stage: places of the trunk for each hypothesis, with limbs by a coarse search.
+Candidates find_places(const FitEnergy& energy, const MinMaxPyramid& clearance,
+                       const std::vector<StartHypothesis>& hypotheses)
+{
+    std::vector<Posture> postures;
+    for (const StartHypothesis& hypothesis : hypotheses)
+        postures.push_back(comfort_posture(energy, Vec3::Zero(), hypothesis.turn));
+    std::vector<std::vector<Place>> places(postures.size());
+    parallel_for<std::size_t>(postures.size(),
+                              [&](std::size_t h) { places[h] = find_trunk_places(energy, clearance, postures[h]); });
+    Candidates candidates;
+    for (std::size_t h = 0; h < postures.size(); ++h)
+        for (const Place& place : places[h]) {
+            candidates.push_back({ postures[h] });
+            candidates.back().posture.root = place.at;
+        }
+    parallel_for<std::size_t>(candidates.size(), [&](std::size_t i) {
+        candidates[i].posture = search_covered_limbs(energy, candidates[i].posture, k_coarse_grid);
+        candidates[i].score = energy.value(candidates[i].posture);
+    });
+    return candidates;
+}
+
+// The best `count`, no two alike: the ascent would make those one.
+Candidates keep_distinct(Candidates candidates, std::size_t count)
+{
+    sort_best_first(candidates);
+    Candidates kept;
+    for (const Candidate& candidate : candidates) {
+        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+            return (candidate.posture.root - other.posture.root).norm() < k_places_apart
+                && candidate.posture.turn.angularDistance(other.posture.turn) < k_same_heading;
         });
         if (is_new && kept.size() < count)
-            kept.push_back(one);
+            kept.push_back(candidate);
     }
     return kept;
 }
 
-// Where the trunk has room, for each heading, with limbs as far as a coarse look finds them.
-std::vector<Scored> starts(const Rig& rig, const SkeletonSearch& search)
+// Second stage: limbs on the wide grid. The ascent may free bones from the cloth, so crossings cost less before it.
+Candidate search_limbs_widely(const FitEnergy& energy, const Posture& start)
 {
-    const ClearanceField& cloth = search.metric().cloth();
-    const MinMaxPyramid clearance(cloth.tree(), cloth.low(), cloth.high());
-    std::vector<Posture> postures;
-    for (const double angle : headings(rig, search))
-        postures.push_back(search.at_ease(Vec3::Zero(), upright(rig, angle)));
-    std::vector<std::vector<Place>> places(postures.size());
-    parallel_for<std::size_t>(postures.size(), [&](std::size_t h) {
-        places[h] = search.trunk_places(clearance, postures[h], k_place_spacing, k_places_apart, k_places_a_heading);
+    const Posture posture = search_covered_limbs(energy, start, k_wide_grid);
+    return { posture, energy.value(posture) - k_early_crossing * energy.crossing_cost(posture) };
+}
+
+void search_limbs_widely(const FitEnergy& energy, Candidates& candidates)
+{
+    parallel_for<std::size_t>(
+        candidates.size(), [&](std::size_t i) { candidates[i] = search_limbs_widely(energy, candidates[i].posture); });
+}
+
+// Third stage: all degrees of freedom together. The refinement frees hands and feet, so their crossings still cost
+// less.
+void ascend_roughly(const FitEnergy& energy, Candidates& candidates)
+{
+    parallel_for<std::size_t>(candidates.size(), [&](std::size_t i) {
+        const Posture posture = ascend(energy, candidates[i].posture, k_rough_steps);
+        candidates[i] = { posture, energy.total(posture) + (1 - k_early_crossing) * energy.tip_crossing_cost(posture) };
     });
-    std::vector<Scored> all;
-    for (std::size_t h = 0; h < postures.size(); ++h)
-        for (const Place& place : places[h]) {
-            all.push_back({ postures[h] });
-            all.back().posture.root = place.at;
-        }
-    parallel_for<std::size_t>(all.size(), [&](std::size_t i) {
-        all[i].posture = with_worn_limbs(search, all[i].posture, k_coarse_limbs);
-        all[i].score = search.energy(all[i].posture);
+}
+
+// ---------------------------------------------------------------- what the third stage looks at
+
+// The best but for bones that pass through cloth, if that makes a clear difference.
+std::optional<Candidate> find_promising(const FitEnergy& energy, const Candidates& sorted)
+{
+    const auto most = std::max_element(sorted.begin(), sorted.end(), [&](const Candidate& a, const Candidate& b) {
+        return energy.value(a.posture) < energy.value(b.posture);
     });
-    return all;
+    const bool is_promising = energy.value(most->posture) > energy.value(sorted[0].posture) + k_promising;
+    return is_promising ? std::optional<Candidate>(*most) : std::nullopt;
 }
 
-// What still passes through cloth, the polish may free: before it, a crossing counts for less than a bone that is outside.
-Scored with_limbs_found(const SkeletonSearch& search, const Posture& start)
+// The best start, the best that faces the other way, and the best rotated by half a turn: most garments have as much
+// clearance then.
+Candidates choose_for_ascent(const FitEnergy& energy, const Candidates& sorted)
 {
-    const Posture posture = with_worn_limbs(search, start, k_wide_limbs);
-    return { posture, search.energy(posture) - k_early_crossing * search.crossing_cost(posture) };
+    Candidates chosen { sorted[0] };
+    const auto other = std::find_if(sorted.begin(), sorted.end(), [&](const Candidate& s) {
+        return face_apart(energy.rig(), s.posture, sorted[0].posture);
+    });
+    if (other != sorted.end())
+        chosen.push_back(*other);
+    chosen.push_back(
+        search_limbs_widely(energy, rotate_about_trunk(energy, sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
+    if (const auto promising = find_promising(energy, sorted))
+        chosen.push_back(*promising);
+    return chosen;
 }
 
-// Hands and feet that stick in cloth are freed later.
-Scored roughly_polished(const SkeletonSearch& search, const Scored& start)
+// Bones still pass through cloth, or a limb that should be covered is not.
+bool has_failed(const FitEnergy& energy, const Posture& posture)
 {
-    const Posture posture = polished(search, start.posture, k_rough);
-    return { posture, search.total(posture) + (1 - k_early_crossing) * search.stuck_cost(posture) };
+    if (energy.bones_through_cloth(posture) > 0)
+        return true;
+    const Skeleton joints = place_bones(energy.rest(), posture).joints;
+    return std::any_of(k_limbs.begin(), k_limbs.end(), [&](const Limb& limb) {
+        const int upper = limb.bones[0];
+        return covers_first_bone(energy, limb)
+            && energy.metric().samples_inside(joints.head(upper), joints.tail(upper)) == 0;
+    });
 }
 
-bool faces_away(const Rig& rig, const Scored& a, const Scored& b)
+// The other starts that face as one does whose ascent failed.
+Candidates replace_failed(const FitEnergy& energy, const Candidates& ascended, const Candidates& sorted)
 {
-    return (a.posture.turn * rig.front).dot(b.posture.turn * rig.front) < 0;
+    Candidates failed, others;
+    std::copy_if(ascended.begin(), ascended.end(), std::back_inserter(failed),
+                 [&](const Candidate& one) { return has_failed(energy, one.posture); });
+    std::copy_if(sorted.begin() + 1, sorted.end(), std::back_inserter(others), [&](const Candidate& start) {
+        return std::any_of(failed.begin(), failed.end(),
+                           [&](const Candidate& one) { return !face_apart(energy.rig(), one.posture, start.posture); });
+    });
+    return others;
 }
 
-bool is_all_worn(const SkeletonSearch& search, const Limb& limb)
+double front_margin_of(const Rig& rig, const Candidates& sorted)
 {
-    const auto& covered = search.metric().figure().covered;
-    return covered[limb.bones[0]] && covered[limb.bones[1]];
+    const auto other = std::find_if(sorted.begin(), sorted.end(),
+                                    [&](const Candidate& s) { return face_apart(rig, s.posture, sorted[0].posture); });
+    const double margin = other == sorted.end() ? k_clear_front : sorted[0].score - other->score;
+    return std::clamp(margin / k_clear_front, 0.0, 1.0);
 }
 
-Posture better_of(const SkeletonSearch& search, const Posture& present, const Posture& next)
+// ---------------------------------------------------------------- refinement
+
+Posture better_of(const FitEnergy& energy, const Posture& present, const Posture& next)
 {
-    return search.total(next) > search.total(present) ? next : present;
+    return energy.total(next) > energy.total(present) ? next : present;
 }
 
-// Looks anywhere for a bare limb, and for a worn one where its twin is.
-Posture limbs_reconsidered(const SkeletonSearch& search, Posture present)
+// Limbs that are not covered as a whole are searched everywhere, covered ones about the mirror image of their twin.
+Posture search_limbs_again(const FitEnergy& energy, Posture present)
 {
     for (const Limb& limb : k_limbs) {
-        if (!is_all_worn(search, limb))
-            present = better_of(search, present, search.limb_moved(present, limb, k_wide_limbs));
-        if (is_worn(search, limb))
-            present = better_of(search, present, search.limb_moved(search.mirrored(present, limb), limb, k_near_limbs));
+        if (!covers_both_bones(energy, limb))
+            present = better_of(energy, present, search_limb(energy, present, limb, k_wide_grid));
+        if (covers_first_bone(energy, limb))
+            present = better_of(energy, present,
+                                search_limb(energy, mirror_limb(energy.rig(), present, limb), limb, k_near_grid));
     }
     return present;
 }
 
-// A limb that still passes through cloth, a foot too long for its trouser leg, is searched ever more finely.
-Posture freed(const SkeletonSearch& search, Posture present)
+// A limb that still passes through cloth, such as a foot too long for its trouser leg, is searched more and more
+// finely.
+Posture free_limbs(const FitEnergy& energy, Posture present)
 {
     for (const Limb& limb : k_limbs)
-        for (double spacing = 0.2; spacing > 0.06 && search.crossing_cost(present, limb) > 0; spacing *= 0.6)
-            present = better_of(search, present, search.limb_moved(present, limb, { 1.5, spacing, 40 }));
+        for (LimbGrid grid = k_freeing_grid; grid.spacing > k_freeing_finest && energy.crossing_cost(present, limb) > 0;
+             grid.spacing *= k_freeing_factor)
+            present = better_of(energy, present, search_limb(energy, present, limb, grid));
     return present;
 }
 
-// The best but for what still passes through cloth, if that makes a clear difference.
-std::optional<Scored> best_if_freed(const SkeletonSearch& search, const std::vector<Scored>& sorted)
-{
-    const auto most = std::max_element(sorted.begin(), sorted.end(), [&](const Scored& a, const Scored& b) {
-        return search.energy(a.posture) < search.energy(b.posture);
-    });
-    const bool is_clear = search.energy(most->posture) > search.energy(sorted[0].posture) + k_promising;
-    return is_clear ? std::optional<Scored>(*most) : std::nullopt;
-}
-
-// The best start, the best that faces the other way, and the best turned half round: most garments have as much room like that.
-std::vector<Scored> both_ways_round(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& sorted)
-{
-    std::vector<Scored> result { sorted[0] };
-    const auto other
-        = std::find_if(sorted.begin(), sorted.end(), [&](const Scored& s) { return faces_away(rig, s, sorted[0]); });
-    if (other != sorted.end())
-        result.push_back(*other);
-    result.push_back(with_limbs_found(search, search.turned(sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
-    if (const auto freed = best_if_freed(search, sorted))
-        result.push_back(*freed);
-    return result;
-}
-
-void polish(const SkeletonSearch& search, std::vector<Scored>& candidates)
-{
-    parallel_for<std::size_t>(candidates.size(),
-                              [&](std::size_t i) { candidates[i] = roughly_polished(search, candidates[i]); });
-}
-
-// Bones stay stuck in the cloth, or a limb that should be worn is not.
-bool has_failed(const SkeletonSearch& search, const Posture& posture)
-{
-    if (search.bones_through_cloth(posture) > 0)
-        return true;
-    const Skeleton joints = place_bones(search.own(), posture).joints;
-    return std::any_of(k_limbs.begin(), k_limbs.end(), [&](const Limb& limb) {
-        const int upper = limb.bones[0];
-        return is_worn(search, limb) && search.metric().samples_inside(joints.head(upper), joints.tail(upper)) == 0;
-    });
-}
-
-// Of those that face as one does that the polish could not mend.
-std::vector<Scored> others_instead(const Rig& rig, const SkeletonSearch& search, const std::vector<Scored>& polished,
-                                   const std::vector<Scored>& sorted)
-{
-    std::vector<Scored> failed, result;
-    std::copy_if(polished.begin(), polished.end(), std::back_inserter(failed),
-                 [&](const Scored& one) { return has_failed(search, one.posture); });
-    std::copy_if(sorted.begin() + 1, sorted.end(), std::back_inserter(result), [&](const Scored& start) {
-        return std::any_of(failed.begin(), failed.end(), [&](const Scored& one) { return !faces_away(rig, one, start); });
-    });
-    return result;
-}
+MinMaxPyramid pyramid_of(const ClearanceField& cloth) { return { cloth.tree(), cloth.low(), cloth.high() }; }
 
 }  // namespace
 
-Eigen::Quaterniond upright(const Rig& rig, double heading)
+Eigen::Quaterniond upright_turn(const Rig& rig, double heading)
 {
     return Eigen::Quaterniond(Eigen::AngleAxisd(heading, Vec3::UnitY()))
         * shortest_arc(rig.up.normalized(), Vec3::UnitY());
 }
 
-BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progress& progress)
+std::vector<StartHypothesis> facing_hypotheses(const FitEnergy& energy)
 {
-    std::vector<Scored> candidates = distinct(starts(rig, search), k_wide_starts);
-    progress.at(0.4);
-    parallel_for<std::size_t>(candidates.size(),
-                              [&](std::size_t i) { candidates[i] = with_limbs_found(search, candidates[i].posture); });
-    progress.at(0.6);
-    std::stable_sort(candidates.begin(), candidates.end(), better);
-    const std::vector<Scored> sorted = candidates;
-    candidates = both_ways_round(rig, search, sorted);
-    polish(search, candidates);
-    std::vector<Scored> others = others_instead(rig, search, candidates, sorted);
-    polish(search, others);
-    candidates.insert(candidates.end(), others.begin(), others.end());
-    progress.at(0.8);
-    std::stable_sort(candidates.begin(), candidates.end(), better);
-    const auto other = std::find_if(candidates.begin(), candidates.end(),
-                                    [&](const Scored& s) { return faces_away(rig, s, candidates[0]); });
-    const double margin = other == candidates.end() ? k_clear_front : candidates[0].score - other->score;
-    return { candidates[0].posture, std::clamp(margin / k_clear_front, 0.0, 1.0) };
+    std::vector<StartHypothesis> hypotheses;
+    for (const double heading : candidate_headings(energy))
+        hypotheses.push_back({ upright_turn(energy.rig(), heading) });
+    return hypotheses;
 }
 
-Posture refined(const SkeletonSearch& search, const Posture& start)
+BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                          const Progress& progress)
 {
-    return polished(search, freed(search, limbs_reconsidered(search, start)), k_fine);
+    const MinMaxPyramid clearance = pyramid_of(energy.metric().cloth());
+    Candidates sorted = keep_distinct(find_places(energy, clearance, hypotheses), k_starts_searched);
+    progress.at(0.4);
+    search_limbs_widely(energy, sorted);
+    progress.at(0.6);
+    sort_best_first(sorted);
+    Candidates ascended = choose_for_ascent(energy, sorted);
+    ascend_roughly(energy, ascended);
+    Candidates others = replace_failed(energy, ascended, sorted);
+    ascend_roughly(energy, others);
+    ascended.insert(ascended.end(), others.begin(), others.end());
+    progress.at(0.8);
+    sort_best_first(ascended);
+    return { ascended[0].posture, front_margin_of(energy.rig(), ascended) };
+}
+
+std::vector<HypothesisScore> score_hypotheses(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                                              const Progress& progress)
+{
+    const MinMaxPyramid clearance = pyramid_of(energy.metric().cloth());
+    std::vector<HypothesisScore> scores;
+    for (const StartHypothesis& hypothesis : hypotheses) {
+        progress.at(double(scores.size()) / double(hypotheses.size()));
+        Candidates candidates = keep_distinct(find_places(energy, clearance, { hypothesis }), k_starts_searched);
+        if (candidates.empty())
+            candidates.push_back({ comfort_posture(energy, energy.metric().cloth().barycentre(), hypothesis.turn) });
+        search_limbs_widely(energy, candidates);
+        ascend_roughly(energy, candidates);
+        sort_best_first(candidates);
+        const Posture& best = candidates[0].posture;
+        scores.push_back({ best, energy.total(best), energy.clearance_share(best), energy.bones_through_cloth(best) });
+    }
+    return scores;
+}
+
+Posture refine_posture(const FitEnergy& energy, const Posture& start)
+{
+    return ascend(energy, free_limbs(energy, search_limbs_again(energy, start)), k_fine_steps);
 }
 
 }  // namespace garmentfit

@@ -1,24 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where and which way round a body stands best in a garment, before its limbs are settled to the last degree.
+// Where and which way round a body stands best in a garment, before its limbs are searched finely.
 
+#include <vector>
+
+#include "fit_energy.h"
 #include "garmentfit/progress.h"
-#include "skeleton_search.h"
 
 namespace garmentfit {
 
-struct BestStart {
-    Posture posture;
-    double front_margin;  // 0 (as good facing the other way) to 1
+/// A way in which the body may stand in the garment; place and limbs are searched.
+struct StartHypothesis {
+    Eigen::Quaterniond turn;  ///< world from the axes of the input body
 };
 
-/// The trunk stands upright, its heading kept, then turned about the vertical.
-Eigen::Quaterniond upright(const Rig& rig, double heading);
+/// The trunk upright, its heading kept, then rotated about the vertical by `heading`, rad.
+Eigen::Quaterniond upright_turn(const Rig& rig, double heading);
 
-BestStart best_start(const Rig& rig, const SkeletonSearch& search, const Progress& progress);
+/// The facings that the garment's cues allow: from sleeve to sleeve or leg to leg, either way round. Without such
+/// pairs: along and across the garment, and as the input body faces.
+std::vector<StartHypothesis> facing_hypotheses(const FitEnergy& energy);
 
-/// The start settled: every limb reconsidered and freed from the cloth, then all degrees of freedom polished.
-Posture refined(const SkeletonSearch& search, const Posture& start);
+struct BestStart {
+    Posture posture;
+    double front_margin;  // 0 (the opposite facing is as good) to 1
+};
+
+/// The best start over all hypotheses. They compete from the first step, so that most are dropped early.
+BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                          const Progress& progress);
+
+struct HypothesisScore {
+    Posture posture;  ///< the best of this hypothesis
+    double energy = 0;  ///< m; less the cost of crossings
+    double clearance_share = 0;  ///< of the clearance that covered bones need
+    int bones_through_cloth = 0;
+};
+
+/// Each hypothesis by itself, in the given order: all of them are searched to the same depth.
+/// Cost: about a third of find_best_start for each hypothesis.
+std::vector<HypothesisScore> score_hypotheses(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                                              const Progress& progress);
+
+/// Searches all limbs of a start once more, frees them from the cloth, and ascends over all degrees of freedom.
+Posture refine_posture(const FitEnergy& energy, const Posture& start);
 
 }  // namespace garmentfit

@@ -1,63 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How well bones run through a garment: the skeleton-based error metric, per bone.
+// How well single bones run through a garment: the skeleton-based error metric by clearance.
 
 #include <array>
-#include <vector>
 
+#include "bone_samples.h"
 #include "clearance_field.h"
-#include "error_metric.h"
-#include "garmentfit/skeleton.h"
+#include "limbs.h"
+#include "tuning.h"
 
 namespace garmentfit {
 
-/// Who takes part, and how thick the limbs are.
-struct Figure {
-    std::array<bool, bone_count> covered {};
-    std::array<bool, bone_count> worn_elsewhere {};  // in another of several garments
-    std::array<double, bone_count> radii {};  // m
-    std::array<double, extremity_count> tip_radii {};  // m
-};
-
-/// @param covered  as the garment's type says
-Figure figure_of(const Rig& rig, const std::vector<Bone>& covered);
-
 class BoneMetric {
 public:
-    BoneMetric(const ClearanceField& cloth, const Figure& figure) : cloth_(cloth), figure_(figure) { }
+    /// Keeps a reference to the cloth.
+    BoneMetric(const ClearanceField& cloth, const LimbRadii& limbs, const EnergyWeights& weights = k_energy_weights) :
+        cloth_(cloth), limbs_(limbs), weights_(weights)
+    {
+    }
 
-    /// E_B of a covered bone, m: the room at its five samples, as far as the limb needs it.
-    double worn(int bone, const Vec3& head, const Vec3& tail) const;
-    /// Of that, what the limb cannot do without, m.
-    double needed(int bone, const Vec3& head, const Vec3& tail) const;
-    /// As a share of all that it needs, 0 to 1; 0 for bones that are not covered.
-    std::array<double, bone_count> clearance_shares(const Skeleton& joints) const;
-    /// What an arm or leg that the garment does not cover lacks of room to the cloth, m, <= 0; arms also keep out of the
-    /// garment. 0 for other bones.
-    double bare(int bone, const Vec3& head, const Vec3& tail) const;
-    /// The same for what lies beyond the last joint.
-    double bare_tip(Extremity extremity, const Vec3& joint, const Vec3& tip) const;
+    bool covers(int bone) const { return limbs_.covered[bone]; }
 
-    /// How deep a forearm is inside its own trunk, m: a shirt's body has room for it, but the trunk is there already.
-    double overlap(int bone, const Vec3& head, const Vec3& tail, const Skeleton& joints) const;
-
-    /// How many of the five samples are inside, by the cloth itself.
-    int samples_inside(const Vec3& head, const Vec3& tail) const;
-
-    /// No place is worth more to a bone than that, m.
-    double most(int bone) const { return figure_.covered[bone] ? k_samples * max_clearance_value(figure_.radii[bone]) : 0; }
-
-    const ClearanceField& cloth() const { return cloth_; }
-    const Figure& figure() const { return figure_; }
+    /// E_B: covered_value or uncovered_value, m.
     double value(int bone, const Vec3& head, const Vec3& tail) const
     {
-        return figure_.covered[bone] ? worn(bone, head, tail) : bare(bone, head, tail);
+        return covers(bone) ? covered_value(bone, head, tail) : uncovered_value(bone, head, tail);
     }
+    /// No place has a greater value, m.
+    double max_value(int bone) const { return covers(bone) ? k_samples * max_clearance_value(limbs_.radii[bone]) : 0; }
+
+    /// The sum of clearance_value over the samples, m.
+    double covered_value(int bone, const Vec3& head, const Vec3& tail) const;
+    /// The sum over the samples of the clearance up to the limb's radius, m.
+    double needed_clearance(int bone, const Vec3& head, const Vec3& tail) const;
+    /// needed_clearance as a share of its maximum, 0 to 1; 0 for uncovered bones.
+    std::array<double, bone_count> clearance_shares(const Skeleton& joints) const;
+
+    /// The clearance that an uncovered arm or leg lacks, m, <= 0. Arms also keep out of the garment. 0 for other bones.
+    double uncovered_value(int bone, const Vec3& head, const Vec3& tail) const;
+    /// The same for an extremity, from the last joint to the tip.
+    double uncovered_tip_value(Extremity extremity, const Vec3& joint, const Vec3& tip) const;
+
+    /// How deep a forearm is inside the body's own trunk, m: a wide shirt has clearance there, but the trunk fills it.
+    double trunk_overlap(int bone, const Vec3& head, const Vec3& tail, const Skeleton& joints) const;
+
+    /// How many of the five samples are inside the garment.
+    int samples_inside(const Vec3& head, const Vec3& tail) const;
+
+    const ClearanceField& cloth() const { return cloth_; }
+    const LimbRadii& limbs() const { return limbs_; }
+    const EnergyWeights& weights() const { return weights_; }
 
 private:
     const ClearanceField& cloth_;
-    Figure figure_;
+    LimbRadii limbs_;
+    EnergyWeights weights_;
 };
 
 }  // namespace garmentfit

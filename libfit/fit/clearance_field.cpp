@@ -7,14 +7,12 @@
 #include <utility>
 
 #include "parallel.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_patch = 0.015;  // m; a third of the narrowest cuff's radius
-constexpr double k_grid_spacing = 0.02;  // m; half of it
-constexpr double k_border = 0.04;  // m; round the garment's box; beyond, everything is outside
-constexpr double k_largest_grid = 4e6;  // nodes; a garment far too large gets a coarser grid, not more memory
+constexpr double k_max_nodes = 4e6;  // unit: a limit of memory; a garment far too large gets a coarser grid
 
 }  // namespace
 
@@ -26,7 +24,7 @@ ClearanceField::Parts ClearanceField::parts_of(const TriangleMesh& outward)
         if (part == 0)
             triangles.emplace(outward);
         else
-            tree.emplace(cloth_patches(outward, k_patch));
+            tree.emplace(cloth_patches(outward, k_patch_size));
     });
     return { *std::move(tree), *std::move(triangles) };
 }
@@ -38,9 +36,9 @@ ClearanceField::ClearanceField(const TriangleMesh& outward, Parts parts) :
     barycentre_(outward.positions.colwise().mean()), tree_(std::move(parts.tree)),
     triangles_(std::move(parts.triangles))
 {
-    const Vec3 extent = high_ - low_ + Vec3::Constant(2 * k_border);
-    spacing_ = std::max(k_grid_spacing, std::cbrt(extent.prod() / k_largest_grid));
-    origin_ = low_ - Vec3::Constant(k_border);
+    const Vec3 extent = high_ - low_ + Vec3::Constant(2 * k_grid_border);
+    spacing_ = std::max(k_field_spacing, std::cbrt(extent.prod() / k_max_nodes));
+    origin_ = low_ - Vec3::Constant(k_grid_border);
     size_ = (extent / spacing_).array().ceil().cast<int>() + 2;
     blocks_ = (size_.array() + ClothTree::k - 1) / ClothTree::k;
     block_ = std::vector<Block>(std::size_t(blocks_.x()) * blocks_.y() * blocks_.z());
@@ -70,7 +68,7 @@ void ClearanceField::require(const Eigen::Vector3i& node) const
     block.is_filled.store(true, std::memory_order_release);
 }
 
-// The cell's eight nodes lie in one block, or in those of its corners.
+// The cell's eight nodes lie in one block, or in the blocks of its corners.
 void ClearanceField::require_cell(const Eigen::Vector3i& cell) const
 {
     constexpr int k = ClothTree::k;

@@ -5,21 +5,22 @@
 #include <mutex>
 #include <vector>
 
+#include "clearance.h"
 #include "cloth_tree.h"
 #include "crossing_tree.h"
-#include "clearance.h"
 
 namespace garmentfit {
 
-/// Answers from a grid whose blocks are worked out when they are first asked for, whoever asks: some tens of nanoseconds.
-/// Error of the distance within the garment's box: at most the diagonal of a patch, and of a cell of the grid.
+/// The clearance of a garment, interpolated in a grid. Blocks of the grid are computed at the first query, by any
+/// thread; later queries take some tens of nanoseconds. Error of the distance within the garment's box: at most the
+/// diagonals of a patch and of a cell.
 class ClearanceField {
 public:
     /// @param outward  from outward_cloth
     explicit ClearanceField(const TriangleMesh& outward);
 
     Clearance at(const Vec3& point) const;  ///< trilinear
-    bool crosses(const Vec3& from, const Vec3& to) const;  ///< asked of the cloth itself, exact
+    bool crosses(const Vec3& from, const Vec3& to) const;  ///< by the triangles, exact
 
     const Vec3& low() const { return low_; }  ///< corners of the garment's box
     const Vec3& high() const { return high_; }
@@ -35,7 +36,7 @@ private:
     ClearanceField(const TriangleMesh& outward, Parts parts);
     static Parts parts_of(const TriangleMesh& outward);
 
-    /// Nodes are worked out ClothTree::k along each axis at a time.
+    /// ClothTree::k nodes along each axis are computed together.
     struct Block {
         std::once_flag once;
         std::atomic<bool> is_filled = false;
@@ -54,9 +55,9 @@ private:
     Vec3 origin_ = Vec3::Zero();
     double spacing_ = 0;
     Eigen::Vector3i size_ = Eigen::Vector3i::Zero(),
-                    blocks_ = Eigen::Vector3i::Zero();  // nodes along each axis, blocks
+                    blocks_ = Eigen::Vector3i::Zero();  // along each axis: nodes, blocks
     mutable std::vector<Block> block_;
-    mutable std::vector<Eigen::Vector2f> nodes_;  // distance, and how surely inside
+    mutable std::vector<Eigen::Vector2f> nodes_;  // distance (m), inside
 };
 
 }  // namespace garmentfit

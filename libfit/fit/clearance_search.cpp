@@ -8,11 +8,9 @@
 namespace garmentfit {
 namespace {
 
-constexpr double k_first_cell = 0.4;  // m
-
 struct Cell {
     double bound;
-    int order;  // of making: of cells that promise the same, the first
+    int order;  // of creation; of cells with the same bound, the first wins
     Vec3 centre, half_size;
     bool is_place = false;  // its bound is its value
 
@@ -24,41 +22,43 @@ struct Cell {
 
 }  // namespace
 
-ClearanceSearch::ClearanceSearch(const MinMaxPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab) :
-    cloth_(cloth), samples_(std::move(samples)), slope_(slope), slab_(slab)
+ClearanceSearch::ClearanceSearch(const MinMaxPyramid& clearance, std::vector<ClearanceSample> samples,
+                                 const Vec3& slope, const Slab& slab) :
+    clearance_(clearance),
+    samples_(std::move(samples)), slope_(slope), slab_(slab)
 {
 }
 
 double ClearanceSearch::value(const Vec3& at) const
 {
     double sum = slope_.dot(at);
-    for (const RoomSample& sample : samples_)
-        sum += clearance_value(cloth_.at(at + sample.offset), sample.radius);
+    for (const ClearanceSample& sample : samples_)
+        sum += clearance_value(clearance_.at(at + sample.offset), sample.radius);
     return sum;
 }
 
-// More room is worth more inside and less outside, and being inside is worth more than not: so the three extremes bound the value.
+// derived: in docs/fit.md. The value rises with the distance inside, falls with it outside, and is greater inside.
 double ClearanceSearch::bound(const Vec3& centre, const Vec3& half_size) const
 {
     double sum = slope_.dot(centre) + slope_.cwiseAbs().dot(half_size);
-    for (const RoomSample& sample : samples_) {
-        const RoomRange range = cloth_.within(centre + sample.offset, half_size);
+    for (const ClearanceSample& sample : samples_) {
+        const ClearanceRange range = clearance_.range_in(centre + sample.offset, half_size);
         sum += range.most_inside * inside_value(range.furthest, sample.radius)
-            - (1 - range.most_inside) * std::min(range.nearest, k_largest_outside);
+            - (1 - range.most_inside) * std::min(range.nearest, k_outside_cap);
     }
     return sum;
 }
 
-std::vector<Place> ClearanceSearch::best(const Vec3& low, const Vec3& high, double spacing, double apart,
-                                    std::size_t count) const
+std::vector<Place> ClearanceSearch::find_best(const Vec3& low, const Vec3& high, double spacing, double apart,
+                                              std::size_t count) const
 {
     std::priority_queue<Cell> cells;
-    int made = 0;
+    int created = 0;
     const auto add = [&](const Vec3& centre, const Vec3& half_size) {
-        if (!slab_.is_missed_by(centre, half_size))
-            cells.push({ bound(centre, half_size), made++, centre, half_size });
+        if (!slab_.misses(centre, half_size))
+            cells.push({ bound(centre, half_size), created++, centre, half_size });
     };
-    // Halves along the axes that are still longer than `longest`.
+    // Halves the box along the axes that are longer than `longest`.
     const auto split = [&](const Vec3& centre, const Vec3& half_size, double longest) {
         const Eigen::Array3i parts = (half_size.array() > 0.5 * longest).select(Eigen::Array3i::Constant(2), 1);
         const Vec3 half = half_size.cwiseQuotient(parts.cast<double>().matrix());
@@ -84,8 +84,8 @@ std::vector<Place> ClearanceSearch::best(const Vec3& low, const Vec3& high, doub
                 places.push_back({ cell.centre, cell.bound });
         } else if (2 * cell.half_size.maxCoeff() > spacing) {
             split(cell.centre, cell.half_size, std::max(spacing, cell.half_size.maxCoeff()));
-        } else if (!slab_.is_missed_by(cell.centre, Vec3::Zero())) {
-            cells.push({ value(cell.centre), made++, cell.centre, Vec3::Zero(), true });
+        } else if (!slab_.misses(cell.centre, Vec3::Zero())) {
+            cells.push({ value(cell.centre), created++, cell.centre, Vec3::Zero(), true });
         }
     }
     return places;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where a rigid set of points has the most room: branch and bound, so that the best place is certain without trying all
-// (derived in docs/fit.md).
+// The places where a rigid set of samples has the most clearance, by branch and bound: the best place is certain
+// without trying all of them. docs/fit.md derives the bound.
 
 #include <cmath>
 #include <limits>
@@ -12,8 +12,8 @@
 
 namespace garmentfit {
 
-/// A point that moves with the rest, and the radius of its limb.
-struct RoomSample {
+/// A point of the set, and the radius of its limb.
+struct ClearanceSample {
     Vec3 offset;  // m
     double radius;  // m
 };
@@ -23,13 +23,13 @@ struct Place {
     double value;  // m
 };
 
-/// What lies between two parallel planes; everything, unless told otherwise.
+/// The space between two parallel planes; by default all of it.
 struct Slab {
     Vec3 middle = Vec3::Zero();  // m
     Vec3 across = Vec3::UnitX();
     double half_width = std::numeric_limits<double>::infinity();  // m
 
-    bool is_missed_by(const Vec3& centre, const Vec3& half_size) const
+    bool misses(const Vec3& centre, const Vec3& half_size) const
     {
         return std::abs(across.dot(centre - middle)) > half_width + across.cwiseAbs().dot(half_size);
     }
@@ -37,21 +37,24 @@ struct Slab {
 
 class ClearanceSearch {
 public:
-    /// @param slope  what a metre along each axis is worth besides, m/m
-    /// @param slab  where to look. Keeps a reference to the cloth.
-    ClearanceSearch(const MinMaxPyramid& cloth, std::vector<RoomSample> samples, const Vec3& slope, const Slab& slab = {});
+    /// Keeps a reference to `clearance`.
+    /// @param slope  value of a metre along each axis, m/m
+    /// @param slab  places outside of it do not count
+    ClearanceSearch(const MinMaxPyramid& clearance, std::vector<ClearanceSample> samples, const Vec3& slope,
+                    const Slab& slab = {});
 
-    double value(const Vec3& at) const;
+    double value(const Vec3& at) const;  ///< m
 
-    /// No place in the box about `centre` is worth more.
+    /// An upper bound of the value in the box about `centre`, m.
     double bound(const Vec3& centre, const Vec3& half_size) const;
 
-    /// The best places of a grid no coarser than `spacing`, best first, none nearer to a better one than `apart`.
-    std::vector<Place> best(const Vec3& low, const Vec3& high, double spacing, double apart, std::size_t count) const;
+    /// The best places of a grid no coarser than `spacing`, best first, none nearer to a better one than `apart`, m.
+    std::vector<Place> find_best(const Vec3& low, const Vec3& high, double spacing, double apart,
+                                 std::size_t count) const;
 
 private:
-    const MinMaxPyramid& cloth_;
-    std::vector<RoomSample> samples_;
+    const MinMaxPyramid& clearance_;
+    std::vector<ClearanceSample> samples_;
     Vec3 slope_;
     Slab slab_;
 };

@@ -5,7 +5,7 @@
 
 namespace garmentfit {
 
-/// The fast method, told in docs/fit.md.
-FitResult fast_fit(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress);
+/// The fast method (docs/fit.md).
+FitResult fit_fast(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress);
 
 }  // namespace garmentfit

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "parallel.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_spacing = 0.05;  // m; less than half of what the slimmest trunk needs
-constexpr double k_border = 0.04;  // m; round the garment's box; beyond, everything is outside
-constexpr double k_largest_grid = 3e4;  // nodes; a garment far too large gets a coarser grid, not a slow one
+constexpr double k_max_nodes = 3e4;  // unit: a limit of time; a garment far too large gets a coarser grid
 
 template <class Visit>
 void for_each_corner(const Eigen::Vector3i& low, const Eigen::Vector3i& high, const Visit& visit)
@@ -25,9 +24,9 @@ void for_each_corner(const Eigen::Vector3i& low, const Eigen::Vector3i& high, co
 
 MinMaxPyramid::MinMaxPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high)
 {
-    const Vec3 extent = high - low + Vec3::Constant(2 * k_border);
-    spacing_ = std::max(k_spacing, std::cbrt(extent.prod() / k_largest_grid));
-    origin_ = low - Vec3::Constant(k_border);
+    const Vec3 extent = high - low + Vec3::Constant(2 * k_grid_border);
+    spacing_ = std::max(k_pyramid_spacing, std::cbrt(extent.prod() / k_max_nodes));
+    origin_ = low - Vec3::Constant(k_grid_border);
     Level level;
     level.size = (extent / spacing_).array().ceil().cast<int>() + 2;
     level.nodes.resize(std::size_t(level.size.prod()));
@@ -40,19 +39,19 @@ MinMaxPyramid::MinMaxPyramid(const ClothTree& cloth, const Vec3& low, const Vec3
     });
     levels_.push_back(std::move(level));
     while (levels_.back().size.maxCoeff() > 1)
-        levels_.push_back(above(levels_.back()));
+        levels_.push_back(coarsen(levels_.back()));
 }
 
-MinMaxPyramid::Level MinMaxPyramid::above(const Level& level) const
+MinMaxPyramid::Level MinMaxPyramid::coarsen(const Level& level) const
 {
     Level next;
     next.size = (level.size.array() + 1) / 2;
     for_each_corner(Eigen::Vector3i::Zero(), next.size - Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& c) {
         const Eigen::Vector3i low = 2 * c,
                               high = (low + Eigen::Vector3i::Ones()).cwiseMin(level.size - Eigen::Vector3i::Ones());
-        Least least = level.at(low);
-        for_each_corner(low, high, [&](const Eigen::Vector3i& child) { least = least.min(level.at(child)); });
-        next.nodes.push_back(least);
+        Extremes extremes = level.at(low);
+        for_each_corner(low, high, [&](const Eigen::Vector3i& child) { extremes = extremes.min(level.at(child)); });
+        next.nodes.push_back(extremes);
     });
     return next;
 }
@@ -70,7 +69,7 @@ Clearance MinMaxPyramid::at(const Vec3& point) const
         double weight = 1;
         for (int axis = 0; axis < 3; ++axis)
             weight *= corner[axis] ? t[axis] : 1 - t[axis];
-        const Least& node = nodes.at(c + corner);
+        const Extremes& node = nodes.at(c + corner);
         clearance.distance += weight * node[0];
         clearance.inside -= weight * node[2];
     });
@@ -78,7 +77,7 @@ Clearance MinMaxPyramid::at(const Vec3& point) const
     return { clearance.distance + beyond, beyond > 0 ? 0.0 : clearance.inside };
 }
 
-RoomRange MinMaxPyramid::within(const Vec3& centre, const Vec3& half_size) const
+ClearanceRange MinMaxPyramid::range_in(const Vec3& centre, const Vec3& half_size) const
 {
     const Vec3 last = (levels_[0].size.array() - 1).cast<double>();
     const Vec3 wanted_low = (centre - half_size - origin_) / spacing_,
@@ -94,13 +93,13 @@ RoomRange MinMaxPyramid::within(const Vec3& centre, const Vec3& half_size) const
             high[axis] >>= 1;
         }
     const Level& nodes = levels_[level];
-    Least least = nodes.at(low);
+    Extremes extremes = nodes.at(low);
     for (int z = low.z(); z <= high.z(); ++z)
         for (int y = low.y(); y <= high.y(); ++y) {
-            const Least* const row = &nodes.at({ 0, y, z });
-            least = least.min(row[low.x()]).min(row[high.x()]);
+            const Extremes* const row = &nodes.at({ 0, y, z });
+            extremes = extremes.min(row[low.x()]).min(row[high.x()]);
         }
-    RoomRange range { least[0], -least[1], -least[2] };
+    ClearanceRange range { extremes[0], -extremes[1], -extremes[2] };
     const Vec3 beyond = (-wanted_low).cwiseMax(wanted_high - last).cwiseMax(0);
     range.furthest += spacing_ * beyond.norm();
     return range;

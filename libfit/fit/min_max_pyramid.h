@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The room that a garment offers, coarsely, and its extremes over boxes of any size: what branch and bound asks for.
+// The clearance of a garment on a coarse grid, and its extremes over boxes of any size, for branch and bound.
 
 #include <array>
 #include <vector>
 
-#include "cloth_tree.h"
 #include "clearance.h"
+#include "cloth_tree.h"
 
 namespace garmentfit {
 
-/// What a garment offers to all points of a box.
-struct RoomRange {
-    double nearest = 0, furthest = 0;  ///< m; no point is nearer to the cloth or further away
-    double most_inside = 0;  ///< no point is more surely inside
+/// Bounds of the clearance over a box.
+struct ClearanceRange {
+    double nearest = 0, furthest = 0;  ///< m; of the distance to the cloth
+    double most_inside = 0;  ///< the greatest Clearance::inside
 };
 
 class MinMaxPyramid {
@@ -23,23 +23,23 @@ public:
     MinMaxPyramid(const ClothTree& cloth, const Vec3& low, const Vec3& high);
 
     Clearance at(const Vec3& point) const;  ///< trilinear
-    /// Holds for `at` of every point of the box: what is interpolated lies between the nodes about it.
-    RoomRange within(const Vec3& centre, const Vec3& half_size) const;
+    /// Bounds `at` for every point of the box: interpolated values lie between those of the nodes about it.
+    ClearanceRange range_in(const Vec3& centre, const Vec3& half_size) const;
 
 private:
-    /// A range whose extremes are all least: nearest, -furthest, -most_inside. Any number is joined by minima, four at a time.
-    using Least = Eigen::Array4f;
+    /// nearest, -furthest, -most_inside, 0: ranges are joined by one minimum of four lanes.
+    using Extremes = Eigen::Array4f;
     struct Level {
         Eigen::Vector3i size;
-        std::vector<Least> nodes;  // over 2^level nodes along each axis
+        std::vector<Extremes> nodes;  // over 2^level nodes along each axis
 
         std::size_t index(const Eigen::Vector3i& c) const
         {
             return (std::size_t(c.z()) * size.y() + c.y()) * size.x() + c.x();
         }
-        const Least& at(const Eigen::Vector3i& c) const { return nodes[index(c)]; }
+        const Extremes& at(const Eigen::Vector3i& c) const { return nodes[index(c)]; }
     };
-    Level above(const Level& level) const;
+    Level coarsen(const Level& level) const;
 
     double spacing_;
     Vec3 origin_;

@@ -11,6 +11,10 @@
 namespace garmentfit {
 namespace {
 
+constexpr double k_rounding
+    = 1e-9;  // unit: of a spacing, and rad; keeps the last line of a grid whose extent is a multiple of its spacing
+
+// Of equal norms, the order is fixed by coordinates.
 bool by_norm(const Vec3& a, const Vec3& b)
 {
     return std::make_tuple(a.squaredNorm(), a.y(), a.x(), a.z())
@@ -21,7 +25,7 @@ bool by_norm(const Vec3& a, const Vec3& b)
 
 std::vector<Vec3> grid_offsets(const Vec3& extent, double spacing)
 {
-    const Eigen::Vector3i n = (extent / spacing + Vec3::Constant(1e-9)).array().floor().cast<int>();
+    const Eigen::Vector3i n = (extent / spacing + Vec3::Constant(k_rounding)).array().floor().cast<int>();
     std::vector<Vec3> offsets;
     for (int x = -n.x(); x <= n.x(); ++x)
         for (int y = -n.y(); y <= n.y(); ++y)
@@ -35,7 +39,7 @@ std::vector<Vec3> directions_about(const Vec3& axis, double extent, double spaci
 {
     const Eigen::Quaterniond from_z = shortest_arc(Vec3::UnitZ(), axis);
     std::vector<Vec3> directions { axis };
-    for (double phi = spacing; phi <= std::min(extent, std::numbers::pi) + 1e-9; phi += spacing) {
+    for (double phi = spacing; phi <= std::min(extent, std::numbers::pi) + k_rounding; phi += spacing) {
         const int count = std::max(1, int(std::ceil(2 * std::numbers::pi * std::sin(phi) / spacing)));
         for (int i = 0; i < count; ++i) {
             const double theta = 2 * std::numbers::pi * i / count;
@@ -46,7 +50,7 @@ std::vector<Vec3> directions_about(const Vec3& axis, double extent, double spaci
     return directions;
 }
 
-Eigen::Quaterniond turned_by(const Vec3& rotation_vector)
+Eigen::Quaterniond rotation_by(const Vec3& rotation_vector)
 {
     const double angle = rotation_vector.norm();
     if (angle == 0)

@@ -4,11 +4,14 @@
 //
 //   table1 [--all-of-scan] [PAIR ...]
 //
-// One thread is timed by the processor's clock, which other programs do not disturb; all threads by the wall's, which they do.
+// One thread is timed by the processor's clock, which other programs do not disturb; all threads by the wall's, which
+// they do.
 //
 // fast     the whole of it, preparation included: the best of five runs, with one thread and with all.
-// paper    found with the KD-tree, all threads, processor time; the poses are the same by scan. By scan, the paper's own O(n_G), the time is that
-//          of so many queries as the search made, each as long as the mean of k_timed_queries; --all-of-scan runs them all.
+// paper    found with the KD-tree, all threads, processor time; the poses are the same by scan. By scan, the paper's
+// own O(n_G), the time is that
+//          of so many queries as the search made, each as long as the mean of k_timed_queries; --all-of-scan runs them
+//          all.
 // tisserand  of so many evaluations as paper made, each as long as the mean of k_timed_surfaces, by scan: O(n_H n_G).
 // E        of both poses by the paper's own metric, over the bones that the garment covers.
 

@@ -9,18 +9,18 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "clearance_field.h"
-#include "crossing_tree.h"
-#include "nearest.h"
-#include "paper_climb.h"
 #include "baselines/paper_metric.h"
 #include "baselines/relaxation.h"
-#include "clearance_search.h"
 #include "baselines/surface_metric.h"
-#include "vertex_tree.h"
+#include "clearance_field.h"
+#include "clearance_search.h"
+#include "crossing_tree.h"
+#include "fixtures.h"
 #include "garmentfit/error.h"
 #include "garmentfit/rig_body.h"
-#include "fixtures.h"
+#include "incremental_paper_metric.h"
+#include "nearest.h"
+#include "vertex_tree.h"
 
 namespace {
 
@@ -97,9 +97,9 @@ protected:
     const Vec3 low = cloth.positions.colwise().minCoeff(), high = cloth.positions.colwise().maxCoeff();
     const ClothTree tree { cloth_patches(cloth, 0.015) };
     const MinMaxPyramid room { tree, low, high };
-    const std::vector<RoomSample> samples { { Vec3(0, 0, 0), 0.1 },
-                                            { Vec3(0, 0.2, 0), 0.12 },
-                                            { Vec3(0.15, 0.2, 0), 0.05 } };
+    const std::vector<ClearanceSample> samples { { Vec3(0, 0, 0), 0.1 },
+                                                 { Vec3(0, 0.2, 0), 0.12 },
+                                                 { Vec3(0.15, 0.2, 0), 0.05 } };
     const ClearanceSearch search { room, samples, Vec3(0, 1.5, 0) };
 };
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCloth, testing::Range(0u, 12u));
@@ -139,7 +139,7 @@ TEST_P(RandomCloth, ABoundIsNeverBelowAnythingInItsBox)
 TEST_P(RandomCloth, BranchAndBoundFindsWhatTryingAllFinds)
 {
     const double spacing = 0.1;
-    const std::vector<Place> found = search.best(low, high, spacing, 0.2, 3);
+    const std::vector<Place> found = search.find_best(low, high, spacing, 0.2, 3);
     ASSERT_FALSE(found.empty());
     Eigen::Array3i parts = Eigen::Array3i::Ones();  // the grid of boxes halved until none is longer than `spacing`
     for (int axis = 0; axis < 3; ++axis)
@@ -201,13 +201,13 @@ TEST(PaperMetric, CountsDistanceInsideAndAHundredTimesDistanceOutside)
     EXPECT_EQ(metric.total(inside), metric.of_bone(lowerback, inside));
 }
 
-TEST(PaperClimb, TellsWhatIsAboveAsThePapersMetricDoes)
+TEST(IncrementalPaperMetric, TellsWhatIsAboveAsThePapersMetricDoes)
 {
     const GarmentMesh garment = tube(0.1);
     const PaperMetric metric(garment, { lowerback, upperback }, NearestSearch::scan);
     std::array<bool, bone_count> covered {};
     covered[lowerback] = covered[upperback] = true;
-    PaperClimb climb({ garment.positions, garment.triangles }, covered);
+    IncrementalPaperMetric climb({ garment.positions, garment.triangles }, covered);
     Skeleton present = with_lowerback({ 0, 0.1, 0 }, { 0, 0.3, 0.01 });
     EXPECT_TRUE(climb.is_above(present, 0));
     climb.accept();
@@ -244,8 +244,8 @@ TEST(PaperMethod, FindsTheSameByScanAndByTree)
     relaxation.rotation_spacing = 0.1;
     relaxation.bone_spacing *= 2;
     const PaperMetric by_tree(garment, covered, NearestSearch::kd_tree), by_scan(garment, covered, NearestSearch::scan);
-    const Relaxed found = relaxed(rig, by_tree, covered, relaxation, {});
-    const Relaxed scanned = relaxed(rig, by_scan, covered, relaxation, {});
+    const RelaxedPosture found = search_relaxed(rig, by_tree, covered, relaxation, {});
+    const RelaxedPosture scanned = search_relaxed(rig, by_scan, covered, relaxation, {});
     EXPECT_EQ(found.posture.root, scanned.posture.root);
     EXPECT_EQ(found.posture.directions, scanned.posture.directions);
     EXPECT_EQ(found.bone_evaluations, scanned.bone_evaluations);
@@ -286,7 +286,7 @@ TEST(SurfaceMethod, FindsItsWayBackIntoTheSkin)
     relaxation.rotation_spacing = relaxation.rotation_extent;
     relaxation.bone_spacing = 0.2;
     const SurfaceMetric metric(rig, body.surface, garment, NearestSearch::kd_tree);
-    const Relaxed found = relaxed(rig, metric, covered, relaxation, {});
+    const RelaxedPosture found = search_relaxed(rig, metric, covered, relaxation, {});
     EXPECT_LT((found.posture.root - rig.skeleton.root).norm(), 0.03);
 }
 

@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/error.h"
 #include "fixtures.h"
+#include "garmentfit/error.h"
 
 namespace {
 
@@ -291,7 +291,8 @@ TEST(FitSkeleton, FlippedNormalsAndShuffledVerticesChangeNothing)
     const int last = int(garment.positions.rows()) - 1;
     reversed.positions = garment.positions.colwise().reverse();
     reversed.triangles = garment.triangles.unaryExpr([&](int v) { return last - v; });
-    EXPECT_LT(largest_difference(pose_skeleton(rig.skeleton, fit_skeleton(rig, reversed, options).pose), expected), 0.01);
+    EXPECT_LT(largest_difference(pose_skeleton(rig.skeleton, fit_skeleton(rig, reversed, options).pose), expected),
+              0.01);
 }
 
 TEST(FitSkeleton, TheSameInputGivesTheSameBits)
@@ -333,7 +334,8 @@ TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
         const FitResult result = fit_skeleton(rig, garment);
         EXPECT_EQ(result.type, GarmentType::longsleeve);
         EXPECT_LT((result.up - turn * Vec3::UnitY()).norm(), 1e-6);
-        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose), wanted = pose_skeleton(rig.skeleton, expected.pose);
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose),
+                       wanted = pose_skeleton(rig.skeleton, expected.pose);
         for (const int b : { thorax, lhumerus, rhumerus, lradius, rradius })
             EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 10) << bone_name(b);
     }
@@ -349,7 +351,8 @@ TEST(FitSkeleton, AGarmentHeldAskewIsFound)
         EXPECT_EQ(result.type, expected.type);
         EXPECT_LT(angle(result.up, turn * Vec3::UnitY()), 8) << name_of(expected.type);
         EXPECT_GT(result.up_margin, 0.5);
-        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose), wanted = pose_skeleton(rig.skeleton, expected.pose);
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose),
+                       wanted = pose_skeleton(rig.skeleton, expected.pose);
         for (const Bone b : expected.covered)
             EXPECT_LT(angle(joints.direction(b), turn * wanted.direction(b)), 25)
                 << bone_name(b) << " in " << name_of(expected.type);
@@ -542,7 +545,7 @@ CommonFit fit_together(const Rig& rig, const std::vector<GarmentMesh>& garments)
     std::vector<FitResult> fits;
     for (const GarmentMesh& garment : garments)
         fits.push_back(fit_skeleton(rig, garment));
-    return common_fit(rig, garments, fits);
+    return fit_common_pose(rig, garments, fits);
 }
 
 void expect_bones_turned_alike(const Pose& a, const Pose& b)
@@ -604,11 +607,11 @@ TEST(CommonFit, OneGarmentIsLeftAsItIs)
     const Rig rig = rig_of({ .arm_angle = 45 });
     const std::vector<GarmentMesh> garments { trousers() };
     const FitResult own = fit_skeleton(rig, garments[0]);
-    const CommonFit common = common_fit(rig, garments, { own });
+    const CommonFit common = fit_common_pose(rig, garments, { own });
     EXPECT_TRUE(common.one_pose);
     expect_bones_turned_alike(common.fits[0].pose, own.pose);
     EXPECT_EQ(common.fits[0].pose.root_translation, own.pose.root_translation);
-    EXPECT_THROW(common_fit(rig, garments, {}), InvalidInput);
+    EXPECT_THROW(fit_common_pose(rig, garments, {}), InvalidInput);
 }
 
 TEST(FitSkeleton, StopsWhenTold)

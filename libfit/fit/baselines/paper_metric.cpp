@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "baselines/paper_metric.h"
 
+#include "bone_samples.h"
 #include "nearest.h"
 
 namespace garmentfit {
 namespace {
-
-constexpr double k_outside = -100;  // s of equation (3)
 
 std::function<int(const Vec3&)> nearest_by(NearestSearch search, const Positions& points)
 {
@@ -16,12 +15,6 @@ std::function<int(const Vec3&)> nearest_by(NearestSearch search, const Positions
 }
 
 }  // namespace
-
-double paper_delta(const Vec3& sample, const Vec3& nearest, const Vec3& normal)
-{
-    const Vec3 to_cloth = nearest - sample;
-    return (to_cloth.dot(normal) > 0 ? 1 : k_outside) * to_cloth.norm();
-}
 
 PaperMetric::PaperMetric(const GarmentMesh& garment, const std::vector<Bone>& covered, NearestSearch search) :
     positions_(garment.positions), normals_(vertex_normals(garment.positions, garment.triangles)), covered_(covered),

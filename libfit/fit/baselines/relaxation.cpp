@@ -6,17 +6,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "bone_metric.h"
+#include "bone_samples.h"
 #include "joint_limits.h"
+#include "limbs.h"
 #include "parallel.h"
 #include "search_grids.h"
 #include "segment.h"
+#include "topology.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_rotation_extent = 0.2, k_rotation_spacing = 0.02;  // rad
-constexpr double k_bone_extent = 2 * std::numbers::pi / 3;  // rad; phi0
+constexpr double k_rotation_extent = 0.2, k_rotation_spacing = 0.02;  // rad; literature: [wu_2018_garment_fitting]
+constexpr double k_bone_extent = 2 * std::numbers::pi / 3;  // rad; literature: phi0 of [wu_2018_garment_fitting]
 
 // Parents before children.
 using BoneChain = std::vector<int>;
@@ -26,58 +28,49 @@ const std::array<BoneChain, 4> k_independent { BoneChain { lhipjoint, lfemur, lt
                                                BoneChain { lclavicle, lhumerus, lradius },
                                                BoneChain { rclavicle, rhumerus, rradius } };
 
-double mean_edge(const GarmentMesh& garment)
-{
-    const auto edges = edges_of(garment.triangles);
-    return (garment.positions(edges.col(0), Eigen::all) - garment.positions(edges.col(1), Eigen::all))
-        .rowwise()
-        .norm()
-        .mean();
-}
-
 bool covers(GarmentType type, Bone bone)
 {
     const std::vector<Bone> bones = bones_covered_by(type);
     return std::find(bones.begin(), bones.end(), bone) != bones.end();
 }
 
-// Upright, the root at the garment's barycentre; for short upper garments, whose root lies below the hem, moved down so that the
-// box is that of the neck's base.
+// Upright, the root at the garment's barycentre. The root of short upper garments lies below the hem: there, the box of
+// the grid is moved down by the length of the trunk.
 Posture start_of(const Rig& rig, const GarmentMesh& garment, GarmentType type)
 {
-    const Skeleton& own = rig.skeleton;
+    const Skeleton& rest = rig.skeleton;
     Posture posture;
     posture.turn = shortest_arc(rig.up.normalized(), Vec3::UnitY());
     posture.root = garment.positions.colwise().mean();
     if (!covers(type, lfemur))
-        posture.root -= (own.tail(thorax) - own.root).norm() * Vec3::UnitY();
+        posture.root -= (rest.tail(thorax) - rest.root).norm() * Vec3::UnitY();
     for (int b = 0; b < bone_count; ++b)
-        posture.directions[b] = posture.turn * own.direction(b);
+        posture.directions[b] = posture.turn * rest.direction(b);
     return posture;
 }
 
-bool hangs_on(int bone, int ancestor)
+bool is_descendant(int bone, int ancestor)
 {
     while (bone >= 0 && bone != ancestor)
         bone = parent_of(bone);
     return bone == ancestor;
 }
 
-// What hangs on the bone turns with it.
-Posture with_bone_along(Posture posture, int bone, const Vec3& direction)
+// The bone's descendants turn with it.
+Posture point_bone(Posture posture, int bone, const Vec3& direction)
 {
     const Eigen::Quaterniond turn = shortest_arc(posture.directions[bone], direction);
     for (int b = bone + 1; b < bone_count; ++b)
-        if (hangs_on(b, bone))
+        if (is_descendant(b, bone))
             posture.directions[b] = turn * posture.directions[b];
     posture.directions[bone] = direction;
     return posture;
 }
 
-// The chest has more room than any sleeve, but the body's own chest is there: the upper arm may not fold into it either.
+// The chest has more clearance than any sleeve, but the body's own chest fills it.
 bool is_in_trunk(int bone, const Skeleton& joints, const std::array<double, bone_count>& radii)
 {
-    if (bone != lhumerus && bone != rhumerus && bone != lradius && bone != rradius)
+    if (!is_arm(bone))
         return false;
     for (const int spine : { lowerback, upperback, thorax })
         for (int i = 0; i < k_samples; ++i)
@@ -91,70 +84,70 @@ bool is_in_trunk(int bone, const Skeleton& joints, const std::array<double, bone
 class Search {
 public:
     Search(const Rig& rig, const ErrorMetric& metric, const std::vector<Bone>& covered, const Relaxation& r) :
-        own_(rig.skeleton), limits_(rig), radii_(figure_of(rig, covered).radii), metric_(metric), covered_(covered),
-        r_(r)
+        rest_(rig.skeleton), limits_(rig), radii_(limb_radii_of(rig, covered).radii), metric_(metric),
+        covered_(covered), r_(r)
     {
     }
 
-    Relaxed translated(const Posture& present, double scale) const
+    RelaxedPosture translate(const Posture& present, double scale) const
     {
-        return best_whole(present, grid_offsets(scale * r_.translation_extent, scale * r_.translation_spacing),
-                          [&](const Vec3& offset) {
-                              Posture moved = present;
-                              moved.root += offset;
-                              return moved;
-                          });
+        return find_best(present, grid_offsets(scale * r_.translation_extent, scale * r_.translation_spacing),
+                         [&](const Vec3& offset) {
+                             Posture moved = present;
+                             moved.root += offset;
+                             return moved;
+                         });
     }
 
-    Relaxed rotated(const Posture& present, double scale) const
+    RelaxedPosture rotate(const Posture& present, double scale) const
     {
-        return best_whole(present, grid_offsets(scale * r_.rotation_extent, scale * r_.rotation_spacing),
-                          [&](const Vec3& rotation_vector) {
-                              const Eigen::Quaterniond turn = turned_by(rotation_vector);
-                              Posture moved = present;
-                              moved.turn = (turn * present.turn).normalized();
-                              for (Vec3& direction : moved.directions)
-                                  direction = turn * direction;
-                              return moved;
-                          });
+        return find_best(present, grid_offsets(scale * r_.rotation_extent, scale * r_.rotation_spacing),
+                         [&](const Vec3& rotation_vector) {
+                             const Eigen::Quaterniond turn = rotation_by(rotation_vector);
+                             Posture moved = present;
+                             moved.turn = (turn * present.turn).normalized();
+                             for (Vec3& direction : moved.directions)
+                                 direction = turn * direction;
+                             return moved;
+                         });
     }
 
-    Relaxed chain_turned(const Posture& present, const BoneChain& chain, double scale) const
+    RelaxedPosture turn_chain(const Posture& present, const BoneChain& chain, double scale) const
     {
-        Relaxed result { present };
+        RelaxedPosture result { present };
         for (const int b : chain)
             if (std::find(covered_.begin(), covered_.end(), b) != covered_.end()) {
-                const Relaxed turned = bone_turned(result.posture, b, scale);
+                const RelaxedPosture turned = turn_bone(result.posture, b, scale);
                 result = { turned.posture, 0, result.bone_evaluations + turned.bone_evaluations };
             }
         return result;
     }
 
 private:
-    // The first of the best: grids begin at the present posture and are sorted by distance from it.
+    // Grids begin at the present posture and are sorted by distance from it: of equals, the nearest wins.
     template <class Moved>
-    Relaxed best_whole(const Posture& present, const std::vector<Vec3>& grid, const Moved& moved) const
+    RelaxedPosture find_best(const Posture& present, const std::vector<Vec3>& grid, const Moved& moved) const
     {
         std::vector<double> scores(grid.size());
         parallel_for<std::size_t>(
-            grid.size(), [&](std::size_t i) { scores[i] = metric_.total(place_bones(own_, moved(grid[i]))); }, 16);
+            grid.size(), [&](std::size_t i) { scores[i] = metric_.total(place_bones(rest_, moved(grid[i]))); }, 16);
         const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();
         return { best == 0 ? present : moved(grid[best]), static_cast<long long>(grid.size()) };
     }
 
-    Relaxed bone_turned(const Posture& present, int bone, double scale) const
+    RelaxedPosture turn_bone(const Posture& present, int bone, double scale) const
     {
-        Relaxed best { present };
-        double best_score = metric_.of_bone(bone, place_bones(own_, present));
-        const double spacing = scale * r_.bone_spacing / own_.length(bone);
+        RelaxedPosture best { present };
+        double best_score = metric_.of_bone(bone, place_bones(rest_, present));
+        const double spacing = scale * r_.bone_spacing / rest_.length(bone);
         for (const Vec3& direction : directions_about(present.directions[bone], scale * r_.bone_extent, spacing)) {
-            const PlacedBones bones = place_bones(own_, with_bone_along(present, bone, direction));
+            const PlacedBones bones = place_bones(rest_, point_bone(present, bone, direction));
             if (!is_human(bone, bones))
                 continue;
             ++best.bone_evaluations;
             if (const double score = metric_.of_bone(bone, bones); score > best_score) {
                 best_score = score;
-                best.posture = with_bone_along(present, bone, direction);
+                best.posture = point_bone(present, bone, direction);
             }
         }
         return best;
@@ -163,14 +156,13 @@ private:
     bool is_human(int bone, const PlacedBones& bones) const
     {
         const Vec3 direction = bones.joints.direction(bone);
-        if ((bone == lradius || bone == rradius)
-            && folds_into_chest(bones.joints.direction(parent_of(parent_of(bone))), direction))
+        if (is_forearm(bone) && folds_into_chest(bones.joints.direction(parent_of(parent_of(bone))), direction))
             return false;
         return !is_in_trunk(bone, bones.joints, radii_)
             && limits_.excess(bone, bones.parent_turn(bone), direction) == 0;
     }
 
-    const Skeleton& own_;
+    const Skeleton& rest_;
     JointLimits limits_;
     std::array<double, bone_count> radii_;  // m, of limbs
     const ErrorMetric& metric_;
@@ -182,18 +174,18 @@ private:
 
 Relaxation relaxation_of(const Rig& rig, const GarmentMesh& garment, GarmentType type, int iterations)
 {
-    const double edge = mean_edge(garment);
+    const double edge = mean_edge_length(garment.positions, edges_of(garment.triangles));
     const Vec3 low = garment.positions.colwise().minCoeff(), high = garment.positions.colwise().maxCoeff();
     return { start_of(rig, garment, type), (high - low) / 2, edge,     k_rotation_extent,
              k_rotation_spacing,           k_bone_extent,    edge / 2, iterations };
 }
 
-Relaxed relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bone>& covered,
-                const Relaxation& relaxation, const Progress& progress)
+RelaxedPosture search_relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bone>& covered,
+                              const Relaxation& relaxation, const Progress& progress)
 {
     const Search search(rig, metric, covered, relaxation);
-    Relaxed present { relaxation.start };
-    const auto take = [&](const Relaxed& next) {
+    RelaxedPosture present { relaxation.start };
+    const auto accept = [&](const RelaxedPosture& next) {
         present = { next.posture, present.evaluations + next.evaluations,
                     present.bone_evaluations + next.bone_evaluations };
     };
@@ -201,14 +193,14 @@ Relaxed relaxed(const Rig& rig, const ErrorMetric& metric, const std::vector<Bon
         const double scale = std::pow(0.5, i);
         const Progress round = progress.part(double(i) / relaxation.iterations, double(i + 1) / relaxation.iterations);
         round.at(0);
-        take(search.translated(present.posture, scale));
+        accept(search.translate(present.posture, scale));
         round.at(0.5);
-        take(search.rotated(present.posture, scale));
-        take(search.chain_turned(present.posture, k_spine, scale));
+        accept(search.rotate(present.posture, scale));
+        accept(search.turn_chain(present.posture, k_spine, scale));
         round.at(0.7);
-        std::array<Relaxed, k_independent.size()> limbs;
+        std::array<RelaxedPosture, k_independent.size()> limbs;
         parallel_for<std::size_t>(limbs.size(), [&](std::size_t l) {
-            limbs[l] = search.chain_turned(present.posture, k_independent[l], scale);
+            limbs[l] = search.turn_chain(present.posture, k_independent[l], scale);
         });
         for (std::size_t l = 0; l < limbs.size(); ++l) {
             for (const int b : k_independent[l])

@@ -2,19 +2,17 @@
 #include "baselines/surface_metric.h"
 
 #include "nearest.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// m; what opposed normals weigh against distance. The paper gives no number: two layers of cloth on a thin limb are this far apart.
-constexpr double k_normal_weight = 0.1;
-
-BoneTransforms transforms_of(const Skeleton& own, const PlacedBones& bones)
+BoneTransforms transforms_of(const Skeleton& rest, const PlacedBones& bones)
 {
     BoneTransforms transforms;
     for (int b = 0; b < bone_count; ++b)
         transforms[b]
-            = Eigen::Translation3d(bones.joints.head(b)) * bones.turns[b] * Eigen::Translation3d(-own.head(b));
+            = Eigen::Translation3d(bones.joints.head(b)) * bones.turns[b] * Eigen::Translation3d(-rest.head(b));
     return transforms;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The surface metric of [tisserand_2017_garment_positioning], as [wu_2018_garment_fitting] compares itself with: the body's
-// surface is posed for every evaluation, and every garment vertex looks for the nearest body vertex.
+// The surface metric of [tisserand_2017_garment_positioning], in the form to which [wu_2018_garment_fitting] compares
+// its own: every evaluation poses the body's surface and finds the nearest body vertex of each garment vertex.
 
-#include "error_metric.h"
+#include "baselines/error_metric.h"
 #include "garmentfit/fit_skeleton.h"
 
 namespace garmentfit {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "paper_climb.h"
+#include "incremental_paper_metric.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "garmentfit/mesh.h"
-#include "baselines/paper_metric.h"
 
 namespace garmentfit {
 
-PaperClimb::PaperClimb(const TriangleMesh& outward, const std::array<bool, bone_count>& covered) :
-    positions_(outward.positions), normals_(vertex_normals(outward.positions, outward.triangles)),
-    nearest_(outward.positions)
+IncrementalPaperMetric::IncrementalPaperMetric(const TriangleMesh& outward,
+                                               const std::array<bool, bone_count>& covered) :
+    positions_(outward.positions),
+    normals_(vertex_normals(outward.positions, outward.triangles)), nearest_(outward.positions)
 {
     for (int b = 0; b < bone_count; ++b)
         for (int i = 0; i < k_samples && covered[b]; ++i) {
@@ -24,7 +24,8 @@ PaperClimb::PaperClimb(const TriangleMesh& outward, const std::array<bool, bone_
                  -std::numeric_limits<double>::infinity() };
 }
 
-double PaperClimb::furthest(const Sample& sample, const Vec3& at) const
+// An upper bound of the distance to the nearest vertex.
+double IncrementalPaperMetric::bound_distance(const Sample& sample, const Vec3& at) const
 {
     double least = std::numeric_limits<double>::infinity();
     for (const int v : sample.vertices)
@@ -32,9 +33,9 @@ double PaperClimb::furthest(const Sample& sample, const Vec3& at) const
     return std::sqrt(least);
 }
 
-double PaperClimb::delta(Sample& sample, const Vec3& at, double furthest) const
+double IncrementalPaperMetric::delta(Sample& sample, const Vec3& at, double max_distance) const
 {
-    const int nearest = nearest_.index(at, furthest);
+    const int nearest = nearest_.index(at, max_distance);
     if (std::find(sample.vertices.begin(), sample.vertices.end(), nearest) == sample.vertices.end()) {
         sample.vertices[sample.oldest] = nearest;
         sample.oldest = (sample.oldest + 1) % k_remembered;
@@ -42,7 +43,7 @@ double PaperClimb::delta(Sample& sample, const Vec3& at, double furthest) const
     return paper_delta(at, positions_.row(nearest), normals_.row(nearest));
 }
 
-bool PaperClimb::is_above(const Skeleton& joints, double gain)
+bool IncrementalPaperMetric::is_above(const Skeleton& joints, double gain)
 {
     const double least = present_.total + gain;
     next_ = present_;
@@ -52,12 +53,12 @@ bool PaperClimb::is_above(const Skeleton& joints, double gain)
         const int b = samples_[s].bone;
         next_.at[s] = bone_sample(joints.head(b), joints.tail(b), samples_[s].place);
         if (next_.at[s] != present_.at[s]) {
-            next_.delta[s] = furthest(samples_[s], next_.at[s]);
+            next_.delta[s] = bound_distance(samples_[s], next_.at[s]);
             moved.push_back(s);
         }
         next_.total += next_.delta[s];
     }
-    // First those that promise most: of a step that leads down, few have to be asked.
+    // The bounds that may fall most come first: they prove most steps worse after few searches.
     std::sort(moved.begin(), moved.end(), [&](std::size_t a, std::size_t b) {
         return std::make_pair(present_.delta[a] - next_.delta[a], a)
             < std::make_pair(present_.delta[b] - next_.delta[b], b);

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_energy.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "search_grids.h"
+
+namespace garmentfit {
+namespace {
+
+// One point for each cell that has cloth: the mean of its patches.
+Eigen::ArrayX3f spread_points(const ClearanceField& cloth, double cells)
+{
+    const double cell = (cloth.high() - cloth.low()).maxCoeff() / cells;
+    std::map<std::tuple<int, int, int>, std::pair<Vec3, int>> sums;
+    for (const ClothPatch& patch : cloth.patches()) {
+        const Vec3 p = patch.centre.cast<double>();
+        const Eigen::Vector3i c = ((p - cloth.low()) / cell).array().floor().cast<int>();
+        auto& [sum, count] = sums.try_emplace({ c.x(), c.y(), c.z() }, Vec3(Vec3::Zero()), 0).first->second;
+        sum += p;
+        ++count;
+    }
+    Eigen::ArrayX3f points(sums.size(), 3);
+    Eigen::Index row = 0;
+    for (const auto& [key, value] : sums)
+        points.row(row++) = (value.first / value.second).cast<float>().transpose();
+    return points;
+}
+
+// What differs between two placed skeletons, bone by bone.
+class Changes {
+public:
+    Changes(const PlacedBones& before, const PlacedBones& after) : before_(before), after_(after)
+    {
+        for (int b = 0; b < bone_count; ++b) {
+            moved_[b] = after.joints.head(b) != before.joints.head(b) || after.joints.tail(b) != before.joints.tail(b);
+            turned_[b] = moved_[b] || after.parent_turn(b).coeffs() != before.parent_turn(b).coeffs();
+        }
+        hips_ = moved_[lhipjoint] || moved_[rhipjoint];
+        spine_ = moved_[lowerback] || moved_[upperback] || moved_[thorax];
+    }
+
+    bool has_moved(int bone) const { return moved_[bone]; }
+
+    // Twins are compared across the hips. Arms keep out of the trunk, and point from the shoulder to the cuff.
+    bool affects_bone(int b) const
+    {
+        const int clavicle = is_left_arm(b) ? lclavicle : rclavicle;
+        return turned_[b] || moved_[mirror_of(b)] || hips_ || (is_arm(b) && (spine_ || moved_[clavicle]));
+    }
+
+    bool affects_tip(int e) const
+    {
+        const int b = bone_before(Extremity(e));
+        return after_.joints.tail(b) != before_.joints.tail(b) || after_.joints.tips[e] != before_.joints.tips[e];
+    }
+
+private:
+    const PlacedBones &before_, &after_;
+    std::array<bool, bone_count> moved_, turned_;
+    bool hips_, spine_;
+};
+
+}  // namespace
+
+FitEnergy::FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues) :
+    rig_(rig), limits_(limits), metric_(metric), weights_(metric.weights()),
+    coverage_points_(spread_points(metric.cloth(), k_coverage_cells)), cues_(cues),
+    hangs_from_shoulders_(metric.covers(lclavicle))
+{
+}
+
+// Covered bones and the trunk prefer comfort, uncovered limbs the input pose. All keep within the range of their
+// joints.
+double FitEnergy::posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const
+{
+    const bool in_trunk = is_trunk(bone);
+    const bool covered = metric_.covers(bone) || metric_.limbs().covered_elsewhere[bone];
+    const Vec3 preferred = covered || in_trunk ? limits_.comfort_direction(bone, parent_turn)
+                                               : parent_turn * rig_.skeleton.direction(bone);
+    const double weight = in_trunk ? (covered ? weights_.comfort_trunk : weights_.comfort_uncovered_trunk)
+        : covered                  ? weights_.comfort
+                                   : weights_.input_pose;
+    const double angle = angle_between(direction, preferred);
+    return weight * angle * angle + weights_.joint_limit * limits_.excess(bone, parent_turn, direction);
+}
+
+double FitEnergy::symmetry_cost(int bone, const Vec3& direction, const Skeleton& joints) const
+{
+    const int twin = mirror_of(bone);
+    if (twin == bone || is_trunk(bone) || !metric_.covers(bone) || !metric_.covers(twin))
+        return 0;
+    const Vec3 left = (joints.tail(lhipjoint) - joints.tail(rhipjoint)).normalized();
+    const double angle = angle_between(direction, reflect(joints.direction(twin), left));
+    return weights_.symmetry * angle * angle;
+}
+
+// A wide shirt's body may offer an arm more clearance than its sleeve: the cuffs tell where arms belong.
+double FitEnergy::cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const
+{
+    const bool is_left = is_left_arm(bone);
+    if (cues_.cuffs.empty() || !metric_.covers(bone) || is_left == is_right_arm(bone))
+        return 0;
+    const Vec3 left = joints.tail(lhipjoint) - joints.tail(rhipjoint);
+    const bool first_is_left = left.dot(cues_.cuffs[0] - cues_.cuffs[1]) > 0;
+    const Vec3& cuff = cues_.cuffs[is_left == first_is_left ? 0 : 1];
+    const Vec3& shoulder = joints.tail(is_left ? lclavicle : rclavicle);
+    const double angle = angle_between((tail - shoulder).normalized(), (cuff - shoulder).normalized());
+    return weights_.cuff_direction * angle * angle;
+}
+
+double FitEnergy::bone_value(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn,
+                             const Skeleton& joints, double least) const
+{
+    const Vec3 direction = (tail - head).normalized();
+    const double posture = posture_cost(bone, direction, parent_turn),
+                 symmetry = symmetry_cost(bone, direction, joints), cuff = cuff_cost(bone, tail, joints);
+    if (metric_.max_value(bone) - posture - symmetry - cuff <= least)
+        return k_any;
+    return metric_.value(bone, head, tail) - metric_.trunk_overlap(bone, head, tail, joints) - posture - symmetry
+        - cuff;
+}
+
+double FitEnergy::tip_value(int extremity, const PlacedBones& bones) const
+{
+    return metric_.uncovered_tip_value(Extremity(extremity), bones.joints.tail(bone_before(Extremity(extremity))),
+                                       bones.joints.tips[extremity]);
+}
+
+double FitEnergy::stance_value(const Posture& posture) const
+{
+    const Vec3 front = posture.turn * rig_.front;
+    const double tilt = angle_between(posture.turn * rig_.up.normalized(), Vec3::UnitY());
+    const double facing = weights_.facing * front.dot(cues_.front) + weights_.input_facing * front.dot(rig_.front);
+    return hang_slope() * posture.root.y() - weights_.upright * tilt * tilt + facing;
+}
+
+CoverageDistances FitEnergy::coverage_distances(int bone, const Vec3& head, const Vec3& tail) const
+{
+    const auto& points = coverage_points_;
+    const Eigen::Array3f a = head.cast<float>(), ab = (tail - head).cast<float>();
+    const float inverse = 1 / ab.square().sum();
+    const Eigen::ArrayXf x = points.col(0) - a.x(), y = points.col(1) - a.y(), z = points.col(2) - a.z();
+    const Eigen::ArrayXf t = ((x * ab.x() + y * ab.y() + z * ab.z()) * inverse).max(0.f).min(1.f);
+    const float radius = float(metric_.limbs().radii[bone]);
+    return (((x - t * ab.x()).square() + (y - t * ab.y()).square() + (z - t * ab.z()).square()).sqrt() - radius)
+        .max(0.f);
+}
+
+CoverageDistances FitEnergy::coverage_distances(const PlacedBones& bones, const Limb& without) const
+{
+    CoverageDistances distances = CoverageDistances::Constant(coverage_points_.rows(), float(weights_.coverage_cutoff));
+    for (int b = 0; b < bone_count; ++b)
+        if (metric_.covers(b) && b != without.bones[0] && b != without.bones[1])
+            distances = distances.min(coverage_distances(b, bones.joints.head(b), bones.joints.tail(b)));
+    return distances;
+}
+
+// lower(distances, b) takes the minimum with a covered bone's distances. The order of the sum is fixed: it decides the
+// last bits.
+template <class BoneValue, class TipValue, class Lower>
+double FitEnergy::sum_terms(const Posture& posture, const BoneValue& by_bone, const TipValue& by_tip,
+                            const Lower& lower) const
+{
+    CoverageDistances distances = CoverageDistances::Constant(coverage_points_.rows(), float(weights_.coverage_cutoff));
+    for (int b = 0; b < bone_count; ++b)
+        if (metric_.covers(b))
+            lower(distances, b);
+    double sum = stance_value(posture) - coverage_cost(distances);
+    for (int b = 0; b < bone_count; ++b)
+        sum += by_bone(b);
+    for (int e = 0; e < extremity_count; ++e)
+        sum += by_tip(e);
+    return sum;
+}
+
+EnergyTerms FitEnergy::evaluate(const Posture& posture) const
+{
+    EnergyTerms terms { place_bones(rig_.skeleton, posture), {}, {}, {}, 0 };
+    const Skeleton& joints = terms.bones.joints;
+    for (int b = 0; b < bone_count; ++b) {
+        terms.by_bone[b] = bone_value(b, joints.head(b), joints.tail(b), terms.bones.parent_turn(b), joints);
+        if (metric_.covers(b))
+            terms.coverage[b] = coverage_distances(b, joints.head(b), joints.tail(b));
+    }
+    for (int e = 0; e < extremity_count; ++e)
+        terms.by_tip[e] = tip_value(e, terms.bones);
+    terms.energy = sum_terms(
+        posture, [&](int b) { return terms.by_bone[b]; }, [&](int e) { return terms.by_tip[e]; },
+        [&](CoverageDistances& distances, int b) { distances = distances.min(terms.coverage[b]); });
+    return terms;
+}
+
+double FitEnergy::value(const Posture& posture, const EnergyTerms& near) const
+{
+    const PlacedBones bones = place_bones(rig_.skeleton, posture, near.bones);
+    const Skeleton& joints = bones.joints;
+    const Changes changes(near.bones, bones);
+    const auto by_bone = [&](int b) {
+        return changes.affects_bone(b) ? bone_value(b, joints.head(b), joints.tail(b), bones.parent_turn(b), joints)
+                                       : near.by_bone[b];
+    };
+    const auto by_tip = [&](int e) { return changes.affects_tip(e) ? tip_value(e, bones) : near.by_tip[e]; };
+    const auto lower = [&](CoverageDistances& distances, int b) {
+        if (changes.has_moved(b))
+            distances = distances.min(coverage_distances(b, joints.head(b), joints.tail(b)));
+        else
+            distances = distances.min(near.coverage[b]);
+    };
+    return sum_terms(posture, by_bone, by_tip, lower);
+}
+
+double FitEnergy::tip_crossing_cost(const PlacedBones& bones, Extremity extremity) const
+{
+    const bool crosses
+        = metric_.cloth().crosses(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
+    return crosses ? (may_cross_cloth(extremity) ? weights_.tip_crossing : weights_.crossing) : 0;
+}
+
+int FitEnergy::bones_through_cloth(const Posture& posture) const
+{
+    const Skeleton joints = place_bones(rig_.skeleton, posture).joints;
+    int count = 0;
+    for (int b = 0; b < bone_count; ++b)
+        count += metric_.cloth().crosses(joints.head(b), joints.tail(b));
+    return count;
+}
+
+double FitEnergy::crossing_cost(const Posture& posture) const
+{
+    const PlacedBones bones = place_bones(rig_.skeleton, posture);
+    double cost = weights_.crossing * bones_through_cloth(posture);
+    for (int e = 0; e < extremity_count; ++e)
+        cost += tip_crossing_cost(bones, Extremity(e));
+    return cost;
+}
+
+double FitEnergy::crossing_cost(const Posture& posture, const Limb& limb) const
+{
+    const PlacedBones bones = place_bones(rig_.skeleton, posture);
+    double cost = tip_crossing_cost(bones, limb.end);
+    for (const int b : limb.bones)
+        cost += metric_.cloth().crosses(bones.joints.head(b), bones.joints.tail(b)) ? weights_.crossing : 0;
+    return cost;
+}
+
+double FitEnergy::tip_crossing_cost(const Posture& posture) const
+{
+    const PlacedBones bones = place_bones(rig_.skeleton, posture);
+    double cost = 0;
+    for (int e = 0; e < extremity_count; ++e)
+        cost += may_cross_cloth(Extremity(e)) ? tip_crossing_cost(bones, Extremity(e)) : 0;
+    return cost;
+}
+
+std::array<double, bone_count> FitEnergy::bone_scores(const Posture& posture) const
+{
+    const Skeleton joints = place_bones(rig_.skeleton, posture).joints;
+    std::array<double, bone_count> scores {};
+    for (int b = 0; b < bone_count; ++b)
+        if (metric_.covers(b))
+            scores[b] = metric_.covered_value(b, joints.head(b), joints.tail(b));
+    return scores;
+}
+
+double FitEnergy::clearance_share(const Posture& posture) const
+{
+    const std::array<double, bone_count> scores = bone_scores(posture);
+    double needed = 0, found = 0;
+    for (int b = 0; b < bone_count; ++b) {
+        needed += metric_.covers(b) ? k_samples * metric_.limbs().radii[b] : 0;
+        found += std::max(0.0, scores[b]);
+    }
+    return needed > 0 ? found / needed : 0;
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The fitted numbers of the fit: everything here was chosen on data and may be fitted again.
+//
+// Units    m means metres on a body of human size. rad are radians. Energies and scores are in m: metres of clearance,
+//          summed over samples. A weight's unit makes its term metres.
+// Kind     Every number is *fitted*. "guess" means: chosen by hand so that the twelve pairs of the house data and the
+//          tests of tests/fit come out right; no score was recorded. Other data are named.
+// Others   Numbers from the literature, derived ones and numerical floors stand next to their use and say so.
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+#include "garmentfit/skeleton.h"
+
+namespace garmentfit {
+
+// ---------------------------------------------------------------- energy
+
+/// The weights of the energy's terms (docs/fit.md, "The energy"). The energy is maximised: clearance counts for it,
+/// costs count against it. All of them: guess.
+// clang-format off
+struct EnergyWeights {
+    //     term                      weight  unit       of what
+    // Clearance, per sample. The clearance of covered bones has weight 1: it is the unit of all others.
+    double uncovered_clearance     = 2;     // 1        missing clearance of uncovered arms, legs and extremities
+    double uncovered_arm_inside    = 0.5;   // 1        an uncovered arm inside the garment, times its radius
+    // Crossings, per bone or extremity that passes through cloth.
+    double crossing                = 10;    // m        bone or head: more than any clearance can repay
+    double tip_crossing            = 0.5;   // m        hand or foot: wrists and ankles do not bend, so a long trouser
+                                            //          leg may leave a foot no free place
+    // Posture, per bone.
+    double comfort                 = 0.01;  // m/rad^2  covered limb from its comfort direction
+    double comfort_trunk           = 0.2;   // m/rad^2  covered bone of the trunk, which bends less than limbs
+    double comfort_uncovered_trunk = 0.5;   // m/rad^2  uncovered bone of the trunk: above trousers it keeps still
+    double input_pose              = 0.05;  // m/rad^2  uncovered limb from its direction in the input pose
+    double joint_limit             = 2;     // m/rad    angle beyond a joint's range
+    double symmetry                = 0.1;   // m/rad^2  covered limb from the mirror image of its twin
+    double cuff_direction          = 0.3;   // m/rad^2  arm from the line between shoulder and cuff
+    // Stance, of the whole body.
+    double upright                 = 3;     // m/rad^2  tilt of the trunk against the vertical
+    double hang                    = 1.5;   // m/m      height of the root: shirts hang from the shoulders, trousers
+                                            //          are pulled up
+    double facing                  = 0.6;   // m        each opening that faces forwards
+    double input_facing            = 0.05;  // m        front of the input body, where the garment does not decide
+    // Coverage, of the whole garment.
+    double coverage                = 8;     // m/m      mean distance of the cloth from the nearest covered limb
+    double coverage_cutoff         = 0.25;  // m        larger distances count as this one: trains, wide skirts
+};
+// clang-format on
+inline constexpr EnergyWeights k_energy_weights;
+
+/// Winding numbers: at most the first is outside, at least the second is inside; linear between. About 0.5 in the plane
+/// of an opening, 0.25 one radius outside of it. Dimensionless; guess.
+inline constexpr double k_winding_outside = 0.25, k_winding_inside = 0.45;
+/// m; a sample further outside is not worse: long arms reach beyond their cuffs. guess
+inline constexpr double k_outside_cap = 0.1;
+/// Dimensionless: weight of clearance beyond the limb's radius. It keeps bones in the middle, but must not draw an arm
+/// out of its sleeve into the chest. guess
+inline constexpr double k_surplus = 0.15;
+
+/// Coverage is measured at one point per cell; cells along the garment's longest side. Dimensionless; guess.
+inline constexpr double k_coverage_cells = 8;
+
+// ---------------------------------------------------------------- limbs
+
+/// Radii where the rig has none: m per metre of the leg (hip to ankle, 0.8 m for an adult), in the order of Bone.
+/// guess, after the bodies of the house data.
+inline constexpr std::array<double, bone_count> k_limb_radii { 0.10,  0.085, 0.06, 0.10,  0.085, 0.06,
+                                                               0.12,  0.12,  0.11, 0.065, 0.065, 0.06,
+                                                               0.055, 0.042, 0.06, 0.055, 0.042 };
+/// Radii of extremities as a share of the distance from the last joint to the tip, in the order of Extremity. guess
+inline constexpr std::array<double, extremity_count> k_tip_radii { 0.4, 0.2, 0.2, 0.2, 0.2 };
+
+// ---------------------------------------------------------------- grids of the clearance
+
+inline constexpr double k_patch_size = 0.015;  ///< m; of cloth: a third of the narrowest cuff's radius. guess
+inline constexpr double k_field_spacing = 0.02;  ///< m; half of the narrowest cuff's radius. guess
+inline constexpr double k_pyramid_spacing = 0.05;  ///< m; less than half of what the slimmest trunk needs. guess
+inline constexpr double k_grid_border = 0.04;  ///< m round the garment's box; beyond it, everything is outside. guess
+
+// ---------------------------------------------------------------- search of a start
+
+/// How far and how finely a limb's two bones are searched, and how many directions of the first bone are kept.
+struct LimbGrid {
+    double extent, spacing;  ///< rad
+    int beam;  ///< directions of the first bone
+    bool exact;  ///< bones must not pass through cloth, and empty sleeves count; slower
+};
+inline constexpr LimbGrid k_coarse_grid { 1.8, 0.35, 3, false };  ///< ranks places of the trunk. guess
+/// Extent: literature, phi0 of [wu_2018_garment_fitting]; the rest: guess
+inline constexpr LimbGrid k_wide_grid { 2 * std::numbers::pi / 3, 0.26, 8, true };
+inline constexpr LimbGrid k_near_grid { 0.6, 0.15, 8, true };  ///< about the mirror image of the twin. guess
+/// Frees a limb that passes through cloth: this grid, its spacing multiplied by the factor while it is above the
+/// finest. guess
+inline constexpr LimbGrid k_freeing_grid { 1.5, 0.2, 40, true };
+inline constexpr double k_freeing_factor = 0.6, k_freeing_finest = 0.06;  ///< dimensionless; rad
+/// Of a grid's spacing; nearer directions of the first bone are one. guess
+inline constexpr double k_alike_directions = 1.5;
+
+inline constexpr double k_place_spacing = 0.05;  ///< m; places of the trunk. guess
+inline constexpr double k_places_apart = 0.08;  ///< m; the thickness of an upper arm. guess
+inline constexpr std::size_t k_places_per_hypothesis = 4;  ///< guess
+inline constexpr std::size_t k_starts_searched = 6;  ///< places whose limbs are searched on the wide grid. guess
+inline constexpr double k_hem_reach = 1.2;  ///< of root to shoulders; how far below a shirt its root may lie. guess
+/// Of the distance between trouser hems: half the width of the slab in which the root lies. guess
+inline constexpr double k_between_legs = 0.25;
+inline constexpr double k_same_heading = 0.25;  ///< rad; nearer headings are one. guess
+/// Share of a crossing's cost before the ascent, which may still free bones. guess
+inline constexpr double k_early_crossing = 0.1;
+inline constexpr double k_promising = 0.3;  ///< m of energy; worth the work of freeing bones. guess
+inline constexpr double k_clear_front = 0.5;  ///< m of energy between the two facings: front_margin 1. guess
+inline constexpr double k_clear_up = 1;  ///< m of energy between two ways up: up_margin 1. guess
+inline constexpr double k_evidence_for_up = 0.5;  ///< m of energy; worth of clear openings for a way up. guess
+inline constexpr double k_prior_as_given = 1;  ///< m of energy; most garments are given the way they are worn. guess
+inline constexpr double k_same_way_up = 0.7;  ///< cosine; ways up nearer to each other do not compete. guess
+
+// ---------------------------------------------------------------- ascent
+
+/// Steps of an ascent: from `first`, halved down to `last`.
+struct AscentSteps {
+    double first, last;  ///< rad
+};
+inline constexpr AscentSteps k_rough_steps { 0.16, 0.04 };  ///< ranks starts. guess
+inline constexpr AscentSteps k_fine_steps { 0.08, 0.01 };  ///< the chosen start. guess
+/// With the paper's E, with it once more, and by it alone. guess, on the eleven pairs of Table 1 (docs/fit.md)
+inline constexpr AscentSteps k_paper_steps { 0.16, 0.005 }, k_paper_large_steps { 0.16, 0.04 },
+    k_paper_near_steps { 0.08, 0.0025 };
+inline constexpr AscentSteps k_common_steps { 0.16, 0.005 };  ///< several garments together. guess
+/// m per rad; a step of translation moves as far as a bone's end at this distance. guess
+inline constexpr double k_lever = 0.2;
+inline constexpr double k_min_gain = 1e-4;  ///< m of energy; smaller gains are no step. guess
+
+/// The paper's E may move a pose, as long as nothing is lost. Shares are of the clearance that covered bones need;
+/// chosen so that E beats the paper's method on nine of the eleven pairs of Table 1 (docs/fit.md).
+inline constexpr double k_share_tight = 0.58;  ///< below, the energy alone decides
+inline constexpr double k_share_wide = 0.93;  ///< above, the paper's E has the last word
+inline constexpr double k_share_given_up = 0.05;  ///< at most for the paper's E
+inline constexpr double k_max_drift = 0.02;  ///< m; of a joint for the paper's E alone. guess
+inline constexpr double k_clearance_given_up = 0.04;  ///< m, sum of a bone's five samples: 8 mm each. guess
+inline constexpr double k_energy_given_up = 0.3;  ///< m; a tenth of what tight clothes have. guess
+/// Skin cuts the corner between neck and shoulder: lines between these shares of clavicle and lower neck. guess
+inline constexpr std::array<double, 3> k_corner_shares { 0.3, 0.5, 0.7 };
+
+// ---------------------------------------------------------------- acceptance
+
+inline constexpr int k_partly_inside = 2, k_mostly_inside = 3;  ///< of a bone's five samples. guess
+inline constexpr double k_min_clearance_share = 0.2;  ///< of what covered bones need; below, no body fits. guess
+/// Before the refinement, which may free one; among scraps of cloth it cannot. guess
+inline constexpr int k_max_crossing_bones = 1;
+inline constexpr double k_min_piece = 0.25;  ///< m; no garment goes round a body with smaller pieces. guess
+/// Of the body's height; other lengths of a garment are a wrong unit. guess
+inline constexpr double k_max_length = 10, k_min_length = 0.01;
+
+/// m; distance that extremities keep from cloth, and the step at which it is tested. guess
+inline constexpr double k_tip_clearance = 0.002, k_tip_step = 0.003;
+inline constexpr double k_tip_shrink = 0.8;  ///< factor by which an extremity is shortened. guess
+inline constexpr double k_min_tip = 0.02;  ///< of an extremity's length; below, it ends at its joint. guess
+
+inline constexpr double k_clearance_kept = 0.75;  ///< share of its clearance that a bone keeps in a common pose. guess
+/// m, sum of a bone's five samples: losses of 2 mm each do not count. guess
+inline constexpr double k_clearance_tolerance = 0.01;
+inline constexpr double k_same_root = 0.2, k_same_turn = 0.35;  ///< m, rad; roots that may become one. guess
+
+// ---------------------------------------------------------------- baselines
+
+/// m; weight of opposed normals against distance. The paper gives no number: two layers of cloth on a thin limb are
+/// this far apart. guess
+inline constexpr double k_normal_weight = 0.1;
+
+}  // namespace garmentfit
