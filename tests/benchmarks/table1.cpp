@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Table 1 of [wu_2018_garment_fitting] once more: eleven pairs, three methods, one run.
+// Table 1 of [wu_2018_garment_fitting] with other data: eleven pairs, three methods, one run.
 //
 //   table1 [--all-of-scan] [PAIR ...]
 //
-// One thread is timed by the processor's clock, which other programs do not disturb; all threads by the wall's, which
-// they do.
+// One thread is timed by processor time, which other programs hardly disturb; all threads by wall-clock time.
 //
-// fast     the whole of it, preparation included: the best of five runs, with one thread and with all.
-// paper    found with the KD-tree, all threads, processor time; the poses are the same by scan. By scan, the paper's
-// own O(n_G), the time is that
-//          of so many queries as the search made, each as long as the mean of k_timed_queries; --all-of-scan runs them
-//          all.
-// tisserand  of so many evaluations as paper made, each as long as the mean of k_timed_surfaces, by scan: O(n_H n_G).
+// fast     with all preparation: the best of five runs, with one thread and with all.
+// paper    with the KD-tree, all threads, processor time. By scan, the paper's own O(n_G), the poses are the same; the
+//          time is the number of queries times the mean time of k_timed_queries. --all-of-scan runs all of them.
+// tisserand  as many evaluations as paper made, times the mean time of k_timed_surfaces, by scan: O(n_H n_G).
 // E        of both poses by the paper's own metric, over the bones that the garment covers.
 
 #include <algorithm>
@@ -37,7 +34,7 @@ namespace {
 
 using namespace garmentfit;
 
-constexpr int k_timed_queries = 20000, k_timed_surfaces = 8;
+constexpr int k_timed_queries = 20000, k_timed_surfaces = 8;  // unit: decide the precision of the times only
 
 struct Row {
     const char* garment;
@@ -107,7 +104,7 @@ double best_of_five(const Rig& rig, const GarmentMesh& garment, const FitOptions
     return best;
 }
 
-/// Of one query; where it is does not matter to a scan.
+/// Of one query. A scan takes the same time at every place.
 double scan_seconds(const Positions& points, Clock clock)
 {
     const PointScan scan(points);
@@ -120,7 +117,7 @@ double scan_seconds(const Positions& points, Clock clock)
         clock);
     return std::accumulate(found.begin(), found.end(), 0LL) < 0
         ? 0
-        : total / k_timed_queries;  // or the scan might be left out
+        : total / k_timed_queries;  // uses the results, so that the compiler keeps the scan
 }
 
 double surface_seconds(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, Clock clock)

@@ -34,7 +34,7 @@ Positions random_points(int count, unsigned seed)
     return Positions::NullaryExpr(count, 3, [&] { return coordinate(random); });
 }
 
-// A tube along y with outward normals, as coarse as it can be: three rings of eight.
+// A tube along y with outward normals: three rings of eight vertices.
 GarmentMesh tube(double radius)
 {
     Positions positions(24, 3);
@@ -62,7 +62,7 @@ Skeleton with_lowerback(const Vec3& head, const Vec3& tail)
     return joints;
 }
 
-TEST(NearestVertex, TreeAndScanAgreeAlsoOnPointsEquallyNear)
+TEST(NearestVertex, TreeAndScanAgreeOnEquallyNearPoints)
 {
     Positions points = random_points(1000, 1);
     points.bottomRows(500) = points.topRows(500);  // each of them twice
@@ -78,7 +78,7 @@ TEST(NearestVertex, TreeAndScanAgreeAlsoOnPointsEquallyNear)
     }
 }
 
-// Cloth at random: some triangles, as large as sleeves are wide, in a box of a metre.
+// Random triangles, as large as sleeves are wide, in a box of a metre.
 TriangleMesh random_cloth(unsigned seed)
 {
     const Positions corners = random_points(90, seed), shape = 0.3 * random_points(90, seed + 1);
@@ -96,15 +96,15 @@ protected:
         = GetParam() == 0 ? TriangleMesh { tube(0.3).positions, tube(0.3).triangles } : random_cloth(GetParam());
     const Vec3 low = cloth.positions.colwise().minCoeff(), high = cloth.positions.colwise().maxCoeff();
     const ClothTree tree { cloth_patches(cloth, 0.015) };
-    const MinMaxPyramid room { tree, low, high };
+    const MinMaxPyramid clearance { tree, low, high };
     const std::vector<ClearanceSample> samples { { Vec3(0, 0, 0), 0.1 },
                                                  { Vec3(0, 0.2, 0), 0.12 },
                                                  { Vec3(0.15, 0.2, 0), 0.05 } };
-    const ClearanceSearch search { room, samples, Vec3(0, 1.5, 0) };
+    const ClearanceSearch search { clearance, samples, Vec3(0, 1.5, 0) };
 };
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCloth, testing::Range(0u, 12u));
 
-TEST_P(RandomCloth, CrossingsAreThoseOfEveryTriangleByItself)
+TEST_P(RandomCloth, CrossingsAreThoseOfTheSingleTriangles)
 {
     const TriangleTree all(cloth);
     const CrossingTree boxes(cloth);
@@ -122,7 +122,7 @@ TEST_P(RandomCloth, CrossingsAreThoseOfEveryTriangleByItself)
     }
 }
 
-TEST_P(RandomCloth, ABoundIsNeverBelowAnythingInItsBox)
+TEST_P(RandomCloth, NoValueInABoxExceedsItsBound)
 {
     const Positions numbers = random_points(4000, 100 + GetParam());
     for (int box = 0; box < 100; ++box) {
@@ -136,7 +136,7 @@ TEST_P(RandomCloth, ABoundIsNeverBelowAnythingInItsBox)
     }
 }
 
-TEST_P(RandomCloth, BranchAndBoundFindsWhatTryingAllFinds)
+TEST_P(RandomCloth, BranchAndBoundFindsTheBestOfAllPlaces)
 {
     const double spacing = 0.1;
     const std::vector<Place> found = search.find_best(low, high, spacing, 0.2, 3);
@@ -159,7 +159,7 @@ TEST_P(RandomCloth, BranchAndBoundFindsWhatTryingAllFinds)
         EXPECT_LE(found[i].value, found[i - 1].value);
 }
 
-TEST_P(RandomCloth, DistanceIsGoodToTheSizeOfAPatch)
+TEST_P(RandomCloth, TheErrorOfTheDistanceIsAtMostAPatch)
 {
     const TriangleTree exact(cloth);
     const ClearanceField grid(cloth);
@@ -201,16 +201,16 @@ TEST(PaperMetric, CountsDistanceInsideAndAHundredTimesDistanceOutside)
     EXPECT_EQ(metric.total(inside), metric.of_bone(lowerback, inside));
 }
 
-TEST(IncrementalPaperMetric, TellsWhatIsAboveAsThePapersMetricDoes)
+TEST(IncrementalPaperMetric, ComparesPosturesAsThePapersMetricDoes)
 {
     const GarmentMesh garment = tube(0.1);
     const PaperMetric metric(garment, { lowerback, upperback }, NearestSearch::scan);
     std::array<bool, bone_count> covered {};
     covered[lowerback] = covered[upperback] = true;
-    IncrementalPaperMetric climb({ garment.positions, garment.triangles }, covered);
+    IncrementalPaperMetric incremental({ garment.positions, garment.triangles }, covered);
     Skeleton present = with_lowerback({ 0, 0.1, 0 }, { 0, 0.3, 0.01 });
-    EXPECT_TRUE(climb.is_above(present, 0));
-    climb.accept();
+    EXPECT_TRUE(incremental.is_above(present, 0));
+    incremental.accept();
     const Positions steps = 0.02 * random_points(4000, 3);
     int rises = 0;
     for (Eigen::Index i = 0; i < 2000; ++i) {
@@ -218,12 +218,12 @@ TEST(IncrementalPaperMetric, TellsWhatIsAboveAsThePapersMetricDoes)
         next.root += Vec3(steps.row(2 * i));
         next.tails[lowerback] += Vec3(steps.row(2 * i + 1));
         const bool is_above = metric.total(next) > metric.total(present);
-        ASSERT_EQ(climb.is_above(next, 0), is_above) << i;
+        ASSERT_EQ(incremental.is_above(next, 0), is_above) << i;
         if (!is_above)
             continue;
         present = next;
-        climb.accept();
-        EXPECT_NEAR(climb.total(), metric.total(present), 1e-9);
+        incremental.accept();
+        EXPECT_NEAR(incremental.total(), metric.total(present), 1e-9);
         ++rises;
     }
     EXPECT_GT(rises, 10);
@@ -231,16 +231,16 @@ TEST(IncrementalPaperMetric, TellsWhatIsAboveAsThePapersMetricDoes)
 
 TEST(PaperMethod, FindsTheSameByScanAndByTree)
 {
-    const PersonOptions made_on { .arm_angle = 35 }, own { .arm_angle = 55 };
+    const PersonOptions made_on { .arm_angle = 35 }, input { .arm_angle = 55 };
     Rig rig;
-    rig.skeleton = person_skeleton(own);
+    rig.skeleton = person_skeleton(input);
     const TriangleMesh cloth = garment_round(
         person_skeleton(made_on), 0.03,
         [](const Vec3& p) { return p.y() > 0.85 && p.y() < 1.46 && std::abs(p.x()) < 0.5; }, 0.045);
     const GarmentMesh garment = make_garment(cloth.positions, cloth.triangles);
     const std::vector<Bone> covered = bones_covered_by(GarmentType::longsleeve);
     Relaxation relaxation = relaxation_of(rig, garment, GarmentType::longsleeve, 2);
-    relaxation.translation_spacing *= 2;  // as fine as this coarse cloth needs
+    relaxation.translation_spacing *= 2;  // coarser, for a quick test
     relaxation.rotation_spacing = 0.1;
     relaxation.bone_spacing *= 2;
     const PaperMetric by_tree(garment, covered, NearestSearch::kd_tree), by_scan(garment, covered, NearestSearch::scan);
@@ -253,7 +253,7 @@ TEST(PaperMethod, FindsTheSameByScanAndByTree)
               by_tree.total(place_bones(rig.skeleton, relaxation.start)));
 }
 
-TEST(SurfaceMetric, IsBestWhereTheBodyLiesInItsOwnSkin)
+TEST(SurfaceMetric, IsZeroWhereTheGarmentIsTheBodysOwnSkin)
 {
     const Person person = capsule_person({ .spacing = 0.08 });
     const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
@@ -264,15 +264,15 @@ TEST(SurfaceMetric, IsBestWhereTheBodyLiesInItsOwnSkin)
         posture.directions[b] = rig.skeleton.direction(b);
     const SurfaceMetric by_tree(rig, body.surface, garment, NearestSearch::kd_tree);
     const SurfaceMetric by_scan(rig, body.surface, garment, NearestSearch::scan);
-    const double at_home = by_tree.total(place_bones(rig.skeleton, posture));
-    EXPECT_NEAR(at_home, 0, 1e-6 * double(garment.positions.rows()));
+    const double at_rest = by_tree.total(place_bones(rig.skeleton, posture));
+    EXPECT_NEAR(at_rest, 0, 1e-6 * double(garment.positions.rows()));
     posture.root.x() += 0.02;
     const double moved = by_tree.total(place_bones(rig.skeleton, posture));
-    EXPECT_LT(moved, at_home - 1);
+    EXPECT_LT(moved, at_rest - 1);
     EXPECT_EQ(moved, by_scan.total(place_bones(rig.skeleton, posture)));
 }
 
-TEST(SurfaceMethod, FindsItsWayBackIntoTheSkin)
+TEST(SurfaceMethod, MovesTheBodyBackIntoItsSkin)
 {
     const Person person = capsule_person({ .spacing = 0.12 });
     const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
@@ -290,7 +290,7 @@ TEST(SurfaceMethod, FindsItsWayBackIntoTheSkin)
     EXPECT_LT((found.posture.root - rig.skeleton.root).norm(), 0.03);
 }
 
-TEST(SurfaceMethod, AsksForTheBody)
+TEST(SurfaceMethod, RequiresTheBody)
 {
     Rig rig;
     rig.skeleton = person_skeleton({});

@@ -87,7 +87,7 @@ GarmentMesh with_left_sleeve_only(const GarmentMesh& shirt)
     return cut(shirt, [](const Vec3& p) { return p.x() > -0.3; });  // beyond the shoulder
 }
 
-// Its hood is up: the face looks out.
+// The hood is up, with an opening for the face.
 GarmentMesh hoodie(const PersonOptions& options)
 {
     const Skeleton s = person_skeleton(options);
@@ -129,7 +129,7 @@ GarmentMesh skirt(double waist, double hips, double hem, double length)
     return make_garment(positions, triangles);
 }
 
-// Two sheets, sewn together along every edge: closed all round.
+// Two sheets, sewn together along every edge: a closed surface.
 GarmentMesh with_thickness(const GarmentMesh& garment, double thickness)
 {
     const Eigen::Index n = garment.positions.rows(), m = garment.triangles.rows();
@@ -163,7 +163,7 @@ GarmentMesh with_thickness(const GarmentMesh& garment, double thickness)
     return make_garment(positions, triangles);
 }
 
-GarmentMesh turned(GarmentMesh garment, const Eigen::Quaterniond& turn)
+GarmentMesh rotate(GarmentMesh garment, const Eigen::Quaterniond& turn)
 {
     garment.positions = (garment.positions * turn.toRotationMatrix().transpose()).eval();
     return garment;
@@ -213,17 +213,17 @@ double largest_difference(const Skeleton& a, const Skeleton& b)
 
 TEST(FitSkeleton, ABodyOffsetAsGarmentGivesTheRestPose)
 {
-    const PersonOptions own { .arm_angle = 45 };
-    const Rig rig = rig_of(own);
-    const FitResult result = fit_skeleton(rig, jumpsuit(own, 0.01), { .type = GarmentType::jumpsuit });
+    const PersonOptions input { .arm_angle = 45 };
+    const Rig rig = rig_of(input);
+    const FitResult result = fit_skeleton(rig, jumpsuit(input, 0.01), { .type = GarmentType::jumpsuit });
     EXPECT_LT(largest_difference(pose_skeleton(rig.skeleton, result.pose), rig.skeleton), 0.05);
     EXPECT_GT(result.score_after, result.score_before);
 }
 
 TEST(FitSkeleton, ArmsGoIntoTheSleevesAndHandsOutOfTheCuffs)
 {
-    const PersonOptions own { .arm_angle = 80 }, made_on { .arm_angle = 10 };
-    const Rig rig = rig_of(own);
+    const PersonOptions input { .arm_angle = 80 }, made_on { .arm_angle = 10 };
+    const Rig rig = rig_of(input);
     const GarmentMesh garment = shirt(made_on, 1.9);
     const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::longsleeve });
     const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
@@ -250,22 +250,22 @@ TEST(FitSkeleton, ThighsOfASittingBodyLeaveAShirtThroughItsHem)
     expect_clear(pose_skeleton(rig.skeleton, result.pose), garment);
 }
 
-TEST(FitSkeleton, BareForearmsStayAsTheBodyHeldThem)
+TEST(FitSkeleton, UncoveredForearmsStayAsInTheInputPose)
 {
-    const PersonOptions own { .arm_angle = 45, .elbow_angle = 60 };
-    const Rig rig = rig_of(own);
-    const FitResult result = fit_skeleton(rig, shirt(own, 0.6), { .type = GarmentType::tshirt });
+    const PersonOptions input { .arm_angle = 45, .elbow_angle = 60 };
+    const Rig rig = rig_of(input);
+    const FitResult result = fit_skeleton(rig, shirt(input, 0.6), { .type = GarmentType::tshirt });
     const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
     for (const int b : { lradius, rradius })
         EXPECT_NEAR(angle(joints.direction(b), joints.direction(parent_of(b))), 60, 10);
     EXPECT_EQ(std::count(result.covered.begin(), result.covered.end(), lradius), 0);
 }
 
-TEST(FitSkeleton, TheGarmentMayBeAnywhere)
+TEST(FitSkeleton, TheGarmentMayLieAnywhere)
 {
-    const PersonOptions own { .arm_angle = 45 };
-    const Rig rig = rig_of(own);
-    GarmentMesh garment = jumpsuit(own);
+    const PersonOptions input { .arm_angle = 45 };
+    const Rig rig = rig_of(input);
+    GarmentMesh garment = jumpsuit(input);
     garment.positions.rowwise() += Vec3(3, -2, 5).transpose();
     Skeleton wanted = rig.skeleton;
     const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::jumpsuit });
@@ -275,8 +275,8 @@ TEST(FitSkeleton, TheGarmentMayBeAnywhere)
 
 TEST(FitSkeleton, FlippedNormalsAndShuffledVerticesChangeNothing)
 {
-    const PersonOptions own { .arm_angle = 70 };
-    const Rig rig = rig_of(own);
+    const PersonOptions input { .arm_angle = 70 };
+    const Rig rig = rig_of(input);
     const GarmentMesh garment = shirt({ .arm_angle = 40 }, 1.9);
     const FitOptions options { .type = GarmentType::longsleeve };
     const Skeleton expected = pose_skeleton(rig.skeleton, fit_skeleton(rig, garment, options).pose);
@@ -308,7 +308,7 @@ TEST(FitSkeleton, TheSameInputGivesTheSameBits)
 
 TEST(FitSkeleton, ABodyThatFacesAwayTurnsToTheGarmentsFront)
 {
-    const PersonOptions made_on { .arm_angle = 40, .elbow_angle = 40 };  // sleeves bend forwards: there is the front
+    const PersonOptions made_on { .arm_angle = 40, .elbow_angle = 40 };  // sleeves bend forwards, which tells the front
     Rig rig = rig_of({ .arm_angle = 70 });
     const auto turned = [](const Vec3& p) { return Vec3(-p.x(), p.y(), -p.z()); };
     rig.skeleton.root = turned(rig.skeleton.root);
@@ -322,8 +322,8 @@ TEST(FitSkeleton, ABodyThatFacesAwayTurnsToTheGarmentsFront)
 
 TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
 {
-    const PersonOptions own { .arm_angle = 45 };
-    const Rig rig = rig_of(own);
+    const PersonOptions input { .arm_angle = 45 };
+    const Rig rig = rig_of(input);
     const GarmentMesh upright = shirt({ .arm_angle = 30 }, 1.9);
     const FitResult expected = fit_skeleton(rig, upright);
     EXPECT_EQ(expected.up, Vec3::UnitY());
@@ -341,13 +341,13 @@ TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
     }
 }
 
-TEST(FitSkeleton, AGarmentHeldAskewIsFound)
+TEST(FitSkeleton, AGarmentAtAnyAngleIsFound)
 {
     const PersonOptions made_on { .arm_angle = 40 };
     const Rig rig = rig_of({ .arm_angle = 70 });
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(30 * k_degree, Vec3(1, 0.4, 1).normalized()));
     for (const GarmentMesh& garment : { shirt(made_on, 1.9), trousers(made_on), jumpsuit(made_on) }) {
-        const FitResult expected = fit_skeleton(rig, garment), result = fit_skeleton(rig, turned(garment, turn));
+        const FitResult expected = fit_skeleton(rig, garment), result = fit_skeleton(rig, rotate(garment, turn));
         EXPECT_EQ(result.type, expected.type);
         EXPECT_LT(angle(result.up, turn * Vec3::UnitY()), 8) << name_of(expected.type);
         EXPECT_GT(result.up_margin, 0.5);
@@ -367,7 +367,7 @@ TEST(FitSkeleton, ASkirtsWaistIsUp)
     EXPECT_EQ(upright.type, GarmentType::skirt);
     EXPECT_EQ(upright.up, Vec3::UnitY());
     const Eigen::Quaterniond over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
-    EXPECT_LT(angle(fit_skeleton(rig, turned(garment, over)).up, -Vec3::UnitY()), 1);
+    EXPECT_LT(angle(fit_skeleton(rig, rotate(garment, over)).up, -Vec3::UnitY()), 1);
 }
 
 TEST(FitSkeleton, OneSleeveHoldsOneArm)
@@ -385,7 +385,7 @@ TEST(FitSkeleton, OneSleeveHoldsOneArm)
     EXPECT_FALSE(covers(rradius));
 }
 
-TEST(FitSkeleton, ClosedClothWithThicknessIsWornLikeItsOuterSheet)
+TEST(FitSkeleton, ClosedClothWithThicknessIsFittedLikeItsOuterSheet)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });
     const GarmentMesh thin = skirt(0.15, 0.2, 0.2, 0.5), thick = with_thickness(thin, 0.004);
@@ -395,8 +395,8 @@ TEST(FitSkeleton, ClosedClothWithThicknessIsWornLikeItsOuterSheet)
     expect_clear(pose_skeleton(rig.skeleton, result.pose), thick);
 }
 
-// Its wrinkles are sharper than 3 mm: there, the sheets pass through each other.
-TEST(FitSkeleton, AThickTShirtIsWornLikeItsOuterSheet)
+// At wrinkles sharper than 3 mm the two sheets pass through each other.
+TEST(FitSkeleton, AThickTShirtIsFittedLikeItsOuterSheet)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });
     const MeshFile file = MeshFile::read(GARMENTFIT_DOCS "/samples/tshirt.ply");
@@ -421,7 +421,7 @@ TEST(FitSkeleton, ASmallBodyDoesNotSlideIntoOneTrouserLeg)
     expect_clear(joints, garment);
 }
 
-TEST(FitSkeleton, TipsAreDrawnBackToWhereTheyAreClear)
+TEST(FitSkeleton, TipsAreShortenedUntilTheyAreClear)
 {
     const Skeleton joints = person_skeleton({});
     const GarmentMesh wall = make_garment((Positions(3, 3) << -1, -1, 0.1, 1, -1, 0.1, 0, 3, 0.1).finished(),
@@ -432,7 +432,7 @@ TEST(FitSkeleton, TipsAreDrawnBackToWhereTheyAreClear)
     EXPECT_EQ(clear.tips[head_top], joints.tips[head_top]);
 }
 
-TEST(FitSkeleton, TypesAreReadOffTheOpenings)
+TEST(FitSkeleton, TypesFollowFromTheOpenings)
 {
     const PersonOptions a_pose { .arm_angle = 40 };
     EXPECT_EQ(guess_garment_type(shirt(a_pose, 0.6)).type, GarmentType::tshirt);
@@ -447,7 +447,7 @@ TEST(FitSkeleton, TypesAreReadOffTheOpenings)
     EXPECT_EQ(guess_garment_type(with_left_sleeve_only(shirt(a_pose, 1.9))).type, GarmentType::longsleeve);
 }
 
-TEST(FitSkeleton, TypeNamesGoThereAndBack)
+TEST(FitSkeleton, TypeNamesRoundTrip)
 {
     for (const auto name : garment_type_names())
         EXPECT_EQ(name_of(garment_type_of(name)), name);
@@ -460,7 +460,7 @@ TEST(FitSkeleton, TypeNamesGoThereAndBack)
     }
 }
 
-TEST(FitSkeleton, WhatNobodyFitsIntoIsRefused)
+TEST(FitSkeleton, AGarmentThatFitsNoBodyIsRefused)
 {
     const Rig rig = rig_of({});
     const TriangleMesh sphere
@@ -483,7 +483,7 @@ TEST(FitSkeleton, WhatNobodyFitsIntoIsRefused)
     }
 }
 
-TEST(FitSkeleton, WhatWasReadInAWrongUnitIsRefusedAtOnce)
+TEST(FitSkeleton, AGarmentInAWrongUnitIsRefused)
 {
     const Rig rig = rig_of({});
     GarmentMesh garment = trousers();
@@ -498,13 +498,13 @@ TEST(FitSkeleton, WhatWasReadInAWrongUnitIsRefusedAtOnce)
     EXPECT_NO_THROW(require_wearable_size(rig, garment));
 }
 
-TEST(FitSkeleton, ScrapsAreRefusedInWords)
+TEST(FitSkeleton, ScrapsOfClothAreRefused)
 {
     const Rig rig = rig_of({});
     const auto expect_refused = [&](const TriangleMesh& mesh, const std::string& what, const std::string& word = "") {
         try {
             fit_skeleton(rig, make_garment(mesh.positions, mesh.triangles));
-            ADD_FAILURE() << what << " is worn";
+            ADD_FAILURE() << what << " is accepted";
         } catch (const InvalidInput& e) {
             EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << what;
             EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
@@ -548,13 +548,13 @@ CommonFit fit_together(const Rig& rig, const std::vector<GarmentMesh>& garments)
     return fit_common_pose(rig, garments, fits);
 }
 
-void expect_bones_turned_alike(const Pose& a, const Pose& b)
+void expect_same_rotations(const Pose& a, const Pose& b)
 {
     for (int j = 0; j < bone_count; ++j)
         EXPECT_EQ(a.rotations[j].coeffs(), b.rotations[j].coeffs()) << bone_name(j);
 }
 
-TEST(CommonFit, OnePoseServesAShirtAndTrousers)
+TEST(CommonFit, OnePoseFitsAShirtAndTrousers)
 {
     const PersonOptions made_on { .arm_angle = 40 };
     const Rig rig = rig_of({ .arm_angle = 75, .knee_angle = 70, .hip_angle = 70 });
@@ -562,7 +562,7 @@ TEST(CommonFit, OnePoseServesAShirtAndTrousers)
     const CommonFit common = fit_together(rig, garments);
     ASSERT_TRUE(common.one_pose);
     EXPECT_TRUE(common.conflicts.empty());
-    expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
+    expect_same_rotations(common.fits[0].pose, common.fits[1].pose);
     for (std::size_t i = 0; i < garments.size(); ++i) {
         const Skeleton joints = pose_skeleton(rig.skeleton, common.fits[i].pose);
         expect_directions(joints, person_skeleton(made_on),
@@ -579,14 +579,14 @@ TEST(CommonFit, AGarmentThatLiesElsewhereIsOnlyMoved)
     garments[1].positions.rowwise() += Vec3(2, 0.5, -1).transpose();
     const CommonFit common = fit_together(rig, garments);
     ASSERT_TRUE(common.one_pose);
-    expect_bones_turned_alike(common.fits[0].pose, common.fits[1].pose);
+    expect_same_rotations(common.fits[0].pose, common.fits[1].pose);
     const Vec3 apart = common.fits[1].pose.root_translation - common.fits[0].pose.root_translation;
     EXPECT_LT((apart - Vec3(2, 0.5, -1)).norm(), 0.15);
     for (std::size_t i = 0; i < garments.size(); ++i)
         expect_clear(pose_skeleton(rig.skeleton, common.fits[i].pose), garments[i]);
 }
 
-TEST(CommonFit, SleevesTooFarApartAreReportedAndEachGarmentKeepsItsFit)
+TEST(CommonFit, ConflictingSleevesAreReportedAndEachGarmentKeepsItsFit)
 {
     const Rig rig = rig_of({ .arm_angle = 45 });
     const std::vector<GarmentMesh> garments { shirt({ .arm_angle = 5 }, 1.9), trousers(),
@@ -596,25 +596,25 @@ TEST(CommonFit, SleevesTooFarApartAreReportedAndEachGarmentKeepsItsFit)
     ASSERT_FALSE(common.conflicts.empty());
     const FitConflict& widest = common.conflicts.front();
     EXPECT_TRUE(is_arm(widest.bone)) << bone_name(widest.bone);
-    EXPECT_EQ(widest.garments[0] + widest.garments[1], 0 + 2) << "the trousers have nothing to do with it";
+    EXPECT_EQ(widest.garments[0] + widest.garments[1], 0 + 2) << "the conflict is between the shirts";
     EXPECT_NEAR(widest.angle / k_degree, 60, 15);
     for (std::size_t i = 0; i < garments.size(); ++i)
-        expect_bones_turned_alike(common.fits[i].pose, fit_skeleton(rig, garments[i]).pose);
+        expect_same_rotations(common.fits[i].pose, fit_skeleton(rig, garments[i]).pose);
 }
 
-TEST(CommonFit, OneGarmentIsLeftAsItIs)
+TEST(CommonFit, OneGarmentKeepsItsFit)
 {
     const Rig rig = rig_of({ .arm_angle = 45 });
     const std::vector<GarmentMesh> garments { trousers() };
-    const FitResult own = fit_skeleton(rig, garments[0]);
-    const CommonFit common = fit_common_pose(rig, garments, { own });
+    const FitResult single = fit_skeleton(rig, garments[0]);
+    const CommonFit common = fit_common_pose(rig, garments, { single });
     EXPECT_TRUE(common.one_pose);
-    expect_bones_turned_alike(common.fits[0].pose, own.pose);
-    EXPECT_EQ(common.fits[0].pose.root_translation, own.pose.root_translation);
+    expect_same_rotations(common.fits[0].pose, single.pose);
+    EXPECT_EQ(common.fits[0].pose.root_translation, single.pose.root_translation);
     EXPECT_THROW(fit_common_pose(rig, garments, {}), InvalidInput);
 }
 
-TEST(FitSkeleton, StopsWhenTold)
+TEST(FitSkeleton, StopsWhenCancelled)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });
     const GarmentMesh garment = shirt({ .arm_angle = 40 }, 0.6);
