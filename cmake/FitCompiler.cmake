@@ -24,3 +24,26 @@ function(fit_target name)
         target_link_options(${name} PRIVATE -fsanitize=${GARMENTFIT_SANITIZE})
     endif()
 endfunction()
+
+# fit_precompiled(NAME LIBRARIES TARGET... [HEADERS <HEADER>...])
+# Precompiles what most sources include, for targets that are compiled with the flags of these libraries.
+function(fit_precompiled name)
+    if(NOT GARMENTFIT_PCH)
+        return()
+    endif()
+    cmake_parse_arguments(PARSE_ARGV 1 pch "" "" "LIBRARIES;HEADERS")
+    set(empty ${CMAKE_CURRENT_BINARY_DIR}/precompiled_${name}.cpp)  # a target has a source
+    file(CONFIGURE OUTPUT ${empty} CONTENT "")
+    add_library(garmentfit_precompiled_${name} OBJECT ${empty})
+    fit_target(garmentfit_precompiled_${name})
+    target_link_libraries(garmentfit_precompiled_${name} PRIVATE ${pch_LIBRARIES})
+    target_precompile_headers(garmentfit_precompiled_${name} PRIVATE
+        <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <numeric> <optional> <string> <string_view>
+        <utility> <vector> <Eigen/Core> <Eigen/Geometry> ${pch_HEADERS})
+endfunction()
+
+function(fit_use_precompiled target name)
+    if(GARMENTFIT_PCH)
+        target_precompile_headers(${target} REUSE_FROM garmentfit_precompiled_${name})
+    endif()
+endfunction()
