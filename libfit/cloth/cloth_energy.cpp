@@ -3,30 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "garmentfit/error.h"
 #include "parallel.h"
 #include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// Slivers have cotangents without bound; past this they only say "this angle is small".
+// unit: slivers have cotangents without bound, which would spoil the condition of the system. This is the cotangent of
+// 5.7 degrees; a larger one says no more than "a small angle".
 constexpr double k_largest_cotangent = 10;
-// Vertices without area get the mass of a square millimetre of cotton, so that the system stays definite.
+// unit: kg, of vertices without area, so that the system stays definite: a square millimetre of cotton.
 constexpr double k_least_mass = 2e-7;
-
-// Hinges smaller than this share of the mean one bend as it does. Their stiffness goes with 1 / area: on details of a millimetre, they would hold
-// their vertices in whatever place they had turned to, against the springs.
-constexpr double k_least_hinge = 0.5;
-
-// Threads lock: what an edge is stretched by more than this share pulls so many times as hard. Ten times holds fast what lies in a
-// trouser leg or a cuff.
-constexpr double k_locked = 0.4, k_locked_stiffness = 5;
-
-// Vertices, springs or hinges that are worth handing to another thread.
+// unit: vertices, springs or hinges worth handing to another thread.
 constexpr Eigen::Index k_grain = 512;
 
 double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b)
@@ -38,9 +30,8 @@ double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b)
     return cosine / sine;
 }
 
-// Axes of a hinge as columns: its edge, the mean of its two normals, and what is across both.
-template <class P>
-Eigen::Matrix3d hinge_frame(const P& x, const std::array<int, 4>& v)
+// Axes of a hinge as columns: its edge, the mean of its two normals, and the direction across both.
+Eigen::Matrix3d hinge_frame(const Positions& x, const std::array<int, 4>& v)
 {
     const Vec3 a = x.row(v[0]), b = x.row(v[1]), c = x.row(v[2]), d = x.row(v[3]);
     const Vec3 edge = (b - a).normalized();
@@ -51,21 +42,18 @@ Eigen::Matrix3d hinge_frame(const P& x, const std::array<int, 4>& v)
     return frame;
 }
 
-template <class P>
-Vec3 weighted_sum(const P& x, const std::array<int, 4>& v, const std::array<double, 4>& w)
+Vec3 weighted_sum(const Positions& x, const std::array<int, 4>& v, const std::array<double, 4>& w)
 {
     return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
 }
 
-void pull(const Press& press, const Vec3& force, Positions& forces)
+double rest_length(const GarmentMesh& rest, int i, int j)
 {
-    for (int k = 0; k < 4; ++k)
-        if (press.vertices[k] >= 0)
-            forces.row(press.vertices[k]) += press.weights[k] * force;
+    return (rest.positions.row(i) - rest.positions.row(j)).norm();
 }
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> sparse(Eigen::Index rows, Eigen::Index columns,
-                                                    const std::vector<Eigen::Triplet<double>>& entries)
+Eigen::SparseMatrix<double, Eigen::RowMajor> make_sparse(Eigen::Index rows, Eigen::Index columns,
+                                                         const std::vector<Eigen::Triplet<double>>& entries)
 {
     Eigen::SparseMatrix<double, Eigen::RowMajor> result(rows, columns);
     result.setFromTriplets(entries.begin(), entries.end());
@@ -74,73 +62,58 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> sparse(Eigen::Index rows, Eigen::In
 
 }  // namespace
 
-ClothEnergy::ClothEnergy(const GarmentMesh& rest, const std::vector<std::pair<int, int>>& ties,
-                         const ClothOptions& options) :
+ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
+                         const std::vector<std::pair<int, int>>& ties, const ClothOptions& options) :
     masses_(rest.positions.rows(), k_least_mass)
 {
     const Material material = material_of(options);
-    std::map<std::pair<int, int>, double> area_at_edge;
+    add_springs(rest, topology, ties, material);
+    add_hinges(rest, topology, material.bend_stiffness);
+    assemble();
+}
+
+// A spring stands for the strip of cloth beside it, whose width is area / length.
+// derived: StretchesAndShearsAsAnIsotropicSheet in cloth_energy_test holds the moduli that follow.
+void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topology,
+                              const std::vector<std::pair<int, int>>& ties, const Material& material)
+{
+    const Edges& edges = topology.edges();
+    std::vector<double> area_at_edge(edges.rows(), 0);
     for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
         const Vec3 a = rest.positions.row(rest.triangles(f, 0)), b = rest.positions.row(rest.triangles(f, 1)),
                    c = rest.positions.row(rest.triangles(f, 2));
         const double area = 0.5 * (b - a).cross(c - a).norm();
         for (int k = 0; k < 3; ++k) {
             masses_[rest.triangles(f, k)] += material.density * area / 3;
-            area_at_edge[std::minmax(rest.triangles(f, k), rest.triangles(f, (k + 1) % 3))] += area;
+            if (const int edge = topology.edge_of(3 * int(f) + k); edge >= 0)
+                area_at_edge[edge] += area;
         }
     }
-    const auto length = [&](int i, int j) { return (rest.positions.row(i) - rest.positions.row(j)).norm(); };
-    for (const auto& [edge, area] : area_at_edge) {
-        const auto [i, j] = edge;
-        // a spring stands for the strip of cloth beside it: width = area / length
-        if (const double l = length(i, j); l > 0)
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const int i = edges(e, 0), j = edges(e, 1);
+        if (const double l = rest_length(rest, i, j); l > 0)
             springs_.push_back(
-                { i, j, l, material.stretch_stiffness * std::min(area / (l * l), 1.0 * k_largest_cotangent) });
+                { i, j, l, material.stretch_stiffness * std::min(area_at_edge[e] / (l * l), k_largest_cotangent) });
     }
     for (const auto& [i, j] : ties)
-        springs_.push_back({ i, j, length(i, j), material.stretch_stiffness });
-    add_hinges(rest, material.bend_stiffness);
-
-    std::vector<Eigen::Triplet<double>> pulls;
-    Eigen::VectorXd of_springs(springs_.size()), of_hinges(hinges_.size());
-    for (int e = 0; e < int(springs_.size()); ++e) {
-        pulls.emplace_back(springs_[e].i, e, 1.0);
-        pulls.emplace_back(springs_[e].j, e, -1.0);
-        of_springs[e] = springs_[e].stiffness;
-    }
-    pulled_by_springs_ = sparse(rest.positions.rows(), of_springs.size(), pulls);
-    pulls.clear();
-    for (int e = 0; e < int(hinges_.size()); ++e) {
-        for (int k = 0; k < 4; ++k)
-            pulls.emplace_back(hinges_[e].v[k], e, hinges_[e].coefficients[k]);
-        of_hinges[e] = hinges_[e].stiffness;
-    }
-    pulled_by_hinges_ = sparse(rest.positions.rows(), of_hinges.size(), pulls);
-    const auto quadratic_form = [](const SparseRows& pulled, const Eigen::VectorXd& stiffness) {
-        return SparseRows(pulled * stiffness.asDiagonal() * SparseRows(pulled.transpose()));
-    };
-    elastic_ = quadratic_form(pulled_by_springs_, of_springs) + quadratic_form(pulled_by_hinges_, of_hinges);
-    SparseRows diagonal(elastic_.rows(), elastic_.cols());  // every diagonal entry exists: set_time_step() writes there
-    diagonal.setIdentity();
-    elastic_ += 0 * diagonal;
+        springs_.push_back({ i, j, rest_length(rest, i, j), material.stretch_stiffness });
 }
 
-void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
+// literature: [bergou_2006_quadratic_bending], the 3 over the areas and the coefficients of cotangents.
+void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topology, double bend_stiffness)
 {
-    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>>
-        corners_at;  // edge -> (opposite corner, first vertex)
-    for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int i = rest.triangles(f, k), j = rest.triangles(f, (k + 1) % 3);
-            corners_at[std::minmax(i, j)].emplace_back(rest.triangles(f, (k + 2) % 3), i);
-        }
     const double mean_areas = 2 * area({ rest.positions, rest.triangles })
         / double(std::max<Eigen::Index>(1, rest.triangles.rows()));  // of a hinge
-    for (const auto& [edge, corners] : corners_at) {
-        if (corners.size() != 2 || corners[0].first == corners[1].first)
+    for (int edge = 0; edge < int(topology.edges().rows()); ++edge) {
+        const auto sides = topology.sides_at(edge);
+        if (sides.size() != 2)
             continue;
-        const int a = corners[0].second, b = a == edge.first ? edge.second : edge.first;
-        Hinge h { { a, b, corners[0].first, corners[1].first }, {}, Vec3::Zero(), 0 };
+        const auto corner_of = [&](int side, int k) { return rest.triangles(side / 3, (side % 3 + k) % 3); };
+        const int a = corner_of(sides[0], 0), b = corner_of(sides[0], 1);
+        const int c = corner_of(sides[0], 2), d = corner_of(sides[1], 2);
+        if (c == d)
+            continue;
+        Hinge h { { a, b, c, d }, {}, Vec3::Zero(), 0 };
         const auto x = [&](int k) { return Vec3(rest.positions.row(h.v[k])); };
         const double c01 = cotangent(x(0), x(1), x(2)), c02 = cotangent(x(0), x(1), x(3)),
                      c11 = cotangent(x(1), x(0), x(2)), c12 = cotangent(x(1), x(0), x(3));
@@ -148,10 +121,37 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, double bend_stiffness)
         const double areas = 0.5 * ((x(1) - x(0)).cross(x(2) - x(0)).norm() + (x(1) - x(0)).cross(x(3) - x(0)).norm());
         if (!(areas > 0))
             continue;
-        h.stiffness = bend_stiffness * 3 / std::max(areas, k_least_hinge * mean_areas);
+        h.stiffness = bend_stiffness * 3 / std::max(areas, k_least_hinge_area * mean_areas);
         h.curvature = hinge_frame(rest.positions, h.v).transpose() * weighted_sum(rest.positions, h.v, h.coefficients);
         hinges_.push_back(h);
     }
+}
+
+void ClothEnergy::assemble()
+{
+    const Eigen::Index n = Eigen::Index(masses_.size());
+    std::vector<Eigen::Triplet<double>> gradients;
+    Eigen::VectorXd spring_stiffness(springs_.size()), hinge_stiffness(hinges_.size());
+    for (int e = 0; e < int(springs_.size()); ++e) {
+        gradients.emplace_back(springs_[e].i, e, 1.0);
+        gradients.emplace_back(springs_[e].j, e, -1.0);
+        spring_stiffness[e] = springs_[e].stiffness;
+    }
+    spring_gradients_ = make_sparse(n, spring_stiffness.size(), gradients);
+    gradients.clear();
+    for (int e = 0; e < int(hinges_.size()); ++e) {
+        for (int k = 0; k < 4; ++k)
+            gradients.emplace_back(hinges_[e].v[k], e, hinges_[e].coefficients[k]);
+        hinge_stiffness[e] = hinges_[e].stiffness;
+    }
+    hinge_gradients_ = make_sparse(n, hinge_stiffness.size(), gradients);
+    const auto quadratic_form = [](const SparseRows& form, const Eigen::VectorXd& stiffness) {
+        return SparseRows(form * stiffness.asDiagonal() * SparseRows(form.transpose()));
+    };
+    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + quadratic_form(hinge_gradients_, hinge_stiffness);
+    SparseRows diagonal(n, n);  // set_time_step() writes to the diagonal, so each of its entries must exist
+    diagonal.setIdentity();
+    elastic_ += 0 * diagonal;
 }
 
 void ClothEnergy::set_time_step(double time_step)
@@ -164,10 +164,11 @@ void ClothEnergy::set_time_step(double time_step)
         system.coeffRef(v, v) += masses_[v] * inertia_;
     if (!factor_.compute(system))
         throw SolverFailure(
-            "cloth: the stiffness matrix could not be factorised; are there faces without area in the garment?");
+            "cloth: the stiffness matrix of the garment could not be factorised. Remove faces without area "
+            "from the garment, and look for figures of the fabric that are 0 or far too large.");
 }
 
-Positions ClothEnergy::product(const SparseRows& matrix, const Positions& x)
+Positions ClothEnergy::multiply(const SparseRows& matrix, const Positions& x)
 {
     Positions result(matrix.rows(), 3);
     const auto row = [&](Eigen::Index i) {
@@ -180,53 +181,51 @@ Positions ClothEnergy::product(const SparseRows& matrix, const Positions& x)
     return result;
 }
 
-// Where the springs, projected to their rest, pull.
-Positions ClothEnergy::spring_pulls(const Positions& x) const
+Positions ClothEnergy::spring_loads(const Positions& x) const
 {
-    Positions pulls(springs_.size(), 3);
+    Positions loads(springs_.size(), 3);
     const auto spring = [&](Eigen::Index e) {
         const Spring& s = springs_[e];
         const Eigen::RowVector3d edge = x.row(s.i) - x.row(s.j);
         const double length = edge.norm();
-        pulls.row(e) = (length > 0 ? s.stiffness * s.length / length : 0.0) * edge;
+        loads.row(e) = (length > 0 ? s.stiffness * s.length / length : 0.0) * edge;
     };
-    parallel_for(pulls.rows(), spring, k_grain);
-    return product(pulled_by_springs_, pulls);
+    parallel_for(loads.rows(), spring, k_grain);
+    return multiply(spring_gradients_, loads);
 }
 
-// The same of the hinges.
-Positions ClothEnergy::hinge_pulls(const Positions& x) const
+Positions ClothEnergy::hinge_loads(const Positions& x) const
 {
-    Positions pulls(hinges_.size(), 3);
+    Positions loads(hinges_.size(), 3);
     const auto hinge = [&](Eigen::Index e) {
         const Hinge& h = hinges_[e];
-        pulls.row(e) = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
+        loads.row(e) = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
     };
-    parallel_for(pulls.rows(), hinge, k_grain);
-    return product(pulled_by_hinges_, pulls);
+    parallel_for(loads.rows(), hinge, k_grain);
+    return multiply(hinge_gradients_, loads);
 }
 
-// What springs that are locked wish beside their rest.
-std::vector<Press> ClothEnergy::locks(const Positions& x) const
+std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
 {
-    return parallel_collect<Press>(springs_.size(), [&](std::size_t e) -> std::optional<Press> {
+    const auto limit = [&](std::size_t e) -> std::optional<SoftConstraint> {
         const Spring& s = springs_[e];
         const Vec3 edge = (x.row(s.i) - x.row(s.j)).transpose();
-        const double length = edge.norm(), longest = (1 + k_locked) * s.length;
+        const double length = edge.norm(), longest = (1 + k_strain_limit) * s.length;
         if (!(length > longest))
             return {};
-        return Press { { s.i, s.j, -1, -1 },
-                       { 1, -1, 0, 0 },
-                       longest / length * edge,
-                       edge / length,
-                       k_locked_stiffness * s.stiffness,
-                       0 };
-    });
+        return SoftConstraint { { s.i, s.j, -1, -1 },
+                                { 1, -1, 0, 0 },
+                                longest / length * edge,
+                                edge / length,
+                                k_strain_limit_stiffness * s.stiffness,
+                                0 };
+    };
+    return parallel_collect<SoftConstraint>(springs_.size(), limit);
 }
 
 Positions ClothEnergy::elastic_forces(const Positions& x) const
 {
-    return spring_pulls(x) + hinge_pulls(x) - product(elastic_, x);
+    return spring_loads(x) + hinge_loads(x) - multiply(elastic_, x);
 }
 
 double ClothEnergy::elastic_energy(const Positions& x) const
@@ -242,73 +241,12 @@ double ClothEnergy::elastic_energy(const Positions& x) const
     return sum;
 }
 
-// The constant quadratic form, n x 3.
-Positions ClothEnergy::applied(const Positions& x) const
+Positions ClothEnergy::apply_quadratic_form(const Positions& x) const
 {
-    Positions result = product(elastic_, x);
+    Positions result = multiply(elastic_, x);
     for (Eigen::Index v = 0; v < x.rows(); ++v)
         result.row(v) += masses_[v] * inertia_ * x.row(v);
     return result;
-}
-
-Descent::Descent(const ClothEnergy& energy, const Positions& start, const Positions& inertial) :
-    energy_(energy), inertial_(inertial), x_(start), applied_(energy.applied(start))
-{
-}
-
-void Descent::press(const std::vector<Press>& presses)
-{
-    presses_ = presses;
-    const std::vector<Press> locks = energy_.locks(x_);
-    presses_.insert(presses_.end(), locks.begin(), locks.end());
-    constant_ = energy_.hinge_pulls(x_);
-    for (Eigen::Index v = 0; v < x_.rows(); ++v)
-        constant_.row(v) += energy_.masses_[v] * energy_.inertia_ * inertial_.row(v);
-    for (const Press& press : presses_)
-        pull(press, press.stiffness_times(press.target), constant_);
-}
-
-// What the presses pull with when the cloth is there, without their targets.
-void Descent::add_pressed(const Positions& x, Positions& sum) const
-{
-    for (const Press& press : presses_) {
-        Vec3 at = Vec3::Zero();
-        for (int k = 0; k < 4; ++k)
-            if (press.vertices[k] >= 0)
-                at += press.weights[k] * x.row(press.vertices[k]).transpose();
-        pull(press, press.stiffness_times(at), sum);
-    }
-}
-
-// Away from what the last step has seen to: conjugate to its direction, as far as the residual turns smoothly.
-void Descent::turn_direction(const Positions& residual)
-{
-    const Positions steepest = energy_.factor_.solve(residual);
-    const double square = residual.cwiseProduct(steepest).sum();
-    const double kept = square_ > 0 ? std::max(0.0, (square - residual_.cwiseProduct(steepest).sum()) / square_) : 0.0;
-    direction_ = kept > 0 ? Positions(steepest + kept * direction_) : steepest;
-    if (residual.cwiseProduct(direction_).sum() <= 0)
-        direction_ = steepest;
-    square_ = square;
-}
-
-void Descent::step()
-{
-    if (constant_.rows() == 0)
-        press({});
-    Positions pressed = Positions::Zero(x_.rows(), 3);
-    add_pressed(x_, pressed);
-    const Positions residual = constant_ + energy_.spring_pulls(x_) - applied_ - pressed;
-    turn_direction(residual);
-    const Positions along = energy_.applied(direction_);
-    pressed = along;
-    add_pressed(direction_, pressed);
-    if (const double curvature = direction_.cwiseProduct(pressed).sum(); curvature > 0) {
-        const double length = residual.cwiseProduct(direction_).sum() / curvature;
-        x_ += length * direction_;
-        applied_ += length * along;
-    }
-    residual_ = residual;
 }
 
 }  // namespace garmentfit

@@ -4,83 +4,50 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_free_step.h"
 #include "garmentfit/stopwatch.h"
 #include "loose_parts.h"
-#include "untangle.h"
+#include "preconditioned_cg.h"
+#include "stall_detector.h"
 
 namespace garmentfit {
 namespace {
 
-// Once nothing is held back any more, contact as stiff as the cloth will do: a tight garment still presses less than a
-// millimetre into its contact zone, and the forces find their balance in half the steps.
-constexpr double k_settling_contact_stiffness = 1;
-// Pairs up to so many contact distances apart may come into contact while a step is solved.
-constexpr double k_lookout = 1.6;
-// Which touches press is asked anew after so many steps of descent: at each one, it would flicker, and nothing converge.
-constexpr int k_presses_stay = 3;
-// A search for pairs looks this share further that it lasts for several steps of cloth near its rest.
-constexpr double k_spare = 0.375;
-// Cloth keeps off itself by no more than this share of its edges' mean length: else pairs of neighbours within one smooth sheet,
-// which grow with the square of the vertices, are all that is ever looked at.
-constexpr double k_off_itself = 0.3;
+// unit: m; a vertex that is nearer to its target than this takes the target's own bits.
+constexpr double k_snap = 1e-12;
 
-double mean_edge(const GarmentMesh& mesh)
+PreparedCloth untangle_over(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle)
 {
-    const auto edges = edges_of(mesh.triangles);
-    double sum = 0;
-    for (Eigen::Index e = 0; e < edges.rows(); ++e)
-        sum += (mesh.positions.row(edges(e, 0)) - mesh.positions.row(edges(e, 1))).norm();
-    return sum / double(std::max<Eigen::Index>(1, edges.rows()));
-}
-
-// Cloth that crosses itself is parted first, where it can be without meeting the obstacle.
-Untangled parted(const TriangleMesh& cloth, const TriangleMesh& obstacle)
-{
-    Untangled result = untangle(cloth);
-    if (result.positions != cloth.positions && crossing_count({ result.positions, cloth.triangles }, obstacle) > 0)
-        return { cloth.positions, self_crossings(cloth) };
+    PreparedCloth result = prepare_cloth(rest, start);
+    untangle_clear_of(result, obstacle);
     return result;
 }
 
-// What still crosses is held together as it is: it can neither part nor cross further.
-std::vector<std::pair<int, int>> ties_across(const std::vector<Crossing>& crossings, const Triangles& triangles)
+// What crosses at the start is held together as it is: it can neither part nor cross further. Loose parts are held on the
+// cloth under them.
+std::vector<std::pair<int, int>> find_ties(const PreparedCloth& cloth)
 {
-    const auto edges = edges_of(triangles);
+    const Edges& edges = cloth.topology.edges();
     std::vector<std::pair<int, int>> ties;
-    for (const auto& [e, f] : crossings)
+    for (const auto& [e, f] : cloth.crossings)
         for (int i = 0; i < 2; ++i)
             for (int k = 0; k < 3; ++k)
-                ties.emplace_back(std::minmax(edges(e, i), triangles(f, k)));
+                ties.emplace_back(std::minmax(edges(e, i), cloth.rest.triangles(f, k)));
     std::sort(ties.begin(), ties.end());
     ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
+    const auto parts = find_loose_part_ties(cloth.rest, cloth.topology);
+    ties.insert(ties.end(), parts.begin(), parts.end());
     return ties;
 }
 
-// A motion that leaves less than this share of the way was worth making.
-constexpr double k_nearer = 0.95;
+Positions stack(const Positions& cloth, const Positions& obstacle)
+{
+    Positions result(cloth.rows() + obstacle.rows(), 3);
+    result << cloth, obstacle;
+    return result;
+}
 
-/// Waiting for what cloth holds back.
-class Patience {
-public:
-    explicit Patience(int most) : most_(most) { }
-
-    /// Whether to take one more step: what lags has come nearer lately.
-    bool goes_on(double lag)
-    {
-        constexpr int k_lately = 15;
-        if (lag < k_nearer * least_) {
-            least_ = lag;
-            since_ = 0;
-        }
-        return lag > 0 && ++since_ <= k_lately && ++taken_ <= most_;
-    }
-
-private:
-    double least_ = INFINITY;
-    int most_, taken_ = 0, since_ = 0;
-};
-
-void shorten(Positions& displacements, double longest)
+void limit_lengths(Positions& displacements, double longest)
 {
     for (Eigen::Index v = 0; v < displacements.rows(); ++v)
         if (const double length = displacements.row(v).norm(); length > longest)
@@ -89,41 +56,50 @@ void shorten(Positions& displacements, double longest)
 
 }  // namespace
 
-/// A pair near contact, linear in the positions: gap = normal . (sum of weight * position).
-struct ClothMotion::Touch {
+/// A pair near contact, linear in the positions: distance = normal . (sum of weight * position).
+struct ClothMotion::ActiveContact {
     const ContactPair* pair;
     Vec3 normal;
-    double wanted;  // m; the gap below which force begins
+    double rest_distance;  // m; force begins below it
 };
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options) :
-    options_(options), material_(material_of(options)),
-    weld_(rest), rest_(weld_.gathered(rest)), cloth_vertices_(int(rest_.positions.rows())),
-    off_itself_(std::min(options_.contact_distance, k_off_itself * mean_edge(rest_))),
-    contact_(rest_.triangles, cloth_vertices_, obstacle.triangles,
-             { k_spare * touching().cloth, k_spare * touching().obstacle }),
-    x_(cloth_vertices_ + obstacle.positions.rows(), 3), velocity_(Positions::Zero(cloth_vertices_, 3))
+    ClothMotion(untangle_over(rest, start, obstacle), { obstacle, int(obstacle.positions.rows()) }, options)
 {
-    const Untangled cloth = parted({ weld_.gathered(start), rest_.triangles }, obstacle);
-    x_ << cloth.positions, obstacle.positions;
-    ties_ = ties_across(cloth.left, rest_.triangles);
-    const auto parts = ties_of_loose_parts(rest_);
-    ties_.insert(ties_.end(), parts.begin(), parts.end());
-    energy_.emplace(rest_, ties_, options_);
 }
 
-// Half of the lookout of cloth for itself, and what is then left to the obstacle of that between both.
-Margins ClothMotion::touching() const
+ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options) :
+    options_(options), material_(material_of(options)), weld_(std::move(cloth.weld)), rest_(cloth.rest),
+    topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())),
+    self_contact_distance_(std::min(options_.contact_distance,
+                                    k_self_contact_edges * mean_edge_length(rest_.positions, topology_.edges()))),
+    contact_({ rest_.triangles, topology_.edges(), cloth_vertices_ },
+             { obstacle.mesh.triangles, edges_of(obstacle.mesh.triangles), int(obstacle.mesh.positions.rows()) },
+             obstacle.body_vertices,
+             { k_spare_margin * contact_margins().cloth, k_spare_margin * contact_margins().obstacle }),
+    x_(stack(cloth.positions, obstacle.mesh.positions)), ties_(find_ties(cloth)),
+    velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    const double cloth = 0.5 * k_lookout * off_itself_;
-    return { cloth, k_lookout * options_.contact_distance - cloth };
+    energy_.emplace(rest_, topology_, ties_, options_);
+}
+
+// Half of the active distance of cloth and cloth for the cloth. The obstacle gets the rest of that between both.
+Margins ClothMotion::contact_margins() const
+{
+    const double cloth = 0.5 * k_active_distance * self_contact_distance_;
+    return { cloth, k_active_distance * options_.contact_distance - cloth };
+}
+
+double ClothMotion::contact_distance(ContactReason reason) const
+{
+    return reason == ContactReason::self ? self_contact_distance_ : options_.contact_distance;
 }
 
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
     rest_ = weld_.gathered(rest);
-    energy_.emplace(rest_, ties_, options_);
+    energy_.emplace(rest_, topology_, ties_, options_);
 }
 
 void ClothMotion::restore(const Positions& state)
@@ -138,117 +114,116 @@ double ClothMotion::speed() const { return velocity_.rowwise().norm().maxCoeff()
 
 Positions ClothMotion::obstacle() const { return x_.bottomRows(x_.rows() - cloth_vertices_); }
 
-// The one place where positions change. What locks itself (a pinched fold, sheets that cross as given) is held back though all of it
-// wants about the same way: the rest of the way it goes as one, as the rigid impact zones of Provot 1997 do.
+// Moves each vertex by the collision-free fraction of its displacement. @return what it moved by
+Positions ClothMotion::move_freely(const Positions& displacements)
+{
+    contact_.detect(x_, displacements, { options_.min_distance, options_.min_distance });
+    const std::vector<double> fractions
+        = collision_free_fractions(contact_.pairs(), x_, displacements, options_.min_distance);
+    const Eigen::Map<const Eigen::VectorXd> diagonal(fractions.data(), Eigen::Index(fractions.size()));
+    const Positions moved = diagonal.asDiagonal() * displacements;
+    x_ += moved;
+    return moved;
+}
+
+// The one place where positions change. Vertices that lie between others are held back although all of them want nearly the
+// same motion (a pinched fold, sheets that cross as given). The rest of their way they go as rigid impact zones.
 void ClothMotion::move(const Positions& displacements)
 {
     const Stopwatch watch(seconds_.detection);
-    const auto go = [&](const Positions& way) {
-        contact_.detect(x_, way, { options_.min_distance, options_.min_distance });
-        const std::vector<double> shares = contact_.free_shares(x_, way, options_.min_distance);
-        return Positions(Eigen::Map<const Eigen::VectorXd>(shares.data(), Eigen::Index(shares.size())).asDiagonal()
-                         * way);
-    };
-    const Positions first = go(displacements);
-    x_ += first;
-    if (first != displacements)
-        x_ += go(contact_.joined(x_, displacements - first, options_.min_distance));
+    const Positions moved = move_freely(displacements);
+    if (moved != displacements)
+        move_freely(
+            merge_impact_zones(contact_.pairs(), cloth_vertices_, x_, displacements - moved, options_.min_distance));
 }
 
 void ClothMotion::advect(const Positions& cloth, const Positions& obstacle)
 {
-    Positions displacements(x_.rows(), 3);
-    displacements << weld_.gathered(cloth), obstacle;
-    move(displacements);
+    move(stack(weld_.gathered(cloth), obstacle));
 }
 
-std::vector<ClothMotion::Touch> ClothMotion::touches(const Positions& wished) const
+std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const Positions& targets) const
 {
-    std::vector<Touch> result;
+    std::vector<ActiveContact> result;
     for (const ContactPair& pair : contact_.pairs()) {
-        Corners now, next, rest;
-        for (int k = 0; k < 4; ++k) {
-            now[k] = x_.row(pair.vertices[k]);
-            next[k] = wished.row(pair.vertices[k]);
-        }
-        const Vec3 normal = separation(pair.at.weights, now) / pair.at.distance;
-        double wanted = pair.self ? off_itself_ : options_.contact_distance;
-        if (normal.dot(separation(pair.at.weights, next)) > k_lookout * wanted)
+        const Vec3 normal = separation(pair.at.weights, corners_of(x_, pair.vertices)) / pair.at.distance;
+        double distance = contact_distance(pair.reason);
+        if (normal.dot(separation(pair.at.weights, corners_of(targets, pair.vertices))) > k_active_distance * distance)
             continue;
-        if (pair.self) {  // sheets that lie closer at rest are left as they are
-            for (int k = 0; k < 4; ++k)
-                rest[k] = rest_.positions.row(pair.vertices[k]);
-            wanted = std::min(wanted, closest(pair.kind, rest).distance);
-        }
-        result.push_back({ &pair, normal, wanted });
+        if (pair.reason == ContactReason::self)  // sheets that lie closer at rest stay as close
+            distance
+                = std::min(distance, closest_points(pair.kind, corners_of(rest_.positions, pair.vertices)).distance);
+        result.push_back({ &pair, normal, distance });
     }
     return result;
 }
 
-// A touch that is too near wants its gap back along the normal, and holds against slipping with Coulomb's force.
-std::vector<Press> ClothMotion::presses(const std::vector<Touch>& touches, const Positions& wished,
-                                        const MotionStep& step) const
+// A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's law.
+std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<ActiveContact>& contacts,
+                                                             const Positions& targets, const MotionStep& step) const
 {
     const double contact_stiffness = step.contact_stiffness * material_.stretch_stiffness;
-    const double friction = step.friction_share * material_.friction;
-    std::vector<Press> result;
-    for (const Touch& touch : touches) {
-        Press press { touch.pair->vertices, touch.pair->at.weights, Vec3::Zero(), touch.normal, contact_stiffness, 0 };
+    const double friction = step.friction_fraction * material_.friction;
+    std::vector<SoftConstraint> result;
+    for (const ActiveContact& contact : contacts) {
+        const Vec3& normal = contact.normal;
+        SoftConstraint constraint { contact.pair->vertices, contact.pair->at.weights,
+                                    Vec3::Zero(),           normal,
+                                    contact_stiffness,      0 };
         Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
         for (int k = 0; k < 4; ++k) {
-            const int v = press.vertices[k];
-            before += press.weights[k] * x_.row(v).transpose();
-            now += press.weights[k] * wished.row(v).transpose();
+            const int v = constraint.vertices[k];
+            before += constraint.weights[k] * x_.row(v).transpose();
+            now += constraint.weights[k] * targets.row(v).transpose();
             if (v >= cloth_vertices_) {
-                obstacle += press.weights[k] * wished.row(v).transpose();
-                press.vertices[k] = -1;
+                obstacle += constraint.weights[k] * targets.row(v).transpose();
+                constraint.vertices[k] = -1;
             }
         }
-        const double depth = touch.wanted - touch.normal.dot(now);
+        const double depth = contact.rest_distance - normal.dot(now);
         if (depth <= 0)
             continue;
-        const Vec3 slip = (now - before) - (now - before).dot(touch.normal) * touch.normal;
+        const Vec3 slip = (now - before) - (now - before).dot(normal) * normal;
         const double slipped = slip.norm();
-        press.tangent_stiffness
-            = press.normal_stiffness * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
-        press.target = touch.wanted * touch.normal + (before - before.dot(touch.normal) * touch.normal) - obstacle;
-        result.push_back(press);
+        constraint.tangent_stiffness = constraint.normal_stiffness
+            * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
+        constraint.target = contact.rest_distance * normal + (before - before.dot(normal) * normal) - obstacle;
+        result.push_back(constraint);
     }
     return result;
 }
 
-// A single motion uses up only part of the room to what it meets; as long as the next one gets nearer, it is worth making.
+// A single motion uses up only a part of the free distance, so further ones follow as long as they get nearer.
 double ClothMotion::advect_obstacle(const Positions& target)
 {
-    constexpr int k_most_motions = 20;
     double lag = INFINITY, before;
     int motions = 0;
     do {
         before = lag;
         advect(Positions::Zero(vertices(), 3), target - obstacle());
         lag = snap_obstacle(target);
-    } while (lag > 0 && lag < k_nearer * before && ++motions < k_most_motions);
+    } while (lag > 0 && lag < k_progress * before && ++motions < k_most_obstacle_motions);
     return lag;
 }
 
-// Where the cloth wishes to be, n x 3, while the obstacle makes these moves (of all vertices).
-Positions ClothMotion::relaxed(const MotionStep& step, const Positions& displacements)
+// The cloth's targets, n x 3, while the obstacle makes these displacements (of all vertices).
+Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& displacements)
 {
     const Stopwatch watch(seconds_.solver);
-    Positions wished = x_ + displacements;
-    const std::vector<Touch> near = touches(wished);
+    Positions targets = x_ + displacements;
+    const std::vector<ActiveContact> contacts = find_active_contacts(targets);
     energy_->set_time_step(step.time_step);
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
-    Descent descent(*energy_, x_.topRows(cloth_vertices_), inertial);
+    PreconditionedCG solver(*energy_, x_.topRows(cloth_vertices_), inertial);
     for (int i = 0; i < step.iterations; ++i) {
-        if (i % k_presses_stay == 0) {
-            wished.topRows(cloth_vertices_) = descent.positions();
-            descent.press(presses(near, wished, step));
+        if (i % k_active_set_period == 0) {
+            targets.topRows(cloth_vertices_) = solver.positions();
+            solver.set_constraints(contact_constraints(contacts, targets, step));
         }
-        descent.step();
+        solver.iterate();
     }
-    return descent.positions();
+    return solver.positions();
 }
 
 double ClothMotion::advance(const MotionStep& step)
@@ -256,26 +231,26 @@ double ClothMotion::advance(const MotionStep& step)
     const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
     Positions displacements = Positions::Zero(x_.rows(), 3);
     displacements.bottomRows(obstacle_vertices) = *step.obstacle_target - x_.bottomRows(obstacle_vertices);
-    shorten(displacements, step.largest_obstacle_move);
+    limit_lengths(displacements, step.largest_obstacle_move);
     {
         const Stopwatch watch(seconds_.detection);
-        contact_.detect(x_, displacements, touching());
+        contact_.detect(x_, displacements, contact_margins());
     }
-    displacements.topRows(cloth_vertices_) = relaxed(step, displacements) - x_.topRows(cloth_vertices_);
-    shorten(displacements, step.largest_move);
+    displacements.topRows(cloth_vertices_) = minimise_energy(step, displacements) - x_.topRows(cloth_vertices_);
+    limit_lengths(displacements, step.largest_move);
     const Positions before = x_.topRows(cloth_vertices_);
     move(displacements);
     velocity_ = (x_.topRows(cloth_vertices_) - before) / step.time_step;
     return snap_obstacle(*step.obstacle_target);
 }
 
+// @return the longest lag that is left
 double ClothMotion::snap_obstacle(const Positions& target)
 {
-    constexpr double k_rounding = 1e-12;  // m; nearer than this the target's own bits are taken
     double longest_lag = 0;
     for (Eigen::Index v = 0; v < target.rows(); ++v) {
         auto here = x_.row(cloth_vertices_ + v);
-        if (const double lag = (target.row(v) - here).norm(); lag > k_rounding)
+        if (const double lag = (target.row(v) - here).norm(); lag > k_snap)
             longest_lag = std::max(longest_lag, lag);
         else
             here = target.row(v);
@@ -285,31 +260,27 @@ double ClothMotion::snap_obstacle(const Positions& target)
 
 double step_until_converged(ClothMotion& motion, const MotionStep& step)
 {
-    constexpr int k_most_steps = 30;
-    Patience patience(k_most_steps);
+    StallDetector detector(k_most_converging_steps);
     double lag = INFINITY;
-    while (patience.goes_on(lag))
+    while (detector.goes_on(lag))
         lag = motion.advance(step);
     return lag;
 }
 
-Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress)
+SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress)
 {
-    constexpr int k_more_steps = 60;
-    constexpr double k_swinging = 0.7;  // share of the steps; then it comes to rest
     MotionStep step;
     step.obstacle_target = &target;
     step.gravity = k_gravity;
-    step.friction_share = 1;
-    step.iterations = 18;
-    const double pushing = step.contact_stiffness;
-    Patience patience(k_more_steps);
+    step.friction_fraction = 1;
+    step.iterations = k_settling_iterations;
+    StallDetector detector(k_most_extra_settling_steps);
     double lag = INFINITY;
     const auto moves = [&](int i) { return i < steps + to_rest && motion.speed() >= k_at_rest; };
-    for (int i = 0; i < steps || patience.goes_on(lag) || moves(i); ++i) {
-        progress.at(double(i) / (steps + k_more_steps));
-        step.velocity_kept = i < k_swinging * steps ? 0.9 : 0.3;
-        step.contact_stiffness = lag > 0 ? pushing : k_settling_contact_stiffness;
+    for (int i = 0; i < steps || detector.goes_on(lag) || moves(i); ++i) {
+        progress.at(double(i) / (steps + k_most_extra_settling_steps));
+        step.velocity_kept = i < k_swinging_steps * steps ? k_swinging_velocity : k_calming_velocity;
+        step.contact_stiffness = lag > 0 ? k_pushing_contact_stiffness : k_settling_contact_stiffness;
         lag = motion.advance(step);
         if (lag > 0)
             lag = motion.advect_obstacle(target);

@@ -1,47 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A garment and an obstacle in motion: the one place where positions change, and only by free motions.
+// Moves a garment and an obstacle together, only by motions without collision. No other code changes their positions.
 //
-// Each step wishes positions for all vertices (the obstacle its targets, the cloth the minimum of its energy) and lets
-// every vertex go as far towards its wish as nothing crosses. A vertex that is held back lags, and goes on at the next step;
-// nothing else waits for it.
+// Each step has a target for every vertex: the obstacle's is given, the cloth's is the minimum of its energy. Every vertex
+// goes as far towards its target as nothing crosses. A vertex that is held back lags, and goes on at the next step; the
+// others do not wait for it.
+//
+// Units    metres, kilograms, seconds.
 
 #include <optional>
 
 #include "cloth_energy.h"
 #include "contact.h"
 #include "garmentfit/progress.h"
-#include "weld.h"
+#include "prepared_cloth.h"
+#include "tuning.h"
 
 namespace garmentfit {
 
-constexpr double k_gravity = 9.81;  ///< m/s^2
+/// m/s^2. literature: standard gravity [cgpm_1901_gravity], 9.80665, rounded.
+constexpr double k_gravity = 9.81;
 
 struct MotionStep {
     const Positions* obstacle_target;  ///< where the obstacle should go
-    double largest_move = 4e-3;  ///< m; no cloth vertex goes further
-    double largest_obstacle_move = 3e-3;  ///< m; no obstacle vertex goes further towards its target
-    double time_step = 0.02;  ///< s
-    double velocity_kept = 0;  ///< share of the cloth's velocity kept from the step before
+    double largest_move = k_largest_cloth_move;  ///< m; no cloth vertex goes further
+    double largest_obstacle_move = k_largest_obstacle_move;  ///< m; no obstacle vertex goes further towards its target
+    double time_step = k_cloth_time_step;  ///< s
+    double velocity_kept = 0;  ///< fraction of the cloth's velocity kept from the step before
     double gravity = 0;  ///< m/s^2, along -y
-    double friction_share = 0;  ///< of the cloth's own friction
-    double contact_stiffness = 3;  ///< times that of the cloth; more pushes harder, and takes longer to balance
-    int iterations = 6;  ///< steps of descent towards the minimum of the energy
+    double friction_fraction = 0;  ///< of the cloth's own friction
+    double contact_stiffness = k_pushing_contact_stiffness;  ///< in stretch stiffnesses of the cloth
+    int iterations = k_moving_iterations;  ///< of conjugate gradients
 };
 
 class ClothMotion {
 public:
-    /// The start must be free of crossings between cloth and obstacle; `start` is n x 3, the obstacle m x 3. Where the
-    /// cloth crosses itself it is parted first, as far as it can be (see untangle.h).
+    /// `cloth` and the obstacle must not cross.
+    ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options);
+
+    /// The same from a garment as it is, over an obstacle that is all body: where the cloth crosses itself it is untangled
+    /// first, as far as it can be. `start` is n x 3, the obstacle m x 3.
     ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                 const ClothOptions& options);
 
-    /// From now on the cloth wants this rest shape: the same garment in another size.
+    /// Gives the cloth another rest shape: the same garment in another size.
     void set_rest(const GarmentMesh& rest);
 
-    /// Moves cloth and obstacle together by these displacements (n x 3, m x 3), as far as each vertex freely may. What was
-    /// lagging before keeps its lag, and nothing is left behind by it.
+    /// Moves cloth and obstacle together by these displacements (n x 3, m x 3), as far as each vertex freely may. What
+    /// lagged before keeps its lag, and nothing is left behind by it.
     void advect(const Positions& cloth, const Positions& obstacle);
 
     /// Moves the obstacle towards a target, as far as each vertex freely may, while the cloth stands still.
@@ -52,7 +59,7 @@ public:
     /// @return the longest way that an obstacle vertex still has to its target, metres
     double advance(const MotionStep& step);
 
-    /// Everything's place, to be put back there later.
+    /// The positions of cloth and obstacle, for restore().
     const Positions& state() const { return x_; }
     /// Puts cloth and obstacle back where they were, at rest.
     void restore(const Positions& state);
@@ -64,40 +71,43 @@ public:
     int vertices() const { return weld_.given(); }  ///< of the garment
 
 private:
-    struct Touch;
+    struct ActiveContact;
+    Positions move_freely(const Positions& displacements);
     void move(const Positions& displacements);
-    Margins touching() const;
+    Margins contact_margins() const;
+    double contact_distance(ContactReason reason) const;
     double snap_obstacle(const Positions& target);
-    Positions relaxed(const MotionStep& step, const Positions& displacements);
-    std::vector<Touch> touches(const Positions& wished) const;
-    std::vector<Press> presses(const std::vector<Touch>& touches, const Positions& wished,
-                               const MotionStep& step) const;
+    Positions minimise_energy(const MotionStep& step, const Positions& displacements);
+    std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
+    std::vector<SoftConstraint> contact_constraints(const std::vector<ActiveContact>& contacts,
+                                                    const Positions& targets, const MotionStep& step) const;
 
     ClothOptions options_;
     Material material_;
     Weld weld_;
     GarmentMesh rest_;  // welded
+    MeshTopology topology_;  // of rest_
     int cloth_vertices_;
-    double off_itself_;  // m; the contact distance of cloth and cloth
-    Contact contact_;
+    double self_contact_distance_;  // m
+    ContactDetector contact_;
     Positions x_;  // cloth, then obstacle
     std::vector<std::pair<int, int>> ties_;  // across what crosses at the start, and of loose parts
-    std::optional<ClothEnergy> energy_;  // made when the ties are known
+    std::optional<ClothEnergy> energy_;  // its factor cannot be assigned
     Positions velocity_;  // of the cloth, m/s
     ClothSeconds seconds_;
 };
 
-/// Repeats a step until the whole obstacle is at its target, for as long as is worth waiting: before the bridges over creases are
-/// drawn back, say, for where a bridge is not closed, cloth would go in. @return as advance()
+/// Repeats a step until the whole obstacle is at its target, for as long as that is worth the time. @return as advance()
 double step_until_converged(ClothMotion& motion, const MotionStep& step);
 
-struct Settled {
-    bool arrived;  ///< the whole obstacle at its target
+struct SettleResult {
+    bool is_at_target;  ///< the whole obstacle
     double speed;  ///< m/s, of the fastest vertex of the cloth
 };
 
-/// Hangs the cloth on the obstacle under gravity, for so many time steps and some more where parts of it are still held back.
+/// Hangs the cloth on the obstacle under gravity, for so many time steps, and some more while parts of the obstacle are
+/// still held back.
 /// @param to_rest  time steps more, at most, until no vertex is faster than k_at_rest
-Settled settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
+SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
 
 }  // namespace garmentfit

@@ -2,36 +2,42 @@
 #include "contact.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <optional>
 
-#include "garmentfit/mesh.h"
-#include "disjoint_sets.h"
 #include "parallel.h"
 #include "segment.h"
+#include "used_vertices.h"
 
 namespace garmentfit {
 namespace {
 
-std::uint64_t key(int i, int j) { return (std::uint64_t(std::uint32_t(i)) << 32) | std::uint32_t(j); }
+std::uint64_t make_key(int i, int j) { return (std::uint64_t(std::uint32_t(i)) << 32) | std::uint32_t(j); }
 
-Corners corners(const Positions& x, const std::array<int, 4>& v)
-{
-    return { Vec3(x.row(v[0])), Vec3(x.row(v[1])), Vec3(x.row(v[2])), Vec3(x.row(v[3])) };
-}
-
-// Encloses all that the vertices may do: go along their ways, and `margin` beside them.
+// Encloses the paths of the vertices, and `margin` beside them.
 template <class Row>
-Box box_of(const Row& vertices, const Positions& start, const Positions& way, double margin)
+Box swept_box(const Row& vertices, const Positions& start, const Positions& path, double margin)
 {
     Box box;
     for (int k = 0; k < int(vertices.size()); ++k) {
-        const Vec3 from = start.row(vertices[k]), to = from + Vec3(way.row(vertices[k]));
+        const Vec3 from = start.row(vertices[k]), to = from + Vec3(path.row(vertices[k]));
         box.extend(from);
         box.extend(to);
     }
     return { Vec3(box.min().array() - margin), Vec3(box.max().array() + margin) };
+}
+
+template <class VerticesOf>
+void refit_tree(BoxTree& tree, Eigen::Index count, const Positions& start, const Positions& path, double margin,
+                const VerticesOf& vertices_of)
+{
+    std::vector<Box> boxes(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+        boxes[i] = swept_box(vertices_of(i), start, path, margin);
+    if (tree.empty())
+        tree = BoxTree(boxes);
+    else
+        tree.refit(boxes);
 }
 
 bool share_a_vertex(const std::array<int, 4>& v, int split)
@@ -43,16 +49,16 @@ bool share_a_vertex(const std::array<int, 4>& v, int split)
     return false;
 }
 
-// How much nearer two primitives can come when each vertex goes any share of its way: whatever the shares, the change of
-// their separation is a mean of single ways and of differences of two of them.
-double approach(const Positions& ways, const std::array<int, 4>& v, int split)
+// How much nearer two primitives can come when each vertex goes any fraction of its path. Whatever the fractions are, the
+// separation changes by a mean of single paths and of differences of two of them.
+double approach_bound(const Positions& paths, const std::array<int, 4>& v, int split)
 {
     double square = 0;
     for (const int k : v)
-        square = std::max(square, ways.row(k).squaredNorm());
+        square = std::max(square, paths.row(k).squaredNorm());
     for (int i = 0; i < split; ++i)
         for (int j = split; j < 4; ++j)
-            square = std::max(square, (ways.row(v[i]) - ways.row(v[j])).squaredNorm());
+            square = std::max(square, (paths.row(v[i]) - paths.row(v[j])).squaredNorm());
     return std::sqrt(square);
 }
 
@@ -64,224 +70,141 @@ double travel_bound(const Eigen::VectorXd& moved, PairKind kind, const std::arra
                                          : std::max(moved[v[0]], moved[v[1]]) + last;
 }
 
-double both(const Margins& margins, bool self) { return margins.cloth + (self ? margins.cloth : margins.obstacle); }
+double sum_of(const Margins& margins, ContactReason reason)
+{
+    return margins.cloth + (reason == ContactReason::self ? margins.cloth : margins.obstacle);
+}
 
+// Vertices of the first primitive.
 int first_size(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
-
-void lower(std::atomic<double>& value, double to)
-{
-    double now = value.load(std::memory_order_relaxed);
-    while (to < now && !value.compare_exchange_weak(now, to, std::memory_order_relaxed)) { }
-}
-
-/// The mean of the values of each set, at all of its vertices; 0 where one of them, from `standing` on, stands still.
-Positions means(DisjointSets& sets, const Positions& values, int standing)
-{
-    Positions sum = Positions::Zero(values.rows(), 3);
-    std::vector<int> size(values.rows(), 0);
-    for (int v = 0; v < int(values.rows()); ++v) {
-        sum.row(sets.root(v)) += values.row(v);
-        ++size[sets.root(v)];
-    }
-    for (int v = standing; v < int(values.rows()); ++v)
-        sum.row(sets.root(v)).setZero();
-    Positions result(values.rows(), 3);
-    for (int v = 0; v < int(values.rows()); ++v)
-        result.row(v) = sum.row(sets.root(v)) / size[sets.root(v)];
-    return result;
-}
 
 }  // namespace
 
-Contact::Surface Contact::surface(const Triangles& triangles, int offset)
+ContactDetector::Surface ContactDetector::make_surface(const ContactSurface& surface, int offset)
 {
-    Surface s;
-    s.triangles = (triangles.array() + offset).matrix();
-    s.edges = edges_of(s.triangles);
-    s.vertices.assign(s.triangles.data(), s.triangles.data() + s.triangles.size());
-    std::sort(s.vertices.begin(), s.vertices.end());
-    s.vertices.erase(std::unique(s.vertices.begin(), s.vertices.end()), s.vertices.end());
-    return s;
+    Surface result;
+    result.triangles = (surface.triangles.array() + offset).matrix();
+    result.edges = (surface.edges.array() + offset).matrix();
+    result.vertices = used_vertices(result.triangles);
+    return result;
 }
 
-Contact::Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, const Margins& spare) :
-    cloth_(surface(cloth, 0)), obstacle_(surface(obstacle, cloth_vertices)), cloth_vertices_(cloth_vertices),
-    spare_(spare)
+ContactDetector::ContactDetector(const ContactSurface& cloth, const ContactSurface& obstacle, int body_vertices,
+                                 const Margins& spare) :
+    cloth_vertices_(cloth.vertices),
+    first_layer_vertex_(cloth.vertices + body_vertices), cloth_(make_surface(cloth, 0)),
+    obstacle_(make_surface(obstacle, cloth.vertices)), spare_(spare)
 {
+}
+
+// The vertices of one primitive belong to one mesh, so its first or last one tells which.
+ContactReason ContactDetector::reason_of(const std::array<int, 4>& vertices) const
+{
+    const int vertex = std::max(vertices.front(), vertices.back());
+    if (vertex < cloth_vertices_)
+        return ContactReason::self;
+    return vertex < first_layer_vertex_ ? ContactReason::body : ContactReason::layer;
 }
 
 // A segment with a margin is convex: it holds a smaller one when it holds both of its ends.
-bool Contact::searched(const SweptRegion& region) const
+bool ContactDetector::is_searched(const SweptRegion& region) const
 {
-    if (searched_region_.start.rows() != region.start.rows())
+    if (region_.start.rows() != region.start.rows())
         return false;
     for (Eigen::Index v = 0; v < region.start.rows(); ++v) {
-        const Vec3 from = region.start.row(v), to = from + Vec3(region.way.row(v)), begin = searched_region_.start.row(v),
-                   end = begin + Vec3(searched_region_.way.row(v));
-        const double spare = v < cloth_vertices_ ? searched_region_.margins.cloth - region.margins.cloth
-                                                 : searched_region_.margins.obstacle - region.margins.obstacle;
+        const Vec3 from = region.start.row(v), to = from + Vec3(region.path.row(v)), begin = region_.start.row(v),
+                   end = begin + Vec3(region_.path.row(v));
+        const double spare = v < cloth_vertices_ ? region_.margins.cloth - region.margins.cloth
+                                                 : region_.margins.obstacle - region.margins.obstacle;
         if (distance_to_segment(from, begin, end) > spare || distance_to_segment(to, begin, end) > spare)
             return false;
     }
     return true;
 }
 
-void Contact::renew_trees()
+void ContactDetector::refit_trees()
 {
-    const auto renew = [&](BoxTree& tree, double margin, Eigen::Index count, const auto& vertices_of) {
-        std::vector<Box> boxes(count);
-        for (Eigen::Index i = 0; i < count; ++i)
-            boxes[i] = box_of(vertices_of(i), searched_region_.start, searched_region_.way, margin);
-        if (tree.empty())
-            tree = BoxTree(boxes);
-        else
-            tree.refit(boxes);
-    };
     parallel_for(6, [&](int i) {
         Surface& s = i % 2 == 0 ? cloth_ : obstacle_;
-        const double margin = i % 2 == 0 ? searched_region_.margins.cloth : searched_region_.margins.obstacle;
+        const double margin = i % 2 == 0 ? region_.margins.cloth : region_.margins.obstacle;
+        const auto refit = [&](BoxTree& tree, Eigen::Index count, const auto& vertices_of) {
+            refit_tree(tree, count, region_.start, region_.path, margin, vertices_of);
+        };
         if (i < 2)
-            renew(s.edge_tree, margin, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
+            refit(s.edge_tree, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
         else if (i < 4)
-            renew(s.triangle_tree, margin, s.triangles.rows(), [&](Eigen::Index t) { return s.triangles.row(t); });
+            refit(s.triangle_tree, s.triangles.rows(), [&](Eigen::Index t) { return s.triangles.row(t); });
         else
-            renew(s.vertex_tree, margin, Eigen::Index(s.vertices.size()),
+            refit(s.vertex_tree, Eigen::Index(s.vertices.size()),
                   [&](Eigen::Index v) { return std::array<int, 1> { s.vertices[v] }; });
     });
 }
 
-void Contact::search()
+void ContactDetector::search()
 {
-    renew_trees();
-
-    std::vector<std::vector<Candidate>> found(BoxTree::k_parts), touching(BoxTree::k_parts);
-    const auto keep = [&](int part, Candidate c) {
-        const int split = first_size(c.kind);
-        if (c.self && (share_a_vertex(c.vertices, split) || passing(c.kind).count(c.key)))
-            return;
-        c.distance = closest(c.kind, corners(searched_region_.start, c.vertices)).distance;
-        if (c.distance <= approach(searched_region_.way, c.vertices, split) + both(searched_region_.margins, c.self))
-            (c.distance > 0 ? found : touching)[part].push_back(c);
-    };
-    const auto vertex_faces = [&](const Surface& a, const Surface& b, bool self) {
-        BoxTree::overlaps(a.vertex_tree, b.triangle_tree, [&](int part, int i, int t) {
-            const int v = a.vertices[i];
-            keep(part,
-                 { PairKind::vertex_face,
-                   self,
-                   { v, b.triangles(t, 0), b.triangles(t, 1), b.triangles(t, 2) },
-                   key(v, t),
-                   0 });
-        });
-    };
-    const auto edge_edges = [&](const Surface& a, const Surface& b, bool self) {
-        BoxTree::overlaps(a.edge_tree, b.edge_tree, [&](int part, int i, int j) {
-            if (self && j < i)
-                std::swap(i, j);
-            keep(part,
-                 { PairKind::edge_edge,
-                   self,
-                   { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) },
-                   key(i, j),
-                   0 });
-        });
-    };
-    vertex_faces(cloth_, obstacle_, false);
-    vertex_faces(obstacle_, cloth_, false);
-    edge_edges(cloth_, obstacle_, false);
-    vertex_faces(cloth_, cloth_, true);
-    edge_edges(cloth_, cloth_, true);
+    refit_trees();
+    std::vector<Found> parts(BoxTree::k_parts);
+    find_vertex_faces(cloth_, obstacle_, parts);
+    find_vertex_faces(obstacle_, cloth_, parts);
+    find_edge_edges(cloth_, obstacle_, parts);
+    find_vertex_faces(cloth_, cloth_, parts);
+    find_edge_edges(cloth_, cloth_, parts);
 
     candidates_.clear();
-    for (int part = 0; part < BoxTree::k_parts; ++part) {
-        candidates_.insert(candidates_.end(), found[part].begin(), found[part].end());
-        for (const Candidate& c : touching[part])
-            if (c.self)
-                passing(c.kind).insert(c.key);
+    for (const Found& found : parts) {
+        candidates_.insert(candidates_.end(), found.apart.begin(), found.apart.end());
+        for (const Candidate& c : found.touching)
+            if (c.reason == ContactReason::self)
+                ignored(c.kind).insert(c.key);
     }
 }
 
-void Contact::detect(const Positions& x, const Positions& displacements, const Margins& margins)
+void ContactDetector::find_vertex_faces(const Surface& a, const Surface& b, std::vector<Found>& parts)
 {
-    if (!searched({ x, displacements, margins })) {
-        searched_region_ = { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
-        search();
-    }
-    const Eigen::VectorXd moved = (x - searched_region_.start).rowwise().norm();
-    pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
-        const Candidate& c = candidates_[i];
-        const double near = approach(displacements, c.vertices, first_size(c.kind)) + both(margins, c.self);
-        if (c.distance - travel_bound(moved, c.kind, c.vertices) > near)
-            return {};
-        const Closest at = closest(c.kind, corners(x, c.vertices));
-        if (at.distance > near)
-            return {};
-        return ContactPair { c.kind, c.self, c.vertices, at };
+    BoxTree::overlaps(a.vertex_tree, b.triangle_tree, [&](int part, int i, int t) {
+        const int v = a.vertices[i];
+        const std::array<int, 4> vertices { v, b.triangles(t, 0), b.triangles(t, 1), b.triangles(t, 2) };
+        add_candidate({ PairKind::vertex_face, reason_of(vertices), vertices, make_key(v, t), 0 }, parts[part]);
     });
 }
 
-std::vector<double> Contact::free_shares(const Positions& x, const Positions& displacements, double gap) const
+void ContactDetector::find_edge_edges(const Surface& a, const Surface& b, std::vector<Found>& parts)
 {
-    constexpr int k_rounds = 30;  // then what still meets stands still, which always ends: the present state is free
-    std::vector<double> shares(x.rows(), 1.0);
-    std::vector<char> changed(x.rows());
-    for (Eigen::Index v = 0; v < x.rows(); ++v)
-        changed[v] = !displacements.row(v).isZero(0);
-    std::vector<std::atomic<double>> next(x.rows());
-    for (int round = 0;; ++round) {
-        for (std::size_t v = 0; v < shares.size(); ++v)
-            next[v].store(shares[v], std::memory_order_relaxed);
-        const auto cut = [&](std::size_t p) {
-            const auto& v = pairs_[p].vertices;
-            if (!(changed[v[0]] || changed[v[1]] || changed[v[2]] || changed[v[3]]))
-                return;
-            Corners d = corners(displacements, v);
-            for (int k = 0; k < 4; ++k)
-                d[k] *= shares[v[k]];
-            const double now = pairs_[p].at.distance;
-            if (relative_travel(pairs_[p].kind, d) <= now - kept_distance(now, gap))
-                return;
-            const double share = free_share(pairs_[p].kind, corners(x, v), d, gap);
-            if (share < 1)
-                for (int k = 0; k < 4; ++k)
-                    lower(next[v[k]], round < k_rounds ? shares[v[k]] * std::min(share, 0.9) : 0.0);
-        };
-        parallel_for(pairs_.size(), cut, std::size_t(1024));
-        bool any = false;
-        for (std::size_t v = 0; v < shares.size(); ++v) {
-            const double share = next[v].load(std::memory_order_relaxed);
-            changed[v] = share != shares[v];
-            any |= changed[v];
-            shares[v] = share;
-        }
-        if (!any)
-            return shares;
-    }
+    BoxTree::overlaps(a.edge_tree, b.edge_tree, [&](int part, int i, int j) {
+        if (&a == &b && j < i)
+            std::swap(i, j);
+        const std::array<int, 4> vertices { a.edges(i, 0), a.edges(i, 1), b.edges(j, 0), b.edges(j, 1) };
+        add_candidate({ PairKind::edge_edge, reason_of(vertices), vertices, make_key(i, j), 0 }, parts[part]);
+    });
 }
 
-// What moves as one may lock further pairs, so zones grow until none is left that cannot go nearly all of its way.
-Positions Contact::joined(const Positions& x, const Positions& displacements, double gap) const
+void ContactDetector::add_candidate(Candidate c, Found& found)
 {
-    constexpr double k_nearly_all = 0.9;
-    DisjointSets zones(int(x.rows()));
-    const int standing
-        = displacements.bottomRows(x.rows() - cloth_vertices_).isZero(0) ? int(cloth_vertices_) : int(x.rows());
-    Positions common = displacements;
-    std::vector<char> locked(pairs_.size());
-    for (bool grown = true; grown;) {
-        const auto test = [&](std::size_t p) {
-            const auto& v = pairs_[p].vertices;
-            locked[p] = free_share(pairs_[p].kind, corners(x, v), corners(common, v), gap) < k_nearly_all;
-        };
-        parallel_for(pairs_.size(), test, std::size_t(1024));
-        grown = false;
-        for (std::size_t p = 0; p < pairs_.size(); ++p)
-            if (locked[p])
-                for (int k = 1; k < 4; ++k)
-                    grown |= zones.join(pairs_[p].vertices[0], pairs_[p].vertices[k]);
-        common = means(zones, displacements, standing);
+    const int split = first_size(c.kind);
+    if (c.reason == ContactReason::self && (share_a_vertex(c.vertices, split) || ignored(c.kind).count(c.key)))
+        return;
+    c.distance = closest_points(c.kind, corners_of(region_.start, c.vertices)).distance;
+    if (c.distance <= approach_bound(region_.path, c.vertices, split) + sum_of(region_.margins, c.reason))
+        (c.distance > 0 ? found.apart : found.touching).push_back(c);
+}
+
+void ContactDetector::detect(const Positions& x, const Positions& displacements, const Margins& margins)
+{
+    if (!is_searched({ x, displacements, margins })) {
+        region_ = { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
+        search();
     }
-    return common;
+    const Eigen::VectorXd moved = (x - region_.start).rowwise().norm();
+    pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
+        const Candidate& c = candidates_[i];
+        const double near = approach_bound(displacements, c.vertices, first_size(c.kind)) + sum_of(margins, c.reason);
+        if (c.distance - travel_bound(moved, c.kind, c.vertices) > near)
+            return {};
+        const ClosestPoints at = closest_points(c.kind, corners_of(x, c.vertices));
+        if (at.distance > near)
+            return {};
+        return ContactPair { c.kind, c.reason, c.vertices, at };
+    });
 }
 
 }  // namespace garmentfit

@@ -1,92 +1,105 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Cloth against itself and against an obstacle (the body, and garments under it): which primitives come close, and how far
-// everything may move so that nothing crosses.
+// Which primitives of cloth come close to each other, to the body, or to the garments worn under the cloth.
 //
-// What crosses must pass a state in which a vertex meets a face or an edge an edge. None does so here, so that crossings neither
-// come nor go: those that a garment was given with stay the same pairs.
-//
-// Vertices of both are numbered together: cloth first, then the obstacle. The obstacle does not meet itself.
+// The vertices of cloth and obstacle are numbered together: the cloth's first, then the body's, then those of the layers.
+// The obstacle is not compared with itself.
 
 #include <unordered_set>
 #include <vector>
 
 #include "box_tree.h"
 #include "proximity.h"
+#include "topology.h"
 
 namespace garmentfit {
 
+/// What the cloth of a pair is near to: the body, a garment worn under it, or itself.
+enum class ContactReason : unsigned char { body, layer, self };
+
 struct ContactPair {
     PairKind kind;
-    bool self;  ///< both primitives are cloth
+    ContactReason reason;
     std::array<int, 4> vertices;
-    Closest at;  ///< where the pair was detected
+    ClosestPoints at;  ///< at the positions of the last detection
 };
 
-/// How far (metres) beside their ways vertices may go.
+/// How far beside their paths vertices may go, metres.
 struct Margins {
     double cloth, obstacle;
 };
 
-class Contact {
+/// The body (its vertices come first) and the layers, in one mesh.
+struct Obstacle {
+    TriangleMesh mesh;
+    int body_vertices;  ///< the others belong to layers
+};
+
+/// A surface with its edges, listed once by the caller.
+struct ContactSurface {
+    const Triangles& triangles;
+    const Edges& edges;
+    int vertices;
+};
+
+class ContactDetector {
 public:
-    using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
+    /// Indices of both surfaces begin at 0.
+    /// @param body_vertices  of the obstacle; its other vertices belong to layers
+    /// @param spare          a search looks this much further than asked. Its pairs serve later detections, too, as long
+    ///                       as no vertex leaves the region that was searched
+    ContactDetector(const ContactSurface& cloth, const ContactSurface& obstacle, int body_vertices,
+                    const Margins& spare = { 0, 0 });
 
-    /// @param cloth     triangles over [0, cloth_vertices)
-    /// @param obstacle  triangles over the obstacle's vertices, numbered from 0
-    /// @param spare     a search looks so much further than it is asked to: what it finds then serves later detections, too,
-    ///                  for as long as nothing leaves the room that was searched
-    Contact(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, const Margins& spare = { 0, 0 });
-
-    /// Finds all pairs that may meet when each vertex goes any share of its displacement, and up to its margin from there.
-    /// Cost O(n + c log n) where a search is due, c pairs of overlapping boxes; it grows with the square of the margins once
-    /// they are longer than the edges. Pairs of cloth that touch (distance 0) have no side to be kept on: from then on they are left to pass.
+    /// Finds all pairs that may meet when each vertex goes any fraction of its displacement, and up to its margin from
+    /// there. Cost O(n + c log n) where a search is due, c pairs of overlapping boxes. It grows with the square of the
+    /// margins once these are longer than the edges. Pairs of cloth that touch (distance 0) have no side to be kept on:
+    /// they are ignored from then on.
     void detect(const Positions& x, const Positions& displacements, const Margins& margins);
 
     const std::vector<ContactPair>& pairs() const { return pairs_; }
 
-    /// The share of its displacement, in [0, 1], that each vertex may go so that no pair comes nearer than `gap` (see
-    /// free_share). `x` as at the last detection, the displacements among those given to it, its margins at least `gap`.
-    /// Same bits for any number of threads.
-    std::vector<double> free_shares(const Positions& x, const Positions& displacements, double gap) const;
-
-    /// Displacements in which vertices of pairs that cannot go their ways apart from each other go together, with their mean.
-    /// An obstacle of which no vertex is to move stays where it is, and what is locked to it stays, too. Same bits for any number of threads.
-    Positions joined(const Positions& x, const Positions& displacements, double gap) const;
-
 private:
     struct Surface {
-        Triangles triangles;
+        Triangles triangles;  // in common numbers, as edges and vertices
         Edges edges;
         std::vector<int> vertices;  // those of triangles
         BoxTree vertex_tree, edge_tree, triangle_tree;
     };
-    /// Where vertices may go: along their ways from their starts, and beside them.
+    /// Where vertices may go: along their paths from their starts, and beside them.
     struct SweptRegion {
-        Positions start, way;
+        Positions start, path;
         Margins margins;
     };
-    /// A pair that may meet within the room searched.
+    /// A pair that may meet within the region searched.
     struct Candidate {
         PairKind kind;
-        bool self;
+        ContactReason reason;
         std::array<int, 4> vertices;
         std::uint64_t key;  // of its two primitives
-        double distance;  // where the search began
+        double distance;  // at the start of the region
     };
-    static Surface surface(const Triangles& triangles, int offset);
-    bool searched(const SweptRegion& region) const;
-    void renew_trees();
+    /// What one part of a search finds.
+    struct Found {
+        std::vector<Candidate> apart, touching;
+    };
+    static Surface make_surface(const ContactSurface& surface, int offset);
+    ContactReason reason_of(const std::array<int, 4>& vertices) const;
+    bool is_searched(const SweptRegion& region) const;
+    void refit_trees();
     void search();
-    std::unordered_set<std::uint64_t>& passing(PairKind kind) { return passing_[int(kind)]; }
+    void find_vertex_faces(const Surface& a, const Surface& b, std::vector<Found>& parts);
+    void find_edge_edges(const Surface& a, const Surface& b, std::vector<Found>& parts);
+    void add_candidate(Candidate candidate, Found& found);
+    std::unordered_set<std::uint64_t>& ignored(PairKind kind) { return ignored_[int(kind)]; }
 
+    int cloth_vertices_, first_layer_vertex_;
     Surface cloth_, obstacle_;
-    Eigen::Index cloth_vertices_;
     Margins spare_;
-    SweptRegion searched_region_;
-    std::vector<Candidate> candidates_;  // all that may meet in that room
-    std::array<std::unordered_set<std::uint64_t>, 2> passing_;  // by kind: pairs of cloth that touched
+    SweptRegion region_;  // the one searched last
+    std::vector<Candidate> candidates_;  // all pairs that may meet there
+    std::array<std::unordered_set<std::uint64_t>, 2> ignored_;  // by kind: pairs of cloth that touched
     std::vector<ContactPair> pairs_;
 };
 

@@ -4,11 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
 
-// Where on the segment ab the point p projects to, in [0, 1]; 0 for a segment of no length.
-double along(const Vec3& p, const Vec3& a, const Vec3& ab)
+// unit: edges count as parallel below this squared sine of their angle; any s serves then, because the clamps that follow
+// find the closest pair of ends.
+constexpr double k_parallel = 1e-14;
+// literature: [li_2021_cipc], algorithm 1, whose s is 0.1.
+constexpr double k_advance = 0.9;
+// derived: the part of the way that is free at least doubles in two advances, so no real motion needs more.
+constexpr int k_most_advances = 200;
+
+// Parameter in [0, 1] of the projection of p onto the segment from a along ab; 0 for a segment of no length.
+double project_onto_segment(const Vec3& p, const Vec3& a, const Vec3& ab)
 {
     const double length2 = ab.squaredNorm();
     return length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
@@ -20,7 +30,8 @@ struct Barycentric {
 
 Barycentric nearest_on_border(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
-    const double s = along(p, a, b - a), t = along(p, b, c - b), u = along(p, c, a - c);
+    const double s = project_onto_segment(p, a, b - a), t = project_onto_segment(p, b, c - b),
+                 u = project_onto_segment(p, c, a - c);
     const std::array<Barycentric, 3> candidates { { { 1 - s, s, 0 }, { 0, 1 - t, t }, { u, 0, 1 - u } } };
     const auto distance2 = [&](const Barycentric& w) { return (p - w.a * a - w.b * b - w.c * c).squaredNorm(); };
     return *std::min_element(candidates.begin(), candidates.end(),
@@ -40,36 +51,36 @@ Barycentric nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, con
     return nearest_on_border(p, a, b, c);
 }
 
-Closest vertex_face(const Corners& x)
+ClosestPoints closest_of_vertex_and_face(const Corners& x)
 {
     const Barycentric w = nearest_on_triangle(x[0], x[1], x[2], x[3]);
-    Closest result { { 1, -w.a, -w.b, -w.c }, 0 };
+    ClosestPoints result { { 1, -w.a, -w.b, -w.c }, 0 };
     result.distance = separation(result.weights, x).norm();
     return result;
 }
 
-Closest edge_edge(const Corners& x)
+// The names of [ericson_2005_collision], sec. 5.1.9.
+ClosestPoints closest_of_edges(const Corners& x)
 {
     const Vec3 d1 = x[1] - x[0], d2 = x[3] - x[2], r = x[0] - x[2];
     const double a = d1.squaredNorm(), e = d2.squaredNorm(), b = d1.dot(d2), c = d1.dot(r), f = d2.dot(r);
     const double denominator = a * e - b * b;
-    // parallel to rounding: any s will do, the clamps below find the true closest pair of ends
-    double s = denominator > 1e-14 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
+    double s = denominator > k_parallel * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
     double t = e > 0 ? (b * s + f) / e : 0.0;
     if (t < 0 || t > 1 || e == 0) {
         t = std::clamp(t, 0.0, 1.0);
-        s = along(x[2] + t * d2, x[0], d1);
+        s = project_onto_segment(x[2] + t * d2, x[0], d1);
     }
-    Closest result { { 1 - s, s, t - 1, -t }, 0 };
+    ClosestPoints result { { 1 - s, s, t - 1, -t }, 0 };
     result.distance = separation(result.weights, x).norm();
     return result;
 }
 
 }  // namespace
 
-Closest closest(PairKind kind, const Corners& x)
+ClosestPoints closest_points(PairKind kind, const Corners& x)
 {
-    return kind == PairKind::vertex_face ? vertex_face(x) : edge_edge(x);
+    return kind == PairKind::vertex_face ? closest_of_vertex_and_face(x) : closest_of_edges(x);
 }
 
 double relative_travel(PairKind kind, const Corners& d)
@@ -81,32 +92,31 @@ double relative_travel(PairKind kind, const Corners& d)
     return std::max(travel(0), travel(1)) + std::max(travel(2), travel(3));
 }
 
-double kept_distance(double distance, double gap)
+double required_distance(double distance, double min_distance)
 {
-    if (distance > gap)
-        return gap + 0.2 * (distance - gap);
-    return distance > 0.01 * gap ? 0.9 * distance : 0.999 * distance;
+    if (distance > min_distance)
+        return min_distance + k_kept_above_minimum * (distance - min_distance);
+    return distance * (distance > k_rounding_zone * min_distance ? k_kept_below_minimum : k_kept_in_rounding_zone);
 }
 
-double free_share(PairKind kind, Corners x, Corners d, double gap)
+double collision_free_fraction(PairKind kind, Corners x, const Corners& d, double min_distance)
 {
-    constexpr int k_most_advances = 200;  // the free way at least doubles in two: more than any real motion needs
     const double travel = relative_travel(kind, d);
     if (travel == 0)
         return 1;
-    double distance = closest(kind, x).distance;
-    const double kept = kept_distance(distance, gap);
-    if (travel <= distance - kept)
+    double distance = closest_points(kind, x).distance;
+    const double required = required_distance(distance, min_distance);
+    if (travel <= distance - required)
         return 1;
-    const double never_below = kept - 0.25 * (distance - kept);
+    const double floor = required - k_floor_below_kept * (distance - required);
     const Vec3 mean = 0.25 * (d[0] + d[1] + d[2] + d[3]);
     double t = 0;
     for (int i = 0; i < k_most_advances; ++i) {
-        const double advance = std::min(0.9 * (distance - never_below) / travel, 1 - t);
+        const double advance = std::min(k_advance * (distance - floor) / travel, 1 - t);
         for (int k = 0; k < 4; ++k)
             x[k] += advance * (d[k] - mean);
-        distance = closest(kind, x).distance;
-        if (distance < kept)
+        distance = closest_points(kind, x).distance;
+        if (distance < required)
             return t;
         t += advance;
         if (t >= 1)

@@ -6,12 +6,12 @@
 #include <queue>
 
 #include "parallel.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr int k_branches = 8;  // whatever the number of threads, so that sums have one order
-constexpr int k_stem = k_branches;
+constexpr int k_stem = k_factor_branches;  // the index of the stem among the branches
 
 /// The elimination tree of a factor: a column's parent is the first row below its diagonal.
 struct EliminationTree {
@@ -32,11 +32,10 @@ struct EliminationTree {
     }
 };
 
-/// For each column its branch, or k_stem. Subtrees are split from the top until each is a small part of the work; then they
-/// are dealt out, the largest first.
-std::vector<int> branches(const EliminationTree& tree)
+/// For each column its branch, or k_stem. Subtrees are split from the top until each is a small part of the work. Then
+/// they are dealt out, the largest first, each to the branch with the least work.
+std::vector<int> assign_branches(const EliminationTree& tree)
 {
-    constexpr long k_shares = 4 * k_branches;
     const int n = int(tree.parent.size());
     std::vector<std::vector<int>> children(n);
     using Subtree = std::pair<long, int>;  // work, root
@@ -48,14 +47,14 @@ std::vector<int> branches(const EliminationTree& tree)
         else
             subtrees.emplace(tree.work[j], j), all += tree.work[j];
     std::vector<int> result(n, -1);
-    while (!subtrees.empty() && subtrees.top().first > all / k_shares) {
+    while (!subtrees.empty() && subtrees.top().first > all / (k_subtrees_per_branch * k_factor_branches)) {
         const int root = subtrees.top().second;
         subtrees.pop();
         result[root] = k_stem;
         for (const int child : children[root])
             subtrees.emplace(tree.work[child], child);
     }
-    std::array<long, k_branches> load {};
+    std::array<long, k_factor_branches> load {};
     for (; !subtrees.empty(); subtrees.pop()) {
         const auto least = std::min_element(load.begin(), load.end());
         result[subtrees.top().second] = int(least - load.begin());
@@ -76,46 +75,50 @@ bool SinglePrecisionFactor::compute(const Eigen::SparseMatrix<double>& system)
     cholesky_.factorize(system);
     if (cholesky_.info() != Eigen::Success)
         return false;
-    if (!analysed_)
-        divide();
+    if (!analysed_) {
+        const std::vector<int> branch = assign_branches(EliminationTree(cholesky_.matrixL().nestedExpression()));
+        order_columns(branch);
+        order_entries(branch);
+    }
     analysed_ = true;
     copy_values();
     return true;
 }
 
-void SinglePrecisionFactor::divide()
+void SinglePrecisionFactor::order_columns(const std::vector<int>& branch)
 {
-    const auto& factor = cholesky_.matrixL().nestedExpression();
-    const std::vector<int> branch = branches(EliminationTree(factor));
     columns_.resize(branch.size());
     std::iota(columns_.begin(), columns_.end(), 0);
     std::stable_sort(columns_.begin(), columns_.end(), [&](int i, int j) { return branch[i] < branch[j]; });
-    for (int b = 0; b <= k_branches; ++b)
-        branch_begin_.push_back(int(std::lower_bound(columns_.begin(), columns_.end(), b,
-                                                     [&](int column, int which) { return branch[column] < which; })
-                                    - columns_.begin()));
-
-    std::vector<int> at(columns_.size());
+    const auto is_before = [&](int column, int b) { return branch[column] < b; };
+    for (int b = 0; b <= k_factor_branches; ++b)
+        branch_begin_.push_back(
+            int(std::lower_bound(columns_.begin(), columns_.end(), b, is_before) - columns_.begin()));
+    new_index_.resize(columns_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i)
-        at[columns_[i]] = int(i);
-    const auto& permuted = cholesky_.permutationP().indices();
-    for (Eigen::Index v = 0; v < permuted.size(); ++v)
-        place_.push_back(at[permuted[v]]);
-    // Columns are sorted; a stable partition keeps them so in either part.
+        new_index_[columns_[i]] = int(i);
+    for (const int column : cholesky_.permutationP().indices())
+        place_.push_back(new_index_[column]);
+}
+
+// Two passes over a column keep its entries sorted in either part.
+void SinglePrecisionFactor::order_entries(const std::vector<int>& branch)
+{
+    const auto& factor = cholesky_.matrixL().nestedExpression();
     const int* begin = factor.outerIndexPtr();
     const int* row = factor.innerIndexPtr();
+    const auto add_entries = [&](int column, bool in_stem) {
+        for (int entry = begin[column] + 1; entry < begin[column + 1]; ++entry)
+            if ((branch[row[entry]] == k_stem) == in_stem) {
+                entries_.push_back(entry);
+                rows_.push_back(new_index_[row[entry]]);
+            }
+    };
     begin_.push_back(0);
     for (const int column : columns_) {
-        const auto in_stem = [&](int entry) { return branch[row[entry]] == k_stem; };
-        for (const bool stem : { false, true }) {
-            for (int entry = begin[column] + 1; entry < begin[column + 1]; ++entry)
-                if (in_stem(entry) == stem) {
-                    entries_.push_back(entry);
-                    rows_.push_back(at[row[entry]]);
-                }
-            if (!stem)
-                stem_entries_.push_back(int(rows_.size()));
-        }
+        add_entries(column, false);
+        stem_entries_.push_back(int(rows_.size()));
+        add_entries(column, true);
         begin_.push_back(int(rows_.size()));
     }
 }
@@ -131,7 +134,7 @@ void SinglePrecisionFactor::copy_values()
         inverse_diagonal_[j] = float(1 / factor.valuePtr()[factor.outerIndexPtr()[columns_[j]]]);
 }
 
-// What a column sends to the stem is gathered in `stem`, whose first element stands for the stem's first unknown.
+// Adds what the columns contribute to the stem to `stem`, whose first element is the stem's first unknown.
 void SinglePrecisionFactor::forward(Quads& x, int begin, int end, Eigen::Vector4f* stem) const
 {
     const int stem_begin = branch_begin_.back();
@@ -148,7 +151,8 @@ void SinglePrecisionFactor::forward(Quads& x, int begin, int end, Eigen::Vector4
 void SinglePrecisionFactor::backward(Quads& x, int begin, int end) const
 {
     for (int j = end - 1; j >= begin; --j) {
-        Eigen::Vector4f sum = x[j], other = Eigen::Vector4f::Zero();  // two sums: neither waits for the other
+        Eigen::Vector4f sum = x[j],
+                        other = Eigen::Vector4f::Zero();  // two independent sums, for the processor's pipeline
         int i = begin_[j];
         for (; i + 1 < begin_[j + 1]; i += 2) {
             sum -= below_[i] * x[rows_[i]];
@@ -167,17 +171,17 @@ Positions SinglePrecisionFactor::solve(const Positions& right) const
     for (int v = 0; v < n; ++v)
         x[place_[v]] << right.row(v).transpose().cast<float>(), 0;
 
-    std::array<Quads, k_branches> sent;
-    parallel_for(k_branches, [&](int b) {
-        sent[b].assign(n - stem_begin, Eigen::Vector4f::Zero());
-        forward(x, branch_begin_[b], branch_begin_[b + 1], sent[b].data());
+    std::array<Quads, k_factor_branches> to_stem;
+    parallel_for(k_factor_branches, [&](int b) {
+        to_stem[b].assign(n - stem_begin, Eigen::Vector4f::Zero());
+        forward(x, branch_begin_[b], branch_begin_[b + 1], to_stem[b].data());
     });
-    for (const Quads& one : sent)
+    for (const Quads& one : to_stem)
         for (int j = stem_begin; j < n; ++j)
             x[j] += one[j - stem_begin];
     forward(x, stem_begin, n, x.data() + stem_begin);
     backward(x, stem_begin, n);
-    parallel_for(k_branches, [&](int b) { backward(x, branch_begin_[b], branch_begin_[b + 1]); });
+    parallel_for(k_factor_branches, [&](int b) { backward(x, branch_begin_[b], branch_begin_[b + 1]); });
 
     Positions result(n, 3);
     for (int v = 0; v < n; ++v)

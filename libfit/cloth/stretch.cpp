@@ -22,11 +22,11 @@ std::vector<double> stretches(const Positions& rest, const Positions& positions,
     return result;
 }
 
-double quantile(std::vector<double> values, double share)
+double quantile(std::vector<double> values, double fraction)
 {
     if (values.empty())
         return 0;
-    const auto nth = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    const auto nth = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
     std::nth_element(values.begin(), nth, values.end());
     return *nth;
 }

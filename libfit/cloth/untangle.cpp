@@ -3,44 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include "disjoint_sets.h"
+#include "exact_crossings.h"
 #include "nearest.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr int k_rounds = 300;
-constexpr int k_patience = 60;  // rounds without fewer crossings than ever before
-// Lengths in mean edges of the tangled cloth: the way of a vertex in one round, and how far round a tangle cloth gives way.
-constexpr double k_step = 0.3, k_reach = 5;
-// A tangle goes apart as a piece of cloth and not vertex by vertex: passes over the edges that even its motion out.
-constexpr int k_smoothing_passes = 4;
-// An edge that grazes a triangle has its crossing point slide along for ever; the slope counts as at least this.
+// unit: the crossing point of an edge that grazes a triangle slides along without bound; its slope counts as at least
+// this.
 constexpr double k_least_slope = 1e-3;
 
-using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
+std::vector<Crossing> find_tangles(const TriangleMesh& cloth, const Edges& edges)
+{
+    return find_self_crossings(cloth, edges, TriangleTree(cloth));
+}
 
-/// The cloth about its tangles.
+/// The cloth around its tangles.
 struct Region {
     std::vector<int> vertices;  // of the whole cloth
     TriangleMesh mesh;
-    std::vector<char> free;  // vertices that may move; the rim may not
+    std::vector<char> is_free;  // may move; the rim may not
 };
 
-double mean_length(const Positions& x, const Edges& edges)
+// Vertices of the cloth near any of the edges and triangles that cross.
+std::vector<char> mark_near(const std::vector<Crossing>& tangles, const TriangleMesh& cloth, const Edges& edges)
 {
-    double sum = 0;
-    for (Eigen::Index e = 0; e < edges.rows(); ++e)
-        sum += (x.row(edges(e, 0)) - x.row(edges(e, 1))).norm();
-    return sum / double(edges.rows());
-}
-
-Region region_about(const std::vector<Crossing>& tangles, const TriangleMesh& cloth)
-{
-    const Edges edges = edges_of(cloth.triangles);
     Positions corners(5 * Eigen::Index(tangles.size()), 3);
     for (std::size_t i = 0; i < tangles.size(); ++i) {
         const auto& [e, f] = tangles[i];
@@ -48,23 +39,28 @@ Region region_about(const std::vector<Crossing>& tangles, const TriangleMesh& cl
             corners.row(5 * Eigen::Index(i) + k) = cloth.positions.row(k < 2 ? edges(e, k) : cloth.triangles(f, k - 2));
     }
     const NearestPoint tangled(corners);
-    const double reach = k_reach * mean_length(cloth.positions, edges);
-    std::vector<char> near(cloth.positions.rows());
+    const double reach = k_untangle_reach * mean_edge_length(cloth.positions, edges);
+    std::vector<char> is_near(cloth.positions.rows());
     for (Eigen::Index v = 0; v < cloth.positions.rows(); ++v)
-        near[v] = tangled.distance(cloth.positions.row(v)) < reach;
+        is_near[v] = tangled.distance(cloth.positions.row(v)) < reach;
+    return is_near;
+}
 
+Region cut_out_region(const std::vector<Crossing>& tangles, const TriangleMesh& cloth, const Edges& edges)
+{
+    const std::vector<char> is_near = mark_near(tangles, cloth, edges);
     Region result;
     std::vector<int> row(cloth.positions.rows(), -1);
     std::vector<Eigen::RowVector3i> triangles;
     for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f) {
         const auto corner = cloth.triangles.row(f);
-        if (!near[corner[0]] && !near[corner[1]] && !near[corner[2]])
+        if (!is_near[corner[0]] && !is_near[corner[1]] && !is_near[corner[2]])
             continue;
         for (int v : corner)
             if (row[v] < 0) {
                 row[v] = int(result.vertices.size());
                 result.vertices.push_back(v);
-                result.free.push_back(near[v]);
+                result.is_free.push_back(is_near[v]);
             }
         triangles.emplace_back(row[corner[0]], row[corner[1]], row[corner[2]]);
     }
@@ -75,26 +71,26 @@ Region region_about(const std::vector<Crossing>& tangles, const TriangleMesh& cl
     return result;
 }
 
-class Untangling {
+/// Minimises the intersection contours of a region.
+class ContourMinimiser {
 public:
-    explicit Untangling(Region region) :
-        region_(std::move(region)), given_(region_.mesh.positions), edges_(edges_of(region_.mesh.triangles)),
-        step_(k_step * mean_length(given_, edges_))
+    explicit ContourMinimiser(Region region) :
+        region_(std::move(region)), given_(region_.mesh.positions),
+        topology_(region_.mesh.triangles, int(given_.rows())), edges_(topology_.edges()),
+        edges_at_(edge_counts(edges_, given_.rows())), step_(k_untangle_step * mean_edge_length(given_, edges_))
     {
-        for (const auto& corners : region_.mesh.triangles.rowwise())
-            for (int k = 0; k < 3; ++k)
-                opposite_[std::minmax({ corners[k], corners[(k + 1) % 3] })].push_back(corners[(k + 2) % 3]);
     }
 
-    /// Moves the region's vertices until nothing crosses, and puts those of tangles that are left back.
+    /// Moves the region's vertices until nothing crosses, and restores those of tangles that are left.
     const Region& run()
     {
-        std::vector<Crossing> left = self_crossings(region_.mesh);
+        std::vector<Crossing> left = find_tangles(region_.mesh, edges_);
         std::size_t fewest = left.size();
-        for (int round = 0, in_vain = 0; round < k_rounds && in_vain < k_patience && !left.empty(); ++round) {
+        for (int round = 0, stalled = 0;
+             round < k_untangle_rounds && stalled < k_untangle_stall_rounds && !left.empty(); ++round) {
             region_.mesh.positions += motion(left);
-            left = self_crossings(region_.mesh);
-            in_vain = left.size() < fewest ? 0 : in_vain + 1;
+            left = find_tangles(region_.mesh, edges_);
+            stalled = left.size() < fewest ? 0 : stalled + 1;
             fewest = std::min(fewest, left.size());
         }
         restore(left);
@@ -104,15 +100,17 @@ public:
 private:
     Vec3 at(int v) const { return region_.mesh.positions.row(v); }
 
-    /// Where the edge should go, the triangle staying, for the crossing curve to grow shorter. Of each triangle at the edge
-    /// the curve starts where the edge passes, and runs inwards.
-    Vec3 way_out(int e, const Vec3& normal) const
+    /// The direction in which the edge should go, the triangle fixed, for the intersection curve to grow shorter. In each
+    /// triangle at the edge the curve starts where the edge passes, and runs inwards.
+    /// literature: [volino_2006_contours], the gradient R - 2 (E R) / (E N) N of a curve along R at an edge along E.
+    Vec3 contour_gradient(int e, const Vec3& normal) const
     {
         const Vec3 a = at(edges_(e, 0)), along = (at(edges_(e, 1)) - a).normalized();
         const double slope = std::copysign(std::max(std::abs(along.dot(normal)), k_least_slope), along.dot(normal));
         Vec3 result = Vec3::Zero();
-        for (int v : opposite_.at({ edges_(e, 0), edges_(e, 1) })) {
-            const Vec3 across = at(v) - a, inwards = across - across.dot(along) * along;
+        for (const int side : topology_.sides_at(e)) {
+            const Vec3 across = at(region_.mesh.triangles(side / 3, (side % 3 + 2) % 3)) - a;
+            const Vec3 inwards = across - across.dot(along) * along;
             Vec3 curve = along.cross(across).cross(normal).normalized();
             if (curve.dot(inwards) < 0)
                 curve = -curve;
@@ -124,13 +122,14 @@ private:
     Positions motion(const std::vector<Crossing>& crossings) const
     {
         Positions sum = Positions::Zero(given_.rows(), 3);
-        Eigen::VectorXd shares = Eigen::VectorXd::Zero(given_.rows());
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(given_.rows());
         for (const auto& [e, f] : crossings)
-            add(e, region_.mesh.triangles.row(f), sum, shares);
-        return smooth(step_ * (sum.array().colwise() / shares.array().max(1)).matrix());
+            add_push(e, region_.mesh.triangles.row(f), sum, weights);
+        return smooth(step_ * (sum.array().colwise() / weights.array().max(1)).matrix());
     }
 
-    void add(int e, const Eigen::RowVector3i& corners, Positions& sum, Eigen::VectorXd& shares) const
+    /// Pushes edge and triangle apart, each vertex by its weight in the crossing point.
+    void add_push(int e, const Eigen::RowVector3i& corners, Positions& sum, Eigen::VectorXd& weights) const
     {
         const Vec3 p = at(edges_(e, 0)), q = at(edges_(e, 1)), a = at(corners[0]), b = at(corners[1]),
                    c = at(corners[2]);
@@ -140,73 +139,74 @@ private:
         const Vec3 normal = across.normalized();
         const double height = (q - p).dot(normal);
         const double s = height == 0 ? 0.5 : std::clamp((a - p).dot(normal) / height, 0.0, 1.0);
-        const Vec3 place = p + s * (q - p), way = way_out(e, normal);
-        const auto share = [&](const Vec3& u, const Vec3& v) {
+        const Vec3 place = p + s * (q - p), direction = contour_gradient(e, normal);
+        const auto barycentric = [&](const Vec3& u, const Vec3& v) {
             return std::clamp((v - u).cross(place - u).dot(across) / across.squaredNorm(), 0.0, 1.0);
         };
-        const auto push = [&](int v, double weight, const Vec3& direction) {
-            sum.row(v) += weight * direction;
-            shares[v] += weight;
+        const auto push = [&](int v, double weight, const Vec3& towards) {
+            sum.row(v) += weight * towards;
+            weights[v] += weight;
         };
-        push(edges_(e, 0), 1 - s, way);
-        push(edges_(e, 1), s, way);
-        push(corners[0], share(b, c), -way);
-        push(corners[1], share(c, a), -way);
-        push(corners[2], share(a, b), -way);
+        push(edges_(e, 0), 1 - s, direction);
+        push(edges_(e, 1), s, direction);
+        push(corners[0], barycentric(b, c), -direction);
+        push(corners[1], barycentric(c, a), -direction);
+        push(corners[2], barycentric(a, b), -direction);
     }
 
     Positions smooth(Positions motion) const
     {
-        for (int pass = 0; pass < k_smoothing_passes; ++pass) {
+        for (int pass = 0; pass < k_untangle_smoothing_passes; ++pass) {
             Positions sum = Positions::Zero(motion.rows(), 3);
-            Eigen::VectorXd count = Eigen::VectorXd::Zero(motion.rows());
-            for (Eigen::Index e = 0; e < edges_.rows(); ++e)
-                for (int k = 0; k < 2; ++k) {
-                    sum.row(edges_(e, k)) += motion.row(edges_(e, 1 - k));
-                    count[edges_(e, k)] += 1;
-                }
+            add_neighbours(edges_, motion, sum);
             for (Eigen::Index v = 0; v < motion.rows(); ++v)
-                motion.row(v) = region_.free[v] ? Eigen::RowVector3d(0.5 * motion.row(v) + 0.5 / count[v] * sum.row(v))
-                                                : Eigen::RowVector3d::Zero();
+                motion.row(v) = region_.is_free[v]
+                    ? Eigen::RowVector3d((1 - k_untangle_smoothing) * motion.row(v)
+                                         + k_untangle_smoothing / edges_at_[v] * sum.row(v))
+                    : Eigen::RowVector3d::Zero();
         }
         return motion;
     }
 
+    // Pieces that cross each other are one tangle.
     void restore(const std::vector<Crossing>& left)
     {
-        const TriangleMesh& mesh = region_.mesh;
+        const Triangles& triangles = region_.mesh.triangles;
         DisjointSets pieces(int(given_.rows()));
         for (Eigen::Index e = 0; e < edges_.rows(); ++e)
             pieces.join(edges_(e, 0), edges_(e, 1));
         for (const auto& [e, f] : left)
-            pieces.join(edges_(e, 0), mesh.triangles(f, 0));
-        std::vector<char> tangled(given_.rows(), 0);
+            pieces.join(edges_(e, 0), triangles(f, 0));
+        std::vector<char> is_tangled(given_.rows(), 0);
         for (const auto& [e, f] : left)
-            tangled[pieces.root(edges_(e, 0))] = 1;
+            is_tangled[pieces.root(edges_(e, 0))] = 1;
         for (int v = 0; v < int(given_.rows()); ++v)
-            if (tangled[pieces.root(v)])
+            if (is_tangled[pieces.root(v)])
                 region_.mesh.positions.row(v) = given_.row(v);
     }
 
     Region region_;
-    Positions given_;
-    Edges edges_;
-    std::map<std::pair<int, int>, std::vector<int>> opposite_;  // corners to each edge, in its triangles
-    double step_;  // metres
+    const Positions given_;
+    const MeshTopology topology_;
+    const Edges& edges_;  // of topology_
+    const Eigen::VectorXd edges_at_;  // each vertex
+    const double step_;  // metres
 };
 
 }  // namespace
 
-Untangled untangle(const TriangleMesh& cloth)
+UntangleResult untangle(const TriangleMesh& cloth) { return untangle(cloth, edges_of(cloth.triangles)); }
+
+UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges)
 {
-    const std::vector<Crossing> tangles = self_crossings(cloth);
+    const std::vector<Crossing> tangles = find_tangles(cloth, edges);
     if (tangles.empty())
         return { cloth.positions, {} };
-    Untangling untangling(region_about(tangles, cloth));
-    const Region& parted = untangling.run();
+    ContourMinimiser minimiser(cut_out_region(tangles, cloth, edges));
+    const Region& parted = minimiser.run();
     TriangleMesh result = cloth;
     result.positions(parted.vertices, Eigen::all) = parted.mesh.positions;
-    const std::vector<Crossing> left = self_crossings(result);
+    const std::vector<Crossing> left = find_tangles(result, edges);
     if (!std::includes(tangles.begin(), tangles.end(), left.begin(), left.end()))
         return { cloth.positions, tangles };
     return { result.positions, left };

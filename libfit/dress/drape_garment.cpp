@@ -34,7 +34,7 @@ std::optional<Positions> untangle_retracted(const SleeveRetraction& retraction, 
 {
     const Weld weld(garment);
     const GarmentMesh given = weld.gathered(garment);
-    const Untangled retracted = untangle({ weld.gathered(retraction.positions()), given.triangles });
+    const UntangleResult retracted = untangle({ weld.gathered(retraction.positions()), given.triangles });
     if (!retracted.left.empty())
         if (const std::vector<Crossing> crossed = self_crossings({ given.positions, given.triangles });
             !std::includes(crossed.begin(), crossed.end(), retracted.left.begin(), retracted.left.end()))

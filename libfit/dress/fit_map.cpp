@@ -41,7 +41,7 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
     const GarmentMesh rest = weld.gathered(worn.rest);
     const Positions x = weld.gathered(worn.positions);
     const double density = material_of(options).density;
-    const ClothEnergy energy(rest, {}, options);
+    const ClothEnergy energy(rest, MeshTopology(rest.triangles, int(rest.positions.rows())), {}, options);
     const Positions forces = energy.elastic_forces(x);
     const TriangleTree skin(body);
 

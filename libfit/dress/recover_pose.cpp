@@ -119,7 +119,7 @@ MotionStep moving_step(const Positions& target)
     MotionStep step;
     step.obstacle_target = &target;
     step.gravity = k_gravity;
-    step.friction_share = k_moving_friction;
+    step.friction_fraction = k_moving_friction;
     return step;
 }
 

@@ -5,9 +5,9 @@
 
 #include <random>
 
+#include "fixtures.h"
 #include "garmentfit/certificate.h"
 #include "garmentfit/fit_map.h"
-#include "fixtures.h"
 
 namespace {
 
@@ -85,7 +85,7 @@ TEST(ClothMotion, NeverCrossesWhateverIsInflatedInWhateverCloth)
         step.largest_move = whim.between(2e-3, 5e-2);
         step.largest_obstacle_move = whim.between(2e-3, 5e-2);
         step.gravity = whim.between(0, 30);
-        step.friction_share = whim.between(0, 1);
+        step.friction_fraction = whim.between(0, 1);
         step.velocity_kept = whim.between(0, 0.95);
         constexpr int steps = 8;
         for (int i = 1; i <= steps; ++i) {

@@ -10,11 +10,12 @@
 #include <random>
 #include <set>
 
-#include "cloth_energy.h"
 #include "cloth_motion.h"
 #include "collapse.h"
+#include "collision_free_step.h"
 #include "fixtures.h"
 #include "garmentfit/certificate.h"
+#include "preconditioned_cg.h"
 
 namespace {
 
@@ -41,6 +42,8 @@ GarmentMesh tube(double radius, int rings = 12, int around = 24)
     return mesh;
 }
 
+MeshTopology topology_of(const GarmentMesh& mesh) { return { mesh.triangles, int(mesh.positions.rows()) }; }
+
 TriangleMesh ball(double radius)
 {
     return polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-radius - 0.1),
@@ -61,8 +64,8 @@ TEST(Proximity, ClosestPointsAreNoFurtherThanAnySample)
     std::mt19937 random(1);
     for (int trial = 0; trial < 200; ++trial) {
         const Corners x = random_corners(random);
-        const double face = closest(PairKind::vertex_face, x).distance,
-                     edges = closest(PairKind::edge_edge, x).distance;
+        const double face = closest_points(PairKind::vertex_face, x).distance,
+                     edges = closest_points(PairKind::edge_edge, x).distance;
         for (double s = 0; s <= 1; s += 0.1)
             for (double t = 0; t <= 1; t += 0.1) {
                 EXPECT_LE(edges, (x[0] + s * (x[1] - x[0]) - x[2] - t * (x[3] - x[2])).norm() + 1e-12);
@@ -76,25 +79,26 @@ TEST(Proximity, ClosestPointsAreNoFurtherThanAnySample)
 TEST(Proximity, DegeneratePrimitivesHaveDistances)
 {
     const Vec3 o = Vec3::Zero(), x = Vec3::UnitX(), y = Vec3::UnitY();
-    EXPECT_DOUBLE_EQ(closest(PairKind::vertex_face, { y, o, o, o }).distance, 1);
-    EXPECT_DOUBLE_EQ(closest(PairKind::vertex_face, { y, -x, o, x }).distance, 1);
-    EXPECT_DOUBLE_EQ(closest(PairKind::edge_edge, { y, y, o, o }).distance, 1);
-    EXPECT_DOUBLE_EQ(closest(PairKind::edge_edge, { y, Vec3(x + y), o, x }).distance, 1);  // parallel
+    EXPECT_DOUBLE_EQ(closest_points(PairKind::vertex_face, { y, o, o, o }).distance, 1);
+    EXPECT_DOUBLE_EQ(closest_points(PairKind::vertex_face, { y, -x, o, x }).distance, 1);
+    EXPECT_DOUBLE_EQ(closest_points(PairKind::edge_edge, { y, y, o, o }).distance, 1);
+    EXPECT_DOUBLE_EQ(closest_points(PairKind::edge_edge, { y, Vec3(x + y), o, x }).distance, 1);  // parallel
 }
 
-TEST(Proximity, TheFreeShareNeverComesNearerThanItMay)
+TEST(Proximity, ACollisionFreeFractionKeepsTheRequiredDistance)
 {
     std::mt19937 random(2);
     constexpr double gap = 0.01;
     for (int trial = 0; trial < 500; ++trial)
         for (const PairKind kind : { PairKind::vertex_face, PairKind::edge_edge }) {
             const Corners x = random_corners(random), d = random_corners(random);
-            const double share = free_share(kind, x, d, gap), allowed = kept_distance(closest(kind, x).distance, gap);
+            const double fraction = collision_free_fraction(kind, x, d, gap),
+                         allowed = required_distance(closest_points(kind, x).distance, gap);
             for (double t = 0; t <= 1; t += 0.05) {
                 Corners moved = x;
                 for (int k = 0; k < 4; ++k)
-                    moved[k] += t * share * d[k];
-                EXPECT_GE(closest(kind, moved).distance, allowed - 1e-12);
+                    moved[k] += t * fraction * d[k];
+                EXPECT_GE(closest_points(kind, moved).distance, allowed - 1e-12);
             }
         }
 }
@@ -102,19 +106,29 @@ TEST(Proximity, TheFreeShareNeverComesNearerThanItMay)
 TEST(Proximity, CommonMotionIsFree)
 {
     Corners x { Vec3(0, 1e-7, 0), Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(0, 0, 1) };
-    EXPECT_EQ(
-        free_share(PairKind::vertex_face, x, { Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1) }, 1e-4),
-        1);
-    EXPECT_EQ(free_share(PairKind::vertex_face, x, { Vec3(0, 1, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero() }, 1e-4),
+    EXPECT_EQ(collision_free_fraction(PairKind::vertex_face, x,
+                                      { Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1), Vec3(3, -2, 1) }, 1e-4),
+              1);
+    EXPECT_EQ(collision_free_fraction(PairKind::vertex_face, x,
+                                      { Vec3(0, 1, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero() }, 1e-4),
               1);
 }
 
-TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
+ContactDetector detector_of(const Triangles& cloth, int cloth_vertices, const Triangles& obstacle, int body_vertices,
+                            const Margins& spare = { 0, 0 })
+{
+    return { { cloth, edges_of(cloth), cloth_vertices },
+             { obstacle, edges_of(obstacle), body_vertices },
+             body_vertices,
+             spare };
+}
+
+TEST(Contact, NothingCrossesHoweverItIsPushed)
 {
     const GarmentMesh cloth = tube(0.15);
     const TriangleMesh obstacle = ball(0.1);
     const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
-    Contact contact(cloth.triangles, n, obstacle.triangles);
+    ContactDetector contact = detector_of(cloth.triangles, n, obstacle.triangles, m);
     Positions x(n + m, 3);
     x << cloth.positions, obstacle.positions;
     std::srand(3);
@@ -122,24 +136,24 @@ TEST(Contact, NoVertexPassesThroughAnythingHoweverItIsPushed)
         Positions push = 0.02 * Positions::Random(n + m, 3);
         push.topRows(n) -= 0.1 * x.topRows(n);  // the cloth is crushed onto the ball and itself
         contact.detect(x, push, { 1e-4, 1e-4 });
-        const std::vector<double> shares = contact.free_shares(x, push, 1e-4);
+        const std::vector<double> fractions = collision_free_fractions(contact.pairs(), x, push, 1e-4);
         for (int v = 0; v < n + m; ++v)
-            x.row(v) += shares[v] * push.row(v);
+            x.row(v) += fractions[v] * push.row(v);
         const TriangleMesh now { x.topRows(n), cloth.triangles };
         ASSERT_EQ(crossing_count(now, { x.bottomRows(m), obstacle.triangles }), 0) << "step " << step;
         ASSERT_TRUE(self_crossings(now).empty()) << "step " << step;
     }
 }
 
-TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
+TEST(Contact, ASearchServesLaterDetectionsAsAFreshOneWould)
 {
     const GarmentMesh cloth = tube(0.11);
     const TriangleMesh obstacle = ball(0.1);
     const int n = int(cloth.positions.rows()), m = int(obstacle.positions.rows());
-    Contact lasting(cloth.triangles, n, obstacle.triangles, { 5e-3, 8e-3 });
+    ContactDetector lasting = detector_of(cloth.triangles, n, obstacle.triangles, m, { 5e-3, 8e-3 });
     Positions x(n + m, 3);
     x << cloth.positions, obstacle.positions;
-    const auto meeting = [](const Contact& contact) {
+    const auto meeting = [](const ContactDetector& contact) {
         std::set<std::pair<PairKind, std::array<int, 4>>> result;
         for (const ContactPair& pair : contact.pairs())
             result.emplace(pair.kind, pair.vertices);
@@ -147,7 +161,7 @@ TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
     };
     std::srand(4);
     for (int step = 0; step < 30; ++step) {
-        Contact fresh(cloth.triangles, n, obstacle.triangles);
+        ContactDetector fresh = detector_of(cloth.triangles, n, obstacle.triangles, m);
         fresh.detect(x, Positions::Zero(n + m, 3), { 3e-3, 7e-3 });
         lasting.detect(x, Positions::Zero(n + m, 3), { 3e-3, 7e-3 });
         EXPECT_FALSE(fresh.pairs().empty());
@@ -156,7 +170,7 @@ TEST(Contact, WhatASearchFoundServesLaterDetectionsAsAFreshSearchWould)
     }
 }
 
-TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
+TEST(Contact, PairsThatCollideMoveAsOneZoneAndTheOthersOnTheirOwn)
 {
     // two sheets that all but touch, pushed into each other and along +z; a third far off
     const auto sheet = [](double y) {
@@ -170,16 +184,17 @@ TEST(Contact, WhatLocksItselfGoesAsOneAndTheRestItsOwnWay)
     push.col(2).array() += 0.1;
     Triangles triangles(3, 3);
     triangles << 0, 1, 2, 3, 4, 5, 6, 7, 8;
-    Contact contact(triangles, 9, Triangles(0, 3));
+    constexpr int cloth_vertices = 9;
+    ContactDetector contact = detector_of(triangles, cloth_vertices, Triangles(0, 3), 0);
     contact.detect(x, push, { 1e-4, 1e-4 });
-    const Positions together = contact.joined(x, push, 1e-4);
+    const Positions together = merge_impact_zones(contact.pairs(), cloth_vertices, x, push, 1e-4);
     for (int v = 0; v < 6; ++v)
         EXPECT_LT((together.row(v) - Eigen::RowVector3d(0, 0, 0.1)).norm(), 1e-12) << v;
     EXPECT_EQ(together.bottomRows(3), push.bottomRows(3));
-    EXPECT_EQ(contact.free_shares(x, together, 1e-4), std::vector<double>(9, 1.0));
+    EXPECT_EQ(collision_free_fractions(contact.pairs(), x, together, 1e-4), std::vector<double>(9, 1.0));
 }
 
-TEST(Contact, WhatLocksToAnObstacleThatStandsStillStandsStill)
+TEST(Contact, AZoneWithAnObstacleThatStandsStillStandsStill)
 {
     Positions x(6, 3), push = Positions::Zero(6, 3);
     x << 0, 1e-5, 0, 1, 1e-5, 0, 0, 1e-5, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1;
@@ -187,12 +202,33 @@ TEST(Contact, WhatLocksToAnObstacleThatStandsStillStandsStill)
     push.topRows(3).col(2).setConstant(0.1);
     Triangles triangle(1, 3);
     triangle << 0, 1, 2;
-    Contact contact(triangle, 3, triangle);
+    constexpr int cloth_vertices = 3;
+    ContactDetector contact = detector_of(triangle, cloth_vertices, triangle, 3);
     contact.detect(x, push, { 1e-4, 1e-4 });
-    EXPECT_TRUE(contact.joined(x, push, 1e-4).isZero(0));
+    EXPECT_TRUE(merge_impact_zones(contact.pairs(), cloth_vertices, x, push, 1e-4).isZero(0));
     push.row(5) << 0, 0, 0.01;  // an obstacle on its way is taken along
     contact.detect(x, push, { 1e-4, 1e-4 });
-    EXPECT_FALSE(contact.joined(x, push, 1e-4).isZero(0));
+    EXPECT_FALSE(merge_impact_zones(contact.pairs(), cloth_vertices, x, push, 1e-4).isZero(0));
+}
+
+// Four triangles above each other, 1 mm apart: a layer, the body, and two of the cloth.
+TEST(Contact, APairTellsWhetherItIsWithTheBodyALayerOrTheClothItself)
+{
+    const Triangles two = (Triangles(2, 3) << 0, 1, 2, 3, 4, 5).finished();
+    Positions x(12, 3);
+    for (int t = 0; t < 4; ++t) {
+        const double y = 1e-3 * std::array { 0, 1, -1, -2 }[t];
+        x.middleRows(3 * t, 3) << 0, y, 0, 1, y, 0, 0, y, 1;
+    }
+    ContactDetector contact({ two, edges_of(two), 6 }, { two, edges_of(two), 6 }, 3);
+    contact.detect(x, Positions::Zero(12, 3), { 2.1e-3, 0 });
+    std::set<ContactReason> reasons;
+    for (const ContactPair& pair : contact.pairs()) {
+        const int last = *std::max_element(pair.vertices.begin(), pair.vertices.end());
+        EXPECT_EQ(pair.reason, last < 6 ? ContactReason::self : last < 9 ? ContactReason::body : ContactReason::layer);
+        reasons.insert(pair.reason);
+    }
+    EXPECT_EQ(reasons.size(), 3u);
 }
 
 TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
@@ -265,11 +301,11 @@ TEST(SinglePrecisionFactor, SolvesForThreeRightSidesToSingleDigits)
 TEST(ClothEnergy, AGarmentAtRestStays)
 {
     const GarmentMesh cloth = tube(0.15);
-    ClothEnergy energy(cloth, {}, {});
+    ClothEnergy energy(cloth, topology_of(cloth), {}, {});
     energy.set_time_step(0.02);
-    Descent descent(energy, cloth.positions, cloth.positions);
-    descent.step();
-    EXPECT_LT((descent.positions() - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
+    PreconditionedCG solver(energy, cloth.positions, cloth.positions);
+    solver.iterate();
+    EXPECT_LT((solver.positions() - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(ClothEnergy, FallsFreelyByHalfGTimesTimeSquared)
@@ -296,16 +332,16 @@ TEST(ClothEnergy, FallsFreelyByHalfGTimesTimeSquared)
 TEST(ClothEnergy, AStretchedGarmentGetsBackTowardsItsLengths)
 {
     const GarmentMesh cloth = tube(0.15);
-    ClothEnergy energy(cloth, {}, {});
+    ClothEnergy energy(cloth, topology_of(cloth), {}, {});
     energy.set_time_step(0.02);
     Positions x = 1.2 * cloth.positions;
     double strain = strain_of(cloth, x).median;
     for (int i = 0; i < 10; ++i) {
         const Positions here = x;
-        Descent descent(energy, here, here);
+        PreconditionedCG solver(energy, here, here);
         for (int k = 0; k < 3; ++k)
-            descent.step();
-        x = descent.positions();
+            solver.iterate();
+        x = solver.positions();
         EXPECT_LT(strain_of(cloth, x).median, strain);
         strain = strain_of(cloth, x).median;
     }

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/certificate.h"
 #include "fixtures.h"
+#include "garmentfit/certificate.h"
 
 namespace {
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "prepared_cloth.h"
+
+#include "exact_crossings.h"
+
+namespace garmentfit {
+
+PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start)
+{
+    Weld weld(rest);
+    GarmentMesh cloth = weld.gathered(rest);
+    Positions positions = weld.gathered(start);
+    MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
+    return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), {} };
+}
+
+void untangle_clear_of(PreparedCloth& cloth, const TriangleMesh& obstacle)
+{
+    const TriangleMesh given { cloth.positions, cloth.rest.triangles };
+    const Edges& edges = cloth.topology.edges();
+    UntangleResult result = untangle(given, edges);
+    if (result.positions != given.positions && crossing_count({ result.positions, given.triangles }, obstacle) > 0) {
+        cloth.crossings = find_self_crossings(given, edges, TriangleTree(given));
+        return;
+    }
+    cloth.positions = std::move(result.positions);
+    cloth.crossings = std::move(result.left);
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A garment made ready to move. What needs its vertices welded and its edges listed takes this value, so both are done
+// once on the way from the file to the dressed garment.
+
+#include "garmentfit/mesh.h"
+#include "topology.h"
+#include "untangle.h"
+#include "weld.h"
+
+namespace garmentfit {
+
+struct PreparedCloth {
+    Weld weld;  ///< between the garment's own vertices and those of the cloth
+    GarmentMesh rest;  ///< welded
+    MeshTopology topology;  ///< of rest.triangles
+    Positions positions;  ///< at the start, welded, n x 3
+    std::vector<Crossing> crossings;  ///< pairs of the cloth that cross there and stay as they are
+};
+
+/// Welds the garment and lists its edges. `start` holds positions of the garment's own vertices. Nothing is untangled:
+/// `crossings` stays empty.
+PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start);
+
+/// Untangles the cloth where it can be done without meeting the obstacle, and writes down what still crosses.
+void untangle_clear_of(PreparedCloth& cloth, const TriangleMesh& obstacle);
+
+}  // namespace garmentfit
