@@ -99,7 +99,8 @@ int count_vertices_inside(const TriangleMesh& body, const IndexedMesh& garment,
     return count;
 }
 
-// Distances of vertices bound the distance from above. The contact search below that bound finds edges that come closer.
+// Distances of vertices bound the distance from above. The contact search below that bound finds edges that come
+// closer.
 double min_distance(const IndexedMesh& garment, const IndexedMesh& body)
 {
     const TriangleMesh &a = garment.mesh, &b = body.mesh;

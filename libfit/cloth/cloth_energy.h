@@ -6,8 +6,8 @@
 //
 // Stretch  a spring along each edge that wants its rest length. Beyond a limit it is stiffer; [provot_1995_cloth] moves
 //          such edges back instead.
-// Bend     quadratic hinges [bergou_2006_quadratic_bending] that want the mean curvature vector they have at rest, turned
-//          along with the hinge, so a garment keeps its own folds.
+// Bend     quadratic hinges [bergou_2006_quadratic_bending] that want the mean curvature vector they have at rest,
+//          turned along with the hinge, so a garment keeps its own folds.
 // Units    metres, kilograms, seconds. Positions and forces are n x 3.
 
 #include <Eigen/SparseCore>

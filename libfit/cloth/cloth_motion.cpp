@@ -23,8 +23,8 @@ PreparedCloth untangle_over(const GarmentMesh& rest, const Positions& start, con
     return result;
 }
 
-// What crosses at the start is held together as it is: it can neither part nor cross further. Loose parts are held on the
-// cloth under them.
+// What crosses at the start is held together as it is: it can neither part nor cross further. Loose parts are held on
+// the cloth under them.
 std::vector<std::pair<int, int>> find_ties(const PreparedCloth& cloth)
 {
     const Edges& edges = cloth.topology.edges();
@@ -126,8 +126,8 @@ Positions ClothMotion::move_freely(const Positions& displacements)
     return moved;
 }
 
-// The one place where positions change. Vertices that lie between others are held back although all of them want nearly the
-// same motion (a pinched fold, sheets that cross as given). The rest of their way they go as rigid impact zones.
+// The one place where positions change. Vertices that lie between others are held back although all of them want nearly
+// the same motion (a pinched fold, sheets that cross as given). The rest of their way they go as rigid impact zones.
 void ClothMotion::move(const Positions& displacements)
 {
     const Stopwatch watch(seconds_.detection);
@@ -158,7 +158,8 @@ std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const 
     return result;
 }
 
-// A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's law.
+// A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
+// law.
 std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<ActiveContact>& contacts,
                                                              const Positions& targets, const MotionStep& step) const
 {

@@ -3,9 +3,9 @@
 
 // Moves a garment and an obstacle together, only by motions without collision. No other code changes their positions.
 //
-// Each step has a target for every vertex: the obstacle's is given, the cloth's is the minimum of its energy. Every vertex
-// goes as far towards its target as nothing crosses. A vertex that is held back lags, and goes on at the next step; the
-// others do not wait for it.
+// Each step has a target for every vertex: the obstacle's is given, the cloth's is the minimum of its energy. Every
+// vertex goes as far towards its target as nothing crosses. A vertex that is held back lags, and goes on at the next
+// step; the others do not wait for it.
 //
 // Units    metres, kilograms, seconds.
 
@@ -39,8 +39,8 @@ public:
     /// `cloth` and the obstacle must not cross.
     ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options);
 
-    /// The same from a garment as it is, over an obstacle that is all body: where the cloth crosses itself it is untangled
-    /// first, as far as it can be. `start` is n x 3, the obstacle m x 3.
+    /// The same from a garment as it is, over an obstacle that is all body: where the cloth crosses itself it is
+    /// untangled first, as far as it can be. `start` is n x 3, the obstacle m x 3.
     ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                 const ClothOptions& options);
 
@@ -97,7 +97,8 @@ private:
     ClothSeconds seconds_;
 };
 
-/// Repeats a step until the whole obstacle is at its target, for as long as that is worth the time. @return as advance()
+/// Repeats a step until the whole obstacle is at its target, for as long as that is worth the time. @return as
+/// advance()
 double step_until_converged(ClothMotion& motion, const MotionStep& step);
 
 struct SettleResult {

@@ -58,7 +58,8 @@ private:
         return any;
     }
 
-    // After the last round, vertices of a pair that still collides stand still. That always ends: positions now are free.
+    // After the last round, vertices of a pair that still collides stand still. That always ends: positions now are
+    // free.
     void lower_pair(const ContactPair& pair, int round)
     {
         const auto& v = pair.vertices;

@@ -49,8 +49,8 @@ bool share_a_vertex(const std::array<int, 4>& v, int split)
     return false;
 }
 
-// How much nearer two primitives can come when each vertex goes any fraction of its path. Whatever the fractions are, the
-// separation changes by a mean of single paths and of differences of two of them.
+// How much nearer two primitives can come when each vertex goes any fraction of its path. Whatever the fractions are,
+// the separation changes by a mean of single paths and of differences of two of them.
 double approach_bound(const Positions& paths, const std::array<int, 4>& v, int split)
 {
     double square = 0;

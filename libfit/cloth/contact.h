@@ -3,8 +3,8 @@
 
 // Which primitives of cloth come close to each other, to the body, or to the garments worn under the cloth.
 //
-// The vertices of cloth and obstacle are numbered together: the cloth's first, then the body's, then those of the layers.
-// The obstacle is not compared with itself.
+// The vertices of cloth and obstacle are numbered together: the cloth's first, then the body's, then those of the
+// layers. The obstacle is not compared with itself.
 
 #include <unordered_set>
 #include <vector>
@@ -47,8 +47,8 @@ class ContactDetector {
 public:
     /// Indices of both surfaces begin at 0.
     /// @param body_vertices  of the obstacle; its other vertices belong to layers
-    /// @param spare          a search looks this much further than asked. Its pairs serve later detections, too, as long
-    ///                       as no vertex leaves the region that was searched
+    /// @param spare          a search looks this much further than asked. Its pairs serve later detections, too, as
+    ///                       long as no vertex leaves the region that was searched
     ContactDetector(const ContactSurface& cloth, const ContactSurface& obstacle, int body_vertices,
                     const Margins& spare = { 0, 0 });
 

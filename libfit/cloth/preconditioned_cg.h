@@ -3,8 +3,8 @@
 
 // Nonlinear conjugate gradients (Polak and Ribiere) for one implicit time step of cloth.
 //
-// Preconditioner  the constant quadratic form of projective dynamics; compare [liu_2017_quasi_newton]. That takes a third
-//                 of the triangular solves that a linear system after each projection takes.
+// Preconditioner  the constant quadratic form of projective dynamics; compare [liu_2017_quasi_newton]. That takes a
+//                 third of the triangular solves that a linear system after each projection takes.
 
 #include <vector>
 
@@ -18,8 +18,8 @@ public:
     /// Keeps references to `energy` and `inertial`.
     PreconditionedCG(const ClothEnergy& energy, const Positions& start, const Positions& inertial);
 
-    /// Takes these constraints, and the strain limits and the frames of hinges at the present positions; all of them hold
-    /// until the next call. Without a call there are no contact constraints.
+    /// Takes these constraints, and the strain limits and the frames of hinges at the present positions; all of them
+    /// hold until the next call. Without a call there are no contact constraints.
     void set_constraints(const std::vector<SoftConstraint>& constraints);
     /// One iteration. The energy does not rise, but for what the turning of hinges adds.
     void iterate();

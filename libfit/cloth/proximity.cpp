@@ -9,8 +9,8 @@
 namespace garmentfit {
 namespace {
 
-// unit: edges count as parallel below this squared sine of their angle; any s serves then, because the clamps that follow
-// find the closest pair of ends.
+// unit: edges count as parallel below this squared sine of their angle; any s serves then, because the clamps that
+// follow find the closest pair of ends.
 constexpr double k_parallel = 1e-14;
 // literature: [li_2021_cipc], algorithm 1, whose s is 0.1.
 constexpr double k_advance = 0.9;

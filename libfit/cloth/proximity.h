@@ -16,7 +16,8 @@ namespace garmentfit {
 enum class PairKind : unsigned char { vertex_face, edge_edge };
 
 /// The closest points of two primitives as weights of their four vertices. The separation is the sum of weight *
-/// position and points from the second primitive to the first. vertex_face: vertex, then triangle; edge_edge: two and two.
+/// position and points from the second primitive to the first. vertex_face: vertex, then triangle; edge_edge: two and
+/// two.
 struct ClosestPoints {
     std::array<double, 4> weights;  ///< (1, -b0, -b1, -b2) or (1 - s, s, t - 1, -t)
     double distance;
@@ -39,8 +40,8 @@ inline Vec3 separation(const std::array<double, 4>& weights, const Corners& x)
 /// Longest travel of one primitive against the other, without their common motion.
 double relative_travel(PairKind kind, const Corners& displacements);
 
-/// What a single motion must leave of a distance: a fifth of what exceeds the minimum; below the minimum nine tenths, and
-/// nearly everything below a hundredth of it. The table in docs/cloth.md says the same.
+/// What a single motion must leave of a distance: a fifth of what exceeds the minimum; below the minimum nine tenths,
+/// and nearly everything below a hundredth of it. The table in docs/cloth.md says the same.
 double required_distance(double distance, double min_distance);
 
 /// The fraction in [0, 1] of the displacements during which the distance never falls below required_distance.

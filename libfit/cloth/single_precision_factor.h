@@ -4,12 +4,12 @@
 // A sparse Cholesky factor that solves for three right sides at once, in single precision, on all threads: a
 // preconditioner.
 //
-// The triangular solves are bound by the memory that the factor takes. One pass for x, y and z together, at half the bytes,
-// takes a third of the time of three passes in double precision. Conjugate gradients in double precision make up for the
-// lost digits.
+// The triangular solves are bound by the memory that the factor takes. One pass for x, y and z together, at half the
+// bytes, takes a third of the time of three passes in double precision. Conjugate gradients in double precision make up
+// for the lost digits.
 //
-// Unknowns in different subtrees of the elimination tree do not depend on each other. The columns are ordered as disjoint
-// subtrees, the branches, which are solved in parallel, and the stem, which holds all columns above them.
+// Unknowns in different subtrees of the elimination tree do not depend on each other. The columns are ordered as
+// disjoint subtrees, the branches, which are solved in parallel, and the stem, which holds all columns above them.
 
 #include <Eigen/SparseCholesky>
 #include <array>

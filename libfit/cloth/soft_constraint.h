@@ -8,8 +8,8 @@
 namespace garmentfit {
 
 /// Pulls a weighted sum s of up to four vertices to `target` with the energy 1/2 (s - target)^T K (s - target). The
-/// stiffness K, N/m, is normal_stiffness along the normal and tangent_stiffness across it. Contact constraints and strain
-/// limits have this form.
+/// stiffness K, N/m, is normal_stiffness along the normal and tangent_stiffness across it. Contact constraints and
+/// strain limits have this form.
 struct SoftConstraint {
     std::array<int, 4> vertices;  ///< -1: not cloth, its weight does not count
     std::array<double, 4> weights;

@@ -7,7 +7,8 @@
 //          A number without a unit is dimensionless.
 // Data     "the house data" are the pairs of a body and a garment that all changes were judged on, twelve at the end.
 //          Their score is how many of them end certified; then the largest stretch of an edge, then the seconds.
-// Choice   "guess" means: set once by judgement, kept because the house data end well with it, never searched for.
+// Choice   "guess" means: set once by judgement, kept because the house data end well with it. No search for a better
+//          value is known.
 
 namespace garmentfit {
 
@@ -26,102 +27,102 @@ inline constexpr double k_strain_limit_stiffness = 5;
 // ---- time steps (cloth_motion) -------------------------------------------------------------------------------------
 
 /// m. No cloth vertex goes further in a time step.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_largest_cloth_move = 4e-3;
 /// m. No obstacle vertex goes further towards its target in a time step.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_largest_obstacle_move = 3e-3;
 /// s, of implicit Euler.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_cloth_time_step = 0.02;
 /// Stiffness of contact, in stretch stiffnesses of the cloth, while something is held back. A larger one pushes harder
 /// and takes longer to balance.
-/// fitted: on the house data, by the parts of the body that cloth holds back.
+/// fitted: guess, on the house data, by the parts of the body that cloth holds back.
 inline constexpr double k_pushing_contact_stiffness = 3;
 /// The same once nothing is held back. A tight garment then still enters the contact distance by less than a
 /// millimetre, and forces balance in half the steps.
 /// fitted: on a sheet at rest on a ball, by the weight it presses with (93 % instead of 52 %), and on the house data.
 inline constexpr double k_settling_contact_stiffness = 1;
 /// Iterations of conjugate gradients in a time step: while the body moves, and while the cloth settles.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr int k_moving_iterations = 6, k_settling_iterations = 18;
 /// Iterations between two updates of the active set. Updated in each one, it changes to and fro and nothing converges.
-/// fitted: on the house data, by the seconds.
+/// fitted: better than 1 on the house data, by the seconds; otherwise a guess.
 inline constexpr int k_active_set_period = 3;
 /// Contact distances. Pairs up to this far apart may come into contact while a time step is solved.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_active_distance = 1.6;
 /// Mean edges of the cloth. The contact distance between cloth and cloth is at most this; otherwise neighbours within
 /// one smooth sheet, whose number grows with the square of the vertices, are most of the pairs.
-/// fitted: on the house data, by the seconds.
+/// fitted: guess, by the seconds of one coat at six resolutions.
 inline constexpr double k_self_contact_edges = 0.3;
 /// Fraction of the margins that a search for pairs adds to them, so that its pairs last for several steps near rest.
 /// Decides seconds, and results only by the order of sums.
-/// fitted: on the house data, by the seconds.
+/// fitted: guess, on the house data, by the seconds.
 inline constexpr double k_spare_margin = 0.375;
 /// Fraction of the velocity that a settling time step keeps: first it lets the cloth swing, then come to rest; and the
 /// fraction of the settling steps at which it changes.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_swinging_velocity = 0.9, k_calming_velocity = 0.3, k_swinging_steps = 0.7;
 
 // ---- waiting for what cloth holds back (cloth_motion) ---------------------------------------------------------------
 
 /// A step that leaves less than this fraction of the way was worth its time.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_progress = 0.95;
 /// Steps without such progress after which the motion counts as stalled.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr int k_stall_steps = 15;
 /// The most motions of the obstacle alone, the most steps until the obstacle is at its target, and the most settling
 /// steps beyond those asked for.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr int k_most_obstacle_motions = 20, k_most_converging_steps = 30, k_most_extra_settling_steps = 60;
 
 // ---- collision-free steps (proximity, collision_free_step) ----------------------------------------------------------
 
 /// Fraction that a motion must leave of what a distance exceeds the minimum by.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_kept_above_minimum = 0.2;
 /// Fraction that a motion must leave of a distance below the minimum.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_kept_below_minimum = 0.9;
 /// The same of a distance below k_rounding_zone minimum distances, so that rounding never decides on which side a
 /// vertex is: see "Rounding" in docs/cloth.md for how many motions that lasts.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_kept_in_rounding_zone = 0.999, k_rounding_zone = 0.01;
 /// Additive CCD advances towards a distance below the one to keep, by this fraction of the way that may be used.
 /// fitted: guess; it decides how close to the distance to keep a motion ends, and the seconds.
 inline constexpr double k_floor_below_kept = 0.25;
 /// Rounds in which step fractions are lowered. Then the vertices of a pair that still collides stand still.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr int k_most_fraction_rounds = 30;
 /// The fractions of a pair that collides fall at least to this fraction in a round, so that rounds stay few.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_least_cut = 0.9;
 /// A pair that cannot go this fraction of its way is merged into one rigid impact zone.
-/// fitted: guess, confirmed on the house data.
+/// fitted: guess, on the house data.
 inline constexpr double k_zone_free_fraction = 0.9;
 
 // ---- loose parts (loose_parts) --------------------------------------------------------------------------------------
 
 /// m, diagonal of the box of a button, pocket or badge.
-/// fitted: guess, confirmed on the coats of the house data.
+/// fitted: guess, on the coats of the house data.
 inline constexpr double k_largest_loose_part = 0.25;
 /// m, from such a part to the cloth that it lies on.
-/// fitted: guess, confirmed on the coats of the house data.
+/// fitted: guess, on the coats of the house data.
 inline constexpr double k_loose_part_distance = 0.02;
 
 // ---- untangling (untangle) ------------------------------------------------------------------------------------------
 
 /// Rounds of untangling, and rounds without fewer crossings than ever before after which it has stalled.
-/// fitted: guess, confirmed on the house data by the crossings left.
+/// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr int k_untangle_rounds = 300, k_untangle_stall_rounds = 60;
 /// Mean edges of the tangled cloth: the longest way of a vertex in one round, and how far round a tangle cloth moves.
-/// fitted: guess, confirmed on the house data by the crossings left.
+/// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr double k_untangle_step = 0.3, k_untangle_reach = 5;
 /// Passes that smooth the motion over the edges, and the weight of the neighbours in each: a tangle moves as a piece of
 /// cloth and not vertex by vertex.
-/// fitted: guess, confirmed on the house data by the crossings left.
+/// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr int k_untangle_smoothing_passes = 4;
 inline constexpr double k_untangle_smoothing = 0.5;
 
@@ -129,7 +130,7 @@ inline constexpr double k_untangle_smoothing = 0.5;
 
 /// Branches that triangular solves run side by side, whatever the number of threads, and subtrees that are dealt out to
 /// each at least. Decides seconds, and results only by the order of sums.
-/// fitted: guess, confirmed on two and on sixteen threads by the seconds.
+/// fitted: guess, by the seconds on two threads.
 inline constexpr int k_factor_branches = 8, k_subtrees_per_branch = 4;
 
 }  // namespace garmentfit

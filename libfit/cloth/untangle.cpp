@@ -100,8 +100,8 @@ public:
 private:
     Vec3 at(int v) const { return region_.mesh.positions.row(v); }
 
-    /// The direction in which the edge should go, the triangle fixed, for the intersection curve to grow shorter. In each
-    /// triangle at the edge the curve starts where the edge passes, and runs inwards.
+    /// The direction in which the edge should go, the triangle fixed, for the intersection curve to grow shorter. In
+    /// each triangle at the edge the curve starts where the edge passes, and runs inwards.
     /// literature: [volino_2006_contours], the gradient R - 2 (E R) / (E N) N of a curve along R at an edge along E.
     Vec3 contour_gradient(int e, const Vec3& normal) const
     {

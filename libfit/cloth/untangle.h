@@ -3,9 +3,9 @@
 
 // Parts cloth that was given crossing itself: collars through collars, plackets, layers of one file.
 //
-// Method   intersection contour minimisation [volino_2006_contours]: wherever an edge passes through a triangle, the two
-//          are moved apart in the direction in which the curve along which the sheets cross grows shorter. The method
-//          needs no side of a sheet, so it works on folds, borders and open garments alike.
+// Method   intersection contour minimisation [volino_2006_contours]: wherever an edge passes through a triangle, the
+//          two are moved apart in the direction in which the curve along which the sheets cross grows shorter. The
+//          method needs no side of a sheet, so it works on folds, borders and open garments alike.
 
 #include "garmentfit/certificate.h"
 #include "topology.h"
@@ -17,9 +17,9 @@ struct UntangleResult {
     std::vector<Crossing> left;  ///< pairs that still cross
 };
 
-/// `cloth` (n x 3, metres, equal vertices welded) with its sheets parted. A tangle that does not come apart stays as given,
-/// vertex for vertex, and so does everything that is further than a few edges from a tangle.
-/// Cost O(n log n) to find the tangles, and some hundred times their own size to part them.
+/// `cloth` (n x 3, metres, equal vertices welded) with its sheets parted. A tangle that does not come apart stays as
+/// given, vertex for vertex, and so does everything that is further than a few edges from a tangle. Cost O(n log n) to
+/// find the tangles, and some hundred times their own size to part them.
 /// @param edges  of the triangles of `cloth`
 UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges);
 UntangleResult untangle(const TriangleMesh& cloth);

@@ -74,9 +74,9 @@ GarmentMesh crumpled_sheet()
     return { mesh.positions, mesh.triangles };
 }
 
-// The forces leave out how the axes of a hinge turn, which change the energy by the work of what a hinge lacks to its fold, turned with it.
-// A fold that has its own shape, larger and turned, lacks something along the fold only; turning changes nothing there, so the forces are
-// the whole gradient.
+// The forces leave out how the axes of a hinge turn, which change the energy by the work of what a hinge lacks to its
+// fold, turned with it. A fold that has its own shape, larger and turned, lacks something along the fold only; turning
+// changes nothing there, so the forces are the whole gradient.
 TEST(ClothEnergy, ForcesAreMinusItsGradientWhereFoldsHaveTheirShape)
 {
     const GarmentMesh rest = crumpled_sheet();
@@ -93,8 +93,8 @@ TEST(ClothEnergy, ForcesAreMinusItsGradientWhereFoldsHaveTheirShape)
         }
 }
 
-// Of a fold with another shape than its own they are the gradient along all ways on which its axes stay: of the corners in the planes of their
-// triangles, and of the edge along itself.
+// Of a fold with another shape than its own they are the gradient along all ways on which its axes stay: of the corners
+// in the planes of their triangles, and of the edge along itself.
 TEST(ClothEnergy, ForcesOfAnOpenedFoldAreMinusItsGradientWhileItsAxesHold)
 {
     GarmentMesh rest { Positions(4, 3), (Triangles(2, 3) << 0, 1, 2, 1, 0, 3).finished() };
@@ -271,8 +271,8 @@ GarmentMesh even_sheet(int across, int up)
     return { positions, triangles };
 }
 
-// The figures of an isotropic sheet of Poisson's ratio 1/3, which a triangular lattice of springs is: stretched one way and held the
-// other, it has 9/8 of Young's modulus; sheared, 3/8.
+// The figures of an isotropic sheet of Poisson's ratio 1/3, which a triangular lattice of springs is: stretched one way
+// and held the other, it has 9/8 of Young's modulus; sheared, 3/8.
 TEST(ClothEnergy, StretchesAndShearsAsAnIsotropicSheet)
 {
     const ClothOptions cloth;
@@ -295,8 +295,8 @@ TEST(ClothEnergy, StretchesAndShearsAsAnIsotropicSheet)
     EXPECT_NEAR(modulus(turned_shear), 3. / 8, 0.01);
 }
 
-// Tension at a distance s from the lower hem is density g s, so the hem sinks by density g L^2 / 2k. The springs of a grid
-// resist between 1 and 1.2 times as much as their k, as shear and narrowing go along or not.
+// Tension at a distance s from the lower hem is density g s, so the hem sinks by density g L^2 / 2k. The springs of a
+// grid resist between 1 and 1.2 times as much as their k, as shear and narrowing go along or not.
 TEST(ClothEnergy, AHangingSheetGivesAsMuchAsItsStiffnessSays)
 {
     const ClothOptions cloth;

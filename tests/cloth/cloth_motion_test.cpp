@@ -114,7 +114,7 @@ TEST(ClothMotion, AClothLaidOnABallRestsOnItWithItsWeight)
     const GarmentMesh rest { cloth.positions, cloth.triangles };
     ClothOptions options;
     ClothMotion motion(rest, rest.positions, ball, options);
-    const Settled settled = settle(motion, ball.positions, 150, 0, {});
+    const SettleResult settled = settle(motion, ball.positions, 150, 0, {});
     EXPECT_LT(settled.speed, 0.02);
     const Positions x = motion.cloth();
     EXPECT_EQ(crossing_count({ x, cloth.triangles }, ball), 0);

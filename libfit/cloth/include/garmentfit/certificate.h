@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a result is judged by: exact counts of crossings, the smallest gap, the strain.
+// What a result is judged by: exact counts of crossings, the minimum distance, the strain.
 //
-// An edge crosses a triangle when it meets the triangle's interior or border; pairs that share a vertex, or the place
-// of one, do not count.
-// Decided by exact predicates on a CGAL AABB tree: no tolerance, so never a crossing called clean.
+// An edge crosses a triangle when it meets the triangle's interior or border. Pairs that share a vertex, or the place
+// of one, do not count. Exact predicates on a CGAL AABB tree decide, without a tolerance.
 
 #include <utility>
 #include <vector>
@@ -46,8 +45,8 @@ struct Certificate {
     }
 };
 
-/// Judges one dressed garment. `under` are the garments below it, dressed.
+/// Judges one dressed garment. `under` are the dressed garments below it. Cost O((n + k) log n).
 GARMENTFIT_API Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Positions& positions,
-                            const std::vector<TriangleMesh>& under = {});
+                                   const std::vector<TriangleMesh>& under = {});
 
 }  // namespace garmentfit
