@@ -120,6 +120,9 @@ inline constexpr int k_untangle_rounds = 300, k_untangle_stall_rounds = 60;
 /// Mean edges of the tangled cloth: the longest way of a vertex in one round, and how far round a tangle cloth moves.
 /// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr double k_untangle_step = 0.3, k_untangle_reach = 5;
+/// Length of the contour gradient at which a push is 0.7 of the longest: the g0 of [volino_2006_contours].
+/// fitted: guess, on the tangled garments of the house data, by the crossings left.
+inline constexpr double k_untangle_gradient = 1;
 /// Passes that smooth the motion over the edges, and the weight of the neighbours in each: a tangle moves as a piece of
 /// cloth and not vertex by vertex.
 /// fitted: guess, on the tangled garments of the house data, by the crossings left.

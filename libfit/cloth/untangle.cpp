@@ -116,7 +116,7 @@ private:
                 curve = -curve;
             result += curve - 2 * along.dot(curve) / slope * normal;
         }
-        return result / std::sqrt(result.squaredNorm() + 1);
+        return result / std::sqrt(result.squaredNorm() + k_untangle_gradient * k_untangle_gradient);
     }
 
     Positions motion(const std::vector<Crossing>& crossings) const
