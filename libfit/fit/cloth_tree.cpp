@@ -34,6 +34,14 @@ void for_each_part(const std::array<Vec3, 3>& corner, double cell, const Visit& 
         }
 }
 
+// The dipole of a patch softened over the size of its disc, so that it does not blow up at its middle.
+float softened_angle(const ClothPatch& patch, const Eigen::Vector3f& query)
+{
+    const Eigen::Vector3f to = patch.centre - query;
+    const float squared = to.squaredNorm() + patch.area_vector.norm() / k_pi;
+    return patch.area_vector.dot(to) / (squared * std::sqrt(squared));
+}
+
 }  // namespace
 
 std::vector<ClothPatch> cloth_patches(const TriangleMesh& outward, double cell)
@@ -67,99 +75,65 @@ std::vector<ClothPatch> cloth_patches(const TriangleMesh& outward, double cell)
     return patches;
 }
 
-ClothTree::ClothTree(std::vector<ClothPatch> patches) : patches_(std::move(patches))
+ClothTree::Ball ClothTree::ball_of(std::span<const ClothPatch> patches)
 {
-    balls_.reserve(patches_.size());
-    build(0, int(patches_.size()));
+    Ball ball { {}, Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0, 0 };
+    for (const ClothPatch& patch : patches) {
+        const float area = patch.area_vector.norm();
+        ball.centre += area * patch.centre;
+        ball.area_vector += patch.area_vector;
+        ball.size += area;
+    }
+    if (ball.size > 0) {
+        ball.centre = Eigen::Vector3f(ball.centre / ball.size);
+    } else {
+        Eigen::AlignedBox3f box;
+        for (const ClothPatch& patch : patches)
+            box.extend(patch.centre);
+        ball.centre = box.center();
+    }
+    for (const ClothPatch& patch : patches)
+        ball.radius = std::max(ball.radius, (patch.centre - ball.centre).norm());
+    return ball;
 }
 
-int ClothTree::build(int begin, int end)
+ClothTree::ClothTree(std::vector<ClothPatch> patches) :
+    tree_(std::move(patches), k_leaf_size,
+          [](const ClothPatch& patch) -> const Eigen::Vector3f& { return patch.centre; }, ball_of)
 {
-    const int here = int(balls_.size());
-    balls_.emplace_back();
-    Ball ball { Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0, 0, begin, end, 0 };
-    Eigen::AlignedBox3f box;
-    for (int i = begin; i < end; ++i) {
-        const float area = patches_[i].area_vector.norm();
-        ball.centre += area * patches_[i].centre;
-        ball.area_vector += patches_[i].area_vector;
-        ball.size += area;
-        box.extend(patches_[i].centre);
-    }
-    ball.centre = ball.size > 0 ? Eigen::Vector3f(ball.centre / ball.size) : Eigen::Vector3f(box.center());
-    for (int i = begin; i < end; ++i)
-        ball.radius = std::max(ball.radius, (patches_[i].centre - ball.centre).norm());
-    if (end - begin > k_leaf_size) {
-        int axis = 0;
-        box.sizes().maxCoeff(&axis);
-        const int middle = begin + (end - begin) / 2;
-        std::nth_element(patches_.begin() + begin, patches_.begin() + middle, patches_.begin() + end,
-                         [axis](const ClothPatch& a, const ClothPatch& b) { return a.centre[axis] < b.centre[axis]; });
-        build(begin, middle);
-        ball.right = build(middle, end);
-    }
-    balls_[here] = ball;
-    return here;
 }
 
 float ClothTree::distance(const Vec3& query) const
 {
+    const Eigen::Vector3f q = query.cast<float>();
     float nearest = std::numeric_limits<float>::infinity();
-    look_into(0, query.cast<float>(), nearest);
+    tree_.walk_nearest_first([&](const Ball& ball) { return (ball.centre - q).norm() - ball.radius; },
+                             [&](float distance) { return k_tolerance * distance < nearest; },
+                             [&](const Ball& leaf) {
+                                 for (const ClothPatch& patch : tree_.items(leaf))
+                                     nearest = std::min(nearest, (patch.centre - q).norm());
+                             });
     return nearest;
-}
-
-void ClothTree::look_into(int b, const Eigen::Vector3f& query, float& nearest) const
-{
-    const Ball& ball = balls_[b];
-    if (ball.right == 0) {
-        for (int i = ball.begin; i < ball.end; ++i)
-            nearest = std::min(nearest, (patches_[i].centre - query).norm());
-        return;
-    }
-    const auto least = [&](int child) { return (balls_[child].centre - query).norm() - balls_[child].radius; };
-    int first = b + 1, second = ball.right;
-    float to_first = least(first), to_second = least(second);
-    if (to_second < to_first) {
-        std::swap(first, second);
-        std::swap(to_first, to_second);
-    }
-    if (k_tolerance * to_first < nearest)
-        look_into(first, query, nearest);
-    if (k_tolerance * to_second < nearest)
-        look_into(second, query, nearest);
-}
-
-// The dipole of a patch softened over the size of its disc, so that it does not blow up at its middle.
-float softened_angle(const ClothPatch& patch, const Eigen::Vector3f& query)
-{
-    const Eigen::Vector3f to = patch.centre - query;
-    const float squared = to.squaredNorm() + patch.area_vector.norm() / k_pi;
-    return patch.area_vector.dot(to) / (squared * std::sqrt(squared));
 }
 
 float ClothTree::winding(const Vec3& query) const
 {
     const Eigen::Vector3f q = query.cast<float>();
     float angle = 0;
-    std::array<int, 64> stack;  // deeper than any tree of 2^31 patches halved at each level
-    int size = 0;
-    stack[size++] = 0;
-    while (size > 0) {
-        const int b = stack[--size];
-        const Ball& ball = balls_[b];
-        const Eigen::Vector3f to = ball.centre - q;
-        const float squared = to.squaredNorm(), far = k_far * ball.radius;
-        if (squared > far * far && squared > ball.size) {
+    tree_.walk(
+        [&](const Ball& ball) {
+            const Eigen::Vector3f to = ball.centre - q;
+            const float squared = to.squaredNorm(), far = k_far * ball.radius;
+            if (!(squared > far * far && squared > ball.size))
+                return true;
             angle += ball.area_vector.dot(to) / (squared * std::sqrt(squared));
-        } else if (ball.right == 0) {
-            for (int i = ball.begin; i < ball.end; ++i)
-                angle += softened_angle(patches_[i], q);
-        } else {
-            stack[size++] = ball.right;
-            stack[size++] = b + 1;
-        }
-    }
+            return false;
+        },
+        [&](const Ball& leaf) {
+            for (const ClothPatch& patch : tree_.items(leaf))
+                angle += softened_angle(patch, q);
+            return true;
+        });
     return angle / (4 * k_pi);
 }
 
@@ -219,32 +193,23 @@ struct ClothTree::Nodes {
     float radius;
 };
 
-// Those no further than `reach` from the centre.
-void ClothTree::gather(int b, const Eigen::Vector3f& centre, float reach, std::vector<int>& patches) const
-{
-    const Ball& ball = balls_[b];
-    if ((ball.centre - centre).norm() > reach + ball.radius)
-        return;
-    if (ball.right != 0) {
-        gather(b + 1, centre, reach, patches);
-        gather(ball.right, centre, reach, patches);
-        return;
-    }
-    for (int i = ball.begin; i < ball.end; ++i)
-        if ((patches_[i].centre - centre).squaredNorm() <= reach * reach)
-            patches.push_back(i);
-}
-
 // A patch further from a cube's centre than the nearest one and the cube's diameter is nearest to none of its nodes: so few are asked by the
 // whole block, and of those fewer by each of its eight parts.
 ClothTree::Values ClothTree::squared_distances(const Nodes& nodes) const
 {
-    constexpr float rounding = 1.0001f;
+    constexpr float rounding = 1.0001f;  // unit: more than the distances of a node may be rounded by
+    const float reach = rounding * (distance(nodes.centre.cast<double>()) + 2 * nodes.radius);
     std::vector<int> some;
-    gather(0, nodes.centre, rounding * (distance(nodes.centre.cast<double>()) + 2 * nodes.radius), some);
+    tree_.walk([&](const Ball& ball) { return !((ball.centre - nodes.centre).norm() > reach + ball.radius); },
+               [&](const Ball& leaf) {
+                   for (int i = leaf.begin; i < leaf.end; ++i)
+                       if ((patches()[i].centre - nodes.centre).squaredNorm() <= reach * reach)
+                           some.push_back(i);
+                   return true;
+               });
     Eigen::Array<float, Eigen::Dynamic, 3> centres(Eigen::Index(some.size()), 3);
     for (std::size_t i = 0; i < some.size(); ++i)
-        centres.row(Eigen::Index(i)) = patches_[some[i]].centre.transpose();
+        centres.row(Eigen::Index(i)) = patches()[some[i]].centre.transpose();
 
     Values squared = Values::Constant(std::numeric_limits<float>::max());
     Eigen::ArrayXf to_middle;
@@ -252,10 +217,10 @@ ClothTree::Values ClothTree::squared_distances(const Nodes& nodes) const
         const Nodes::Part cube = nodes.part(part);
         to_middle = (centres.col(0) - cube.centre.x()).square() + (centres.col(1) - cube.centre.y()).square()
             + (centres.col(2) - cube.centre.z()).square();
-        const float reach = rounding * (std::sqrt(to_middle.minCoeff()) + 2 * cube.radius);
+        const float part_reach = rounding * (std::sqrt(to_middle.minCoeff()) + 2 * cube.radius);
         auto least = Nodes::PartValues(Nodes::PartValues::Constant(std::numeric_limits<float>::max()));
         for (Eigen::Index i = 0; i < to_middle.size(); ++i)
-            if (to_middle[i] <= reach * reach)
+            if (to_middle[i] <= part_reach * part_reach)
                 least = least.min(cube.squared_distances(centres.row(i)));
         for (int i = 0; i < k_parts; ++i)
             squared[Nodes::node_of(part, i)] = least[i];
@@ -263,28 +228,29 @@ ClothTree::Values ClothTree::squared_distances(const Nodes& nodes) const
     return squared;
 }
 
-void ClothTree::add_windings(int b, const Nodes& nodes, Values& angles) const
+ClothTree::Values ClothTree::angles(const Nodes& nodes) const
 {
-    const Ball& ball = balls_[b];
-    const float distance = (ball.centre - nodes.centre).norm() - nodes.radius;
-    if (distance > k_far * ball.radius && distance > std::sqrt(ball.size)) {
-        angles += nodes.angles(ball.area_vector, ball.centre, 0);
-    } else if (ball.right != 0) {
-        add_windings(b + 1, nodes, angles);
-        add_windings(ball.right, nodes, angles);
-    } else {
-        for (int i = ball.begin; i < ball.end; ++i)
-            angles += nodes.angles(patches_[i].area_vector, patches_[i].centre, patches_[i].area_vector.norm() / k_pi);
-    }
+    Values angles = Values::Zero();
+    tree_.walk(
+        [&](const Ball& ball) {
+            const float distance = (ball.centre - nodes.centre).norm() - nodes.radius;
+            if (!(distance > k_far * ball.radius && distance > std::sqrt(ball.size)))
+                return true;
+            angles += nodes.angles(ball.area_vector, ball.centre, 0);
+            return false;
+        },
+        [&](const Ball& leaf) {
+            for (const ClothPatch& patch : tree_.items(leaf))
+                angles += nodes.angles(patch.area_vector, patch.centre, patch.area_vector.norm() / k_pi);
+            return true;
+        });
+    return angles;
 }
 
 ClothTree::Block ClothTree::block(const Vec3& first_node, double spacing) const
 {
     const Nodes nodes(first_node, spacing);
-    Block result { squared_distances(nodes).sqrt(), Values::Zero() };
-    add_windings(0, nodes, result.windings);
-    result.windings /= 4 * k_pi;
-    return result;
+    return { squared_distances(nodes).sqrt(), angles(nodes) / (4 * k_pi) };
 }
 
 }  // namespace garmentfit

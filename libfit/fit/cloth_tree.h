@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "garmentfit/types.h"
+#include "median_tree.h"
 
 namespace garmentfit {
 
@@ -40,25 +40,20 @@ public:
     };
     Block block(const Vec3& first_node, double spacing) const;
 
-    const std::vector<ClothPatch>& patches() const { return patches_; }
+    const std::vector<ClothPatch>& patches() const { return tree_.items(); }
 
 private:
-    struct Ball {
+    struct Ball : TreeNode {
         Eigen::Vector3f centre, area_vector;
         float radius;  // of a ball about the centre with the centres of all its patches
         float size;  // sum of areas' lengths: how wide a single patch is
-        int begin, end;  // range of patches_
-        int right;  // second child; the first one follows its parent. 0: a leaf
     };
-    int build(int begin, int end);
+    static Ball ball_of(std::span<const ClothPatch> patches);
     struct Nodes;
-    void gather(int ball, const Eigen::Vector3f& centre, float reach, std::vector<int>& patches) const;
     Values squared_distances(const Nodes& nodes) const;
-    void add_windings(int ball, const Nodes& nodes, Values& angles) const;
-    void look_into(int ball, const Eigen::Vector3f& query, float& nearest) const;
+    Values angles(const Nodes& nodes) const;
 
-    std::vector<ClothPatch> patches_;
-    std::vector<Ball> balls_;
+    MedianTree<ClothPatch, Ball> tree_;
 };
 
 }  // namespace garmentfit

@@ -24,7 +24,7 @@ public:
     {
     }
 
-    bool may_meet(const BoxHierarchy::Box& box) const
+    bool may_meet(const FloatBox& box) const
     {
         const Vec3 low = box.min().cast<double>(), high = box.max().cast<double>();
         const Vec3 size = 0.5 * (high - low) + Vec3::Constant(k_slack), apart = middle_ - 0.5 * (low + high);
@@ -46,7 +46,7 @@ private:
 
 CrossingTree::CrossingTree(const TriangleMesh& surface)
 {
-    std::vector<BoxHierarchy::Box> boxes;
+    std::vector<FloatBox> boxes;
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
         const auto corner = [&](int k) { return Vec3(surface.positions.row(surface.triangles(f, k))); };
         const std::array<Vec3, 3> c { corner(0), corner(1), corner(2) };
@@ -55,36 +55,25 @@ CrossingTree::CrossingTree(const TriangleMesh& surface)
         triangles_.push_back(c);
         boxes.push_back(box_about(c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])));
     }
-    boxes_ = BoxHierarchy(boxes, k_leaf_size);
+    boxes_ = box_hierarchy(boxes, k_leaf_size);
 }
 
 bool CrossingTree::is_met(const Vec3& from, const Vec3& to) const
 {
-    const std::vector<BoxHierarchy::Node>& nodes = boxes_.nodes();
-    if (from == to || nodes.empty())
+    if (from == to)
         return false;
     const SegmentTest test(from, to);
     const Kernel::Segment_3 segment(point(from), point(to));
-    std::array<int, BoxHierarchy::k_deepest> stack;
-    int size = 0;
-    stack[size++] = 0;
-    while (size > 0) {
-        const int n = stack[--size];
-        const BoxHierarchy::Node& node = nodes[n];
-        if (!test.may_meet(node.box))
-            continue;
-        if (node.right != 0) {
-            stack[size++] = node.right;
-            stack[size++] = n + 1;
-            continue;
-        }
-        for (int i = node.begin; i < node.end; ++i) {
-            const auto& [a, b, c] = triangles_[boxes_.order()[i]];
-            if (CGAL::do_intersect(segment, Kernel::Triangle_3(point(a), point(b), point(c))))
-                return true;
-        }
-    }
-    return false;
+    bool is_met = false;
+    boxes_.walk([&](const BoxNode& node) { return test.may_meet(node.box); },
+                [&](const BoxNode& leaf) {
+                    for (const BoxedPrimitive& item : boxes_.items(leaf)) {
+                        const auto& [a, b, c] = triangles_[item.primitive];
+                        is_met = is_met || CGAL::do_intersect(segment, Kernel::Triangle_3(point(a), point(b), point(c)));
+                    }
+                    return !is_met;
+                });
+    return is_met;
 }
 
 }  // namespace garmentfit

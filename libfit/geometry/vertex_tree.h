@@ -19,7 +19,7 @@ public:
 
 private:
     BoxHierarchy boxes_;
-    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> in_order_;
+    Positions in_order_;  // of boxes_.items()
 };
 
 }  // namespace garmentfit

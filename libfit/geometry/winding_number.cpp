@@ -2,7 +2,6 @@
 #include "winding_number.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -34,74 +33,55 @@ Vec3 area_vector_of(const Eigen::Matrix3d& c)
     return 0.5 * (c.col(1) - c.col(0)).cross(Vec3(c.col(2) - c.col(0)));
 }
 
-int longest_axis(const std::vector<Eigen::Matrix3d>& corners, int begin, int end)
-{
-    Eigen::AlignedBox3d box;
-    for (int i = begin; i < end; ++i)
-        box.extend(Vec3(corners[i].rowwise().mean()));
-    int axis = 0;
-    box.sizes().maxCoeff(&axis);
-    return axis;
-}
-
 }  // namespace
 
-WindingNumber::WindingNumber(const TriangleMesh& surface)
+WindingNumber::Dipole WindingNumber::dipole_of(std::span<const Triangle> triangles)
 {
-    for (int f = 0; f < surface.triangles.rows(); ++f)
-        corners_.push_back(corners_of(surface, f));
-    build(0, int(corners_.size()));
-}
-
-int WindingNumber::build(int begin, int end)
-{
-    const int here = int(nodes_.size());
-    nodes_.emplace_back();
-    Node node;
-    node.begin = begin;
-    node.end = end;
+    Dipole dipole;
     double area = 0;
-    for (int i = begin; i < end; ++i) {
-        const Vec3 a = area_vector_of(corners_[i]);
-        node.area_vector += a;
-        node.centre += a.norm() * corners_[i].rowwise().mean();
+    for (const Triangle& triangle : triangles) {
+        const Vec3 a = area_vector_of(triangle.corners);
+        dipole.area_vector += a;
+        dipole.centre += a.norm() * triangle.corners.rowwise().mean();
         area += a.norm();
     }
     if (area > 0)
-        node.centre /= area;
-    for (int i = begin; i < end; ++i)
-        node.radius = std::max(node.radius, (corners_[i].colwise() - node.centre).colwise().norm().maxCoeff());
-    if (end - begin > k_leaf_size) {
-        const int axis = longest_axis(corners_, begin, end), middle = begin + (end - begin) / 2;
-        std::nth_element(corners_.begin() + begin, corners_.begin() + middle, corners_.begin() + end,
-                         [axis](const auto& a, const auto& b) { return a.row(axis).sum() < b.row(axis).sum(); });
-        build(begin, middle);
-        node.right = build(middle, end);
+        dipole.centre /= area;
+    for (const Triangle& triangle : triangles)
+        dipole.radius
+            = std::max(dipole.radius, (triangle.corners.colwise() - dipole.centre).colwise().norm().maxCoeff());
+    return dipole;
+}
+
+WindingNumber::WindingNumber(const TriangleMesh& surface)
+{
+    std::vector<Triangle> triangles;
+    triangles.reserve(std::size_t(surface.triangles.rows()));
+    for (int f = 0; f < surface.triangles.rows(); ++f) {
+        const Eigen::Matrix3d corners = corners_of(surface, f);
+        triangles.push_back({ corners, corners.rowwise().sum() });
     }
-    nodes_[here] = node;
-    return here;
+    tree_ = { std::move(triangles), k_leaf_size, [](const Triangle& triangle) -> const Vec3& { return triangle.sum; },
+              dipole_of };
 }
 
 double WindingNumber::operator()(const Vec3& query) const
 {
     double angle = 0;
-    std::array<int, 64> stack;  // deeper than any tree of 2^31 triangles halved at each level
-    int size = 0;
-    stack[size++] = 0;
-    while (size > 0) {
-        const Node& node = nodes_[stack[--size]];
-        const Vec3 to = node.centre - query;
-        const double distance = to.norm();
-        if (distance > k_far * node.radius) {
+    tree_.walk(
+        [&](const Dipole& node) {
+            const Vec3 to = node.centre - query;
+            const double distance = to.norm();
+            if (!(distance > k_far * node.radius))
+                return true;
             angle += node.area_vector.dot(to) / (distance * distance * distance);
-        } else if (node.right == 0) {
-            for (int i = node.begin; i < node.end; ++i)
-                angle += solid_angle(corners_[i], query);
-        } else {
-            stack[size++] = node.right;
-            stack[size++] = int(&node - nodes_.data()) + 1;
-        }
-    }
+            return false;
+        },
+        [&](const Dipole& leaf) {
+            for (const Triangle& triangle : tree_.items(leaf))
+                angle += solid_angle(triangle.corners, query);
+            return true;
+        });
     return angle / (4 * std::numbers::pi);
 }
 

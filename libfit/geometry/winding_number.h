@@ -6,9 +6,7 @@
 // Method  exact solid angles near by, one dipole per tree node far away [barill_2018_fast_winding_numbers].
 // Cost    O(n log n) once, O(log n) a query.
 
-#include <vector>
-
-#include "garmentfit/types.h"
+#include "median_tree.h"
 
 namespace garmentfit {
 
@@ -19,17 +17,18 @@ public:
     double operator()(const Vec3& query) const;
 
 private:
-    struct Node {
-        Vec3 centre = Vec3::Zero();         // of area
-        Vec3 area_vector = Vec3::Zero();    // sum of area times normal
-        double radius = 0;                  // of a ball about `centre` with all of the node's triangles
-        int begin = 0, end = 0;             // range of corners_
-        int right = 0;                      // second child; the first one follows its parent. 0: a leaf
+    struct Dipole : TreeNode {
+        Vec3 centre = Vec3::Zero();  // of area
+        Vec3 area_vector = Vec3::Zero();  // sum of area times normal
+        double radius = 0;  // of a ball about `centre` with all of the node's triangles
     };
-    int build(int begin, int end);
+    struct Triangle {
+        Eigen::Matrix3d corners;  // one a column
+        Vec3 sum;  // of the corners
+    };
+    static Dipole dipole_of(std::span<const Triangle> triangles);
 
-    std::vector<Node> nodes_;
-    std::vector<Eigen::Matrix3d> corners_;  // of each triangle, one corner a column
+    MedianTree<Triangle, Dipole> tree_;
 };
 
 /// The same at one query or a few: all solid angles, exact; no cost beforehand.
