@@ -3,18 +3,15 @@
 #include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/mesh.h"
-#include "glb_buffer.h"
+#include "glb_model.h"
 
 namespace garmentfit {
 namespace {
 
-using nlohmann::ordered_json;
-using namespace gltf;
-
 std::size_t frames_of(const std::vector<MovingMesh>& meshes)
 {
     if (meshes.empty() || meshes.front().frames.empty())
-        throw InvalidInput("animated GLB: there is nothing to write; give a mesh with at least one frame");
+        throw InvalidInput("animated GLB: no frames to write; give a mesh with at least one frame");
     for (const MovingMesh& mesh : meshes)
         if (mesh.frames.size() != meshes.front().frames.size())
             throw InvalidInput("animated GLB: " + mesh.name + " has " + std::to_string(mesh.frames.size()) + " frames, "
@@ -23,57 +20,63 @@ std::size_t frames_of(const std::vector<MovingMesh>& meshes)
     return meshes.front().frames.size();
 }
 
-/// The first frame is the mesh, each later one a morph target: what it adds to the first.
-ordered_json primitive_of(const MovingMesh& mesh, std::size_t material, GlbBuffer& buffer)
+/// The first frame is the mesh. Each later one is a morph target: its positions less those of the first.
+tinygltf::Primitive primitive_of(const MovingMesh& mesh, int material, GlbModel& glb)
 {
     const Positions& first = mesh.frames.front();
-    const int positions = buffer.add<float>(first, k_float, "VEC3", k_array_buffer);
-    buffer.set_bounds(positions, first);
-    const int normals = buffer.add<float>(vertex_normals(first, mesh.triangles), k_float, "VEC3", k_array_buffer);
-    ordered_json targets = ordered_json::array();
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = material;
+    const int positions = glb.add<float>(first, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    glb.set_bounds(positions, first);
+    primitive.attributes["POSITION"] = positions;
+    primitive.attributes["NORMAL"]
+        = glb.add<float>(vertex_normals(first, mesh.triangles), TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
     for (std::size_t k = 1; k < mesh.frames.size(); ++k) {
         const Positions added = mesh.frames[k] - first;
-        const int target = buffer.add<float>(added, k_float, "VEC3", k_array_buffer);
-        buffer.set_bounds(target, added);
-        targets.push_back({ { "POSITION", target } });
+        const int target = glb.add<float>(added, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+        glb.set_bounds(target, added);
+        primitive.targets.push_back({ { "POSITION", target } });
     }
-    ordered_json primitive {
-        { "attributes", { { "POSITION", positions }, { "NORMAL", normals } } },
-        { "indices", buffer.add<std::uint32_t>(mesh.triangles, k_unsigned_int, "SCALAR", k_element_array_buffer) },
-        { "material", material }
-    };
-    if (!targets.empty())
-        primitive["targets"] = targets;
+    primitive.indices
+        = glb.add<std::uint32_t>(mesh.triangles, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     return primitive;
 }
 
-ordered_json material_of(const MovingMesh& mesh)
+tinygltf::Material material_of(const MovingMesh& mesh)
 {
-    const Eigen::RowVector3d& c = mesh.colour;
-    return {
-        { "name", mesh.name },
-        { "doubleSided", true },
-        { "pbrMetallicRoughness",
-          { { "baseColorFactor", { c.x(), c.y(), c.z(), 1 } }, { "metallicFactor", 0 }, { "roughnessFactor", 0.9 } } }
-    };
+    tinygltf::Material material;
+    material.name = mesh.name;
+    material.doubleSided = true;
+    material.pbrMetallicRoughness.baseColorFactor = { mesh.colour.x(), mesh.colour.y(), mesh.colour.z(), 1 };
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.9;  // unit: a matt look, no result depends on it
+    return material;
 }
 
 /// One sampler for all meshes: at frame k only target k - 1 has weight.
-ordered_json animation_of(std::size_t meshes, std::size_t frames, double seconds_per_frame, GlbBuffer& buffer)
+tinygltf::Animation animation_of(std::size_t meshes, std::size_t frames, double seconds_per_frame, GlbModel& glb)
 {
     const Eigen::Index n = Eigen::Index(frames);
     const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(n, 0, seconds_per_frame * double(n - 1));
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(n, n - 1);
     weights.bottomRows(n - 1).setIdentity();
-    const int input = buffer.add<float>(times, k_float, "SCALAR", 0);
-    buffer.set_bounds(input, times);
-    const int output = buffer.add<float>(weights, k_float, "SCALAR", 0);
-    ordered_json channels = ordered_json::array();
-    for (std::size_t node = 0; node < meshes; ++node)
-        channels.push_back({ { "sampler", 0 }, { "target", { { "node", node }, { "path", "weights" } } } });
-    return { { { "name", "dressing" },
-               { "channels", channels },
-               { "samplers", { { { "input", input }, { "interpolation", "LINEAR" }, { "output", output } } } } } };
+    tinygltf::AnimationSampler sampler;
+    sampler.interpolation = "LINEAR";
+    sampler.input = glb.add<float>(times, TINYGLTF_TYPE_SCALAR);
+    glb.set_bounds(sampler.input, times);
+    sampler.output = glb.add<float>(weights, TINYGLTF_TYPE_SCALAR);
+    tinygltf::Animation animation;
+    animation.name = "dressing";
+    animation.samplers.push_back(sampler);
+    for (std::size_t node = 0; node < meshes; ++node) {
+        tinygltf::AnimationChannel channel;
+        channel.sampler = 0;
+        channel.target_node = int(node);
+        channel.target_path = "weights";
+        animation.channels.push_back(channel);
+    }
+    return animation;
 }
 
 }  // namespace
@@ -82,22 +85,23 @@ void write_animated_glb(const std::filesystem::path& path, const std::vector<Mov
                         double seconds_per_frame)
 {
     const std::size_t frames = frames_of(meshes);
-    GlbBuffer buffer;
-    ordered_json json { { "asset", { { "version", "2.0" }, { "generator", "garmentfit" } } }, { "scene", 0 } };
-    ordered_json roots = ordered_json::array();
+    GlbModel glb;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-        roots.push_back(m);
-        json["nodes"].push_back({ { "name", meshes[m].name }, { "mesh", m } });
-        ordered_json mesh { { "name", meshes[m].name }, { "primitives", { primitive_of(meshes[m], m, buffer) } } };
-        if (frames > 1)
-            mesh["weights"] = std::vector<double>(frames - 1, 0.0);
-        json["meshes"].push_back(mesh);
-        json["materials"].push_back(material_of(meshes[m]));
+        tinygltf::Mesh mesh;
+        mesh.name = meshes[m].name;
+        mesh.primitives.push_back(primitive_of(meshes[m], int(m), glb));
+        mesh.weights.assign(frames - 1, 0.0);
+        tinygltf::Node node;
+        node.name = meshes[m].name;
+        node.mesh = int(m);
+        glb.model.scenes[0].nodes.push_back(int(m));
+        glb.model.nodes.push_back(node);
+        glb.model.meshes.push_back(mesh);
+        glb.model.materials.push_back(material_of(meshes[m]));
     }
-    json["scenes"] = { { { "nodes", roots } } };
     if (frames > 1)
-        json["animations"] = animation_of(meshes.size(), frames, seconds_per_frame, buffer);
-    write_file(path, std::move(buffer).file(json));
+        glb.model.animations.push_back(animation_of(meshes.size(), frames, seconds_per_frame, glb));
+    write_file(path, glb.file());
 }
 
 }  // namespace garmentfit

@@ -8,12 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#include <tiny_gltf.h>
-
 #include "garmentfit/types.h"
 #include "gltf_container.h"
+#include "tinygltf.h"
 
 namespace garmentfit {
 

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "garmentfit/io.h"
 #include "garmentfit/mesh.h"
 #include "garmentfit/skinned_gltf.h"
-#include "glb_buffer.h"
+#include "glb_model.h"
 
 namespace garmentfit {
 namespace {
-
-using nlohmann::ordered_json;
-using namespace gltf;
 
 constexpr std::array<const char*, extremity_count> k_last_joints { "head", "lhand", "rhand", "lfoot", "rfoot" };
 constexpr std::array<const char*, extremity_count> k_tips { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip",
@@ -37,30 +35,52 @@ std::vector<Joint> joints_of(const Skeleton& skeleton)
     return joints;
 }
 
-/// Column by column as the format has them: to the joint's own axes, which are the world's.
+/// One 4 x 4 matrix a row, column by column as the format has them: from the world to the joint, whose axes are the world's.
 Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const std::vector<Joint>& joints)
 {
     Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> rows(joints.size(), 16);
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        Eigen::Matrix4d own_from_world = Eigen::Matrix4d::Identity();
-        own_from_world.topRightCorner<3, 1>() = -joints[j].place;
-        rows.row(Eigen::Index(j)) = Eigen::Map<const Eigen::Matrix<double, 1, 16>>(own_from_world.data());
+        Eigen::Matrix4d joint_from_world = Eigen::Matrix4d::Identity();
+        joint_from_world.topRightCorner<3, 1>() = -joints[j].place;
+        rows.row(Eigen::Index(j)) = Eigen::Map<const Eigen::Matrix<double, 1, 16>>(joint_from_world.data());
     }
     return rows;
 }
 
 /// The body first, then the joints.
-ordered_json nodes_of(const std::vector<Joint>& joints)
+std::vector<tinygltf::Node> nodes_of(const std::vector<Joint>& joints)
 {
-    ordered_json nodes { { { "name", "body" }, { "mesh", 0 }, { "skin", 0 } } };
-    for (const Joint& joint : joints) {
+    std::vector<tinygltf::Node> nodes(1 + joints.size());
+    nodes[0].name = "body";
+    nodes[0].mesh = 0;
+    nodes[0].skin = 0;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const Joint& joint = joints[j];
         const Vec3 d = joint.parent < 0 ? joint.place : Vec3(joint.place - joints[std::size_t(joint.parent)].place);
-        nodes.push_back({ { "name", joint.name }, { "translation", { d.x(), d.y(), d.z() } } });
+        nodes[j + 1].name = joint.name;
+        nodes[j + 1].translation = { d.x(), d.y(), d.z() };
+        if (joint.parent >= 0)
+            nodes[std::size_t(joint.parent) + 1].children.push_back(int(j) + 1);
     }
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j].parent >= 0)
-            nodes[std::size_t(joints[j].parent) + 1]["children"].push_back(j + 1);
     return nodes;
+}
+
+tinygltf::Primitive primitive_of(const TriangleMesh& surface, const SkinWeights& weights, GlbModel& glb)
+{
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    const int positions = glb.add<float>(surface.positions, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    glb.set_bounds(positions, surface.positions);
+    primitive.attributes["POSITION"] = positions;
+    primitive.attributes["NORMAL"] = glb.add<float>(vertex_normals(surface.positions, surface.triangles),
+                                                    TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    const Eigen::MatrixXi used = (weights.weights.array() > 0).select(weights.bones.array() + 1, 0);  // 0 where unused
+    primitive.attributes["JOINTS_0"] = glb.add<std::uint8_t>(used, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["WEIGHTS_0"]
+        = glb.add<float>(weights.weights, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.indices
+        = glb.add<std::uint32_t>(surface.triangles, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    return primitive;
 }
 
 }  // namespace
@@ -68,31 +88,20 @@ ordered_json nodes_of(const std::vector<Joint>& joints)
 void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig)
 {
     const std::vector<Joint> joints = joints_of(rig.skeleton);
-    GlbBuffer buffer;
-    const int positions = buffer.add<float>(surface.positions, k_float, "VEC3", k_array_buffer);
-    buffer.set_bounds(positions, surface.positions);
-    const int normals
-        = buffer.add<float>(vertex_normals(surface.positions, surface.triangles), k_float, "VEC3", k_array_buffer);
-    const Eigen::MatrixXi used
-        = (rig.weights.weights.array() > 0).select(rig.weights.bones.array() + 1, 0);  // 0 where unused
-    const int bones = buffer.add<std::uint8_t>(used, k_unsigned_byte, "VEC4", k_array_buffer);
-    const int weights = buffer.add<float>(rig.weights.weights, k_float, "VEC4", k_array_buffer);
-    const int indices = buffer.add<std::uint32_t>(surface.triangles, k_unsigned_int, "SCALAR", k_element_array_buffer);
-    const int binds = buffer.add<float>(inverse_binds(joints), k_float, "MAT4", 0);
-
-    ordered_json json { { "asset", { { "version", "2.0" }, { "generator", "garmentfit" } } }, { "scene", 0 } };
-    json["scenes"] = { { { "nodes", { 0, 1 } } } };
-    json["nodes"] = nodes_of(joints);
-    const ordered_json attributes {
-        { "POSITION", positions }, { "NORMAL", normals }, { "JOINTS_0", bones }, { "WEIGHTS_0", weights }
-    };
-    json["meshes"]
-        = { { { "name", "body" }, { "primitives", { { { "attributes", attributes }, { "indices", indices } } } } } };
-    ordered_json all = ordered_json::array();
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        all.push_back(j + 1);
-    json["skins"] = { { { "joints", all }, { "skeleton", 1 }, { "inverseBindMatrices", binds } } };
-    write_file(path, std::move(buffer).file(json));
+    GlbModel glb;
+    tinygltf::Mesh mesh;
+    mesh.name = "body";
+    mesh.primitives.push_back(primitive_of(surface, rig.weights, glb));
+    glb.model.meshes.push_back(mesh);
+    tinygltf::Skin skin;
+    skin.skeleton = 1;
+    skin.joints.resize(joints.size());
+    std::iota(skin.joints.begin(), skin.joints.end(), 1);
+    skin.inverseBindMatrices = glb.add<float>(inverse_binds(joints), TINYGLTF_TYPE_MAT4);
+    glb.model.skins.push_back(skin);
+    glb.model.nodes = nodes_of(joints);
+    glb.model.scenes[0].nodes = { 0, 1 };
+    write_file(path, glb.file());
 }
 
 }  // namespace garmentfit
