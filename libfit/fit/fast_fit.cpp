@@ -79,7 +79,7 @@ void require_clear(const FitEnergy& energy, const Posture& posture)
 
 void require_openings(const TriangleMesh& outward)
 {
-    const Pieces pieces = pieces_in(outward);
+    const Pieces pieces = count_pieces(outward);
     char text[256];
     if (pieces.count > 1 && pieces.largest < k_min_piece) {
         std::snprintf(

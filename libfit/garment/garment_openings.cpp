@@ -14,22 +14,19 @@
 #include "buckets.h"
 #include "disjoint_sets.h"
 #include "parallel.h"
+#include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_smallest_girth = 0.07;  // of the garment's diagonal: a cuff has 0.12, a buttonhole 0.03
-constexpr double k_slice = 0.02;  // of the diagonal: slices of a tube, two or three edges wide
-constexpr double k_widening = 1.5;  // a tube ends where its girth exceeds its own median by this factor
+using namespace garment_tuning;
 
-using Ring = std::vector<std::pair<int, int>>;  // the edges of an opening
+constexpr double k_no_length = 1e-300;  // m, unit: avoids 0 / 0
 
-double diagonal_of(const TriangleMesh& mesh)
-{
-    return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
-}
+using Ring = std::vector<std::pair<int, int>>;  // edges of an opening
 
-// Directed as in their triangles, so that the cloth lies to the left seen from outside.
+/// Open edges, directed as in their triangles: the cloth lies to their left, seen from outside.
 Ring border_edges(const TriangleMesh& mesh)
 {
     const auto from = [&](int e) { return mesh.triangles(e / 3, e % 3); };
@@ -45,7 +42,7 @@ Ring border_edges(const TriangleMesh& mesh)
             const auto back = edges_from[to(e)];
             is_border[e] = std::none_of(back.begin(), back.end(), [&](int other) { return to(other) == from(e); });
         },
-        4096);
+        4096);  // unit: grain of the parallel loop
     Ring border;
     for (int e = 0; e < int(first.size()); ++e)
         if (is_border[e])
@@ -53,7 +50,7 @@ Ring border_edges(const TriangleMesh& mesh)
     return border;
 }
 
-// Edges that hang together, in the order of their first one.
+/// Connected edges, in the order of their first edges.
 std::vector<Ring> rings_of(const Ring& border, int vertices)
 {
     DisjointSets joined(vertices);
@@ -85,15 +82,15 @@ Opening opening_of(const Positions& positions, const Ring& ring)
         rim.push_back(a);
     }
     opening.rim = positions(rim, Eigen::all);
-    opening.centre /= std::max(opening.girth, 1e-300);
-    for (const auto& [a, b] : ring)  // the closing disc runs against the cloth's edges
+    opening.centre /= std::max(opening.girth, k_no_length);
+    for (const auto& [a, b] : ring)  // the closing disc has the opposite direction of the cloth's edges
         area += 0.5 * (at(b) - opening.centre).cross(at(a) - opening.centre);
     if (area.norm() > 0)
         opening.facing = area.normalized();
     return opening;
 }
 
-std::vector<Ring> large_rings(const Positions& positions, std::vector<Ring> rings, double smallest)
+std::vector<Ring> keep_large(const Positions& positions, std::vector<Ring> rings, double smallest)
 {
     const auto length = [&](const auto& ring) {
         double sum = 0;
@@ -105,10 +102,10 @@ std::vector<Ring> large_rings(const Positions& positions, std::vector<Ring> ring
     return rings;
 }
 
-// The cloth as a graph: for each vertex its edges and their lengths.
-class Paths {
+/// The cloth as a graph of vertices and edge lengths.
+class EdgeGraph {
 public:
-    explicit Paths(const TriangleMesh& mesh) :
+    explicit EdgeGraph(const TriangleMesh& mesh) :
         mesh_(mesh), edges_at_(int(mesh.positions.rows()), corners(mesh.triangles))
     {
         for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
@@ -119,7 +116,8 @@ public:
         longest_edge_ = lengths_.empty() ? 0 : *std::max_element(lengths_.begin(), lengths_.end());
     }
 
-    // m along edges; to what is no further than the nearest of `others` and the faces there, else infinite
+    /// Dijkstra distances along edges, m. The search ends beyond the nearest of the other openings: vertices farther
+    /// away than all corners of the faces there have distance infinity.
     std::vector<double> distances_from(const Ring& ring, const std::vector<char>& is_other) const
     {
         std::vector<double> distance(mesh_.positions.rows(), std::numeric_limits<double>::infinity());
@@ -139,7 +137,7 @@ public:
             if (d > distance[v])
                 continue;
             if (is_other[v])
-                last = std::min(last, d + 2 * longest_edge_);
+                last = std::min(last, d + 2 * longest_edge_);  // derived: bounds the other corners of a face
             for (const int corner : edges_at_[v]) {
                 const int f = corner / 3, k = corner % 3;
                 reach(mesh_.triangles(f, (k + 1) % 3), d + lengths_[corner]);
@@ -159,18 +157,18 @@ private:
     }
 
     const TriangleMesh& mesh_;
-    Buckets edges_at_;  // corners, 3 f + k, of each vertex
-    std::vector<double> lengths_;  // of edge k of face f
+    Buckets edges_at_;  // half-edges 3 f + k that begin at each vertex
+    std::vector<double> lengths_;  // m, of each half-edge
     double longest_edge_ = 0;  // m
 };
 
-// Of a tube, between two distances from its opening.
+/// The part of a tube between two distances from its opening.
 struct Slice {
     double girth = 0;  // m
     Vec3 middle = Vec3::Zero();
 };
 
-// The area between two distances from the opening is the girth there times their difference.
+/// derived: the area between two distances from the opening is the girth times their difference.
 std::vector<Slice> slices_along(const TriangleMesh& mesh, const std::vector<double>& distance, double width)
 {
     std::vector<Slice> slices(1);
@@ -188,45 +186,45 @@ std::vector<Slice> slices_along(const TriangleMesh& mesh, const std::vector<doub
         slices[bin].middle += girth * (p + q + r) / 3;
     }
     for (Slice& slice : slices)
-        slice.middle /= std::max(slice.girth, 1e-300);
+        slice.middle /= std::max(slice.girth, k_no_length);
     return slices;
 }
 
-// At vertices: does another of the openings pass there?
-std::vector<char> others_at(const std::vector<Ring>& rings, std::size_t own, Eigen::Index vertices)
+/// For each vertex whether it lies on another opening than `ring`.
+std::vector<char> mark_others(const std::vector<Ring>& rings, std::size_t ring, Eigen::Index vertices)
 {
     std::vector<char> result(std::size_t(vertices), 0);
     for (std::size_t r = 0; r < rings.size(); ++r)
-        if (r != own)
+        if (r != ring)
             for (const auto& [a, b] : rings[r])
                 result[a] = 1;
     return result;
 }
 
-// How far it is to the nearest other opening: there, slices begin to lack a part.
-double reach_of(const std::vector<double>& distance, const std::vector<Ring>& rings, std::size_t own)
+/// Distance to the nearest other opening, m. Farther slices are incomplete.
+double distance_to_others(const std::vector<double>& distance, const std::vector<Ring>& rings, std::size_t ring)
 {
-    double reach = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t r = 0; r < rings.size(); ++r)
-        if (r != own)
+        if (r != ring)
             for (const auto& [a, b] : rings[r])
-                reach = std::min(reach, distance[a]);
-    return reach;
+                nearest = std::min(nearest, distance[a]);
+    return nearest;
 }
 
-// Hems may be turned in or gathered: the first slices neither end a tube nor count as its waist. A single wide slice is a fold.
+/// A tube ends at two consecutive wide slices: a single one is a fold. The slices of the hem are not tested.
 void measure_tube(Opening& opening, const std::vector<Slice>& slices, double width)
 {
-    constexpr std::size_t hem = 3;
     std::vector<double> sorted;
     double median = opening.girth;
     opening.tube_waist = std::numeric_limits<double>::infinity();
-    const auto is_wide = [&](std::size_t i) { return i >= slices.size() || slices[i].girth > k_widening * median; };
-    for (std::size_t i = 0; i < slices.size() && (i < hem || !is_wide(i) || !is_wide(i + 1)); ++i) {
+    const auto is_wide
+        = [&](std::size_t i) { return i >= slices.size() || slices[i].girth > k_tube_widening * median; };
+    for (std::size_t i = 0; i < slices.size() && (i < k_hem_slices || !is_wide(i) || !is_wide(i + 1)); ++i) {
         const double girth = slices[i].girth;
         sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), girth), girth);
         median = sorted[sorted.size() / 2];
-        if (i >= hem)
+        if (i >= k_hem_slices)
             opening.tube_waist = std::min(opening.tube_waist, girth);
         opening.tube_end = slices[i].middle;
     }
@@ -235,6 +233,7 @@ void measure_tube(Opening& opening, const std::vector<Slice>& slices, double wid
     opening.tube_waist = std::min(opening.tube_waist, median);
 }
 
+/// A number for each vertex, the same within a connected piece.
 std::vector<int> pieces_of(const TriangleMesh& mesh)
 {
     DisjointSets joined(int(mesh.positions.rows()));
@@ -251,7 +250,7 @@ struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-// In height, of each piece, by its name.
+/// Range of y of each piece, by the piece's number.
 std::vector<Range> ranges_of(const Positions& positions, const std::vector<int>& pieces)
 {
     std::vector<Range> ranges(pieces.size());
@@ -263,7 +262,6 @@ std::vector<Range> ranges_of(const Positions& positions, const std::vector<int>&
     return ranges;
 }
 
-// How high its edge and its piece of cloth are.
 void measure_heights(Opening& opening, const std::vector<Range>& ranges)
 {
     opening.low = opening.rim.colwise().minCoeff();
@@ -276,21 +274,22 @@ void measure_heights(Opening& opening, const std::vector<Range>& ranges)
 
 std::vector<Opening> openings_of(const TriangleMesh& outward)
 {
-    const double diagonal = diagonal_of(outward), width = k_slice * diagonal;
+    const double size = diagonal(outward.positions), width = k_slice * size;
     const std::vector<int> pieces = pieces_of(outward);
     const std::vector<Range> ranges = ranges_of(outward.positions, pieces);
-    const auto rings = large_rings(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
-                                   k_smallest_girth * diagonal);
-    const Paths paths(outward);
+    const auto rings = keep_large(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
+                                  k_smallest_girth * size);
+    const EdgeGraph graph(outward);
     std::vector<Opening> openings(rings.size());
     parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {
         Opening& opening = openings[r] = opening_of(outward.positions, rings[r]);
         opening.piece = pieces[rings[r][0].first];
         measure_heights(opening, ranges);
         const std::vector<double> distance
-            = paths.distances_from(rings[r], others_at(rings, r, outward.positions.rows()));
+            = graph.distances_from(rings[r], mark_others(rings, r, outward.positions.rows()));
         std::vector<Slice> slices = slices_along(outward, distance, width);
-        slices.resize(std::size_t(std::clamp(reach_of(distance, rings, r) / width, 1.0, double(slices.size()))));
+        slices.resize(
+            std::size_t(std::clamp(distance_to_others(distance, rings, r) / width, 1.0, double(slices.size()))));
         measure_tube(opening, slices, width);
     });
     return openings;
@@ -311,18 +310,18 @@ std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& c
 
 bool face_alike(const Opening& a, const Opening& b, const Vec3& axis)
 {
-    constexpr double k_alike = 0.7;  // cosine; cloth that hangs is never quite the same on either side
-    return (a.facing - 2 * a.facing.dot(axis) * axis).dot(b.facing) > k_alike;
+    return (a.facing - 2 * a.facing.dot(axis) * axis).dot(b.facing) > k_facing_alike;
 }
 
 bool is_sealed(const TriangleMesh& outward)
 {
-    const Eigen::Index edges = 3 * outward.triangles.rows() / 2;  // if none is open
-    return outward.positions.rows() - edges + outward.triangles.rows() == 2 * pieces_in(outward).count
+    const Eigen::Index edges = 3 * outward.triangles.rows() / 2;  // derived: each edge has two sides if none is open
+    return outward.positions.rows() - edges + outward.triangles.rows()
+        == 2 * count_pieces(outward).count  // derived: Euler characteristic of spheres
         && border_edges(outward).empty();
 }
 
-Pieces pieces_in(const TriangleMesh& outward)
+Pieces count_pieces(const TriangleMesh& outward)
 {
     const std::vector<int> pieces = pieces_of(outward);
     std::map<int, Eigen::AlignedBox3d> boxes;

@@ -44,6 +44,6 @@ struct Pieces {
     double largest = 0;  ///< m, longest side of the bounding box of the largest piece
 };
 /// Counts connected pieces.
-Pieces pieces_in(const TriangleMesh& outward);
+Pieces count_pieces(const TriangleMesh& outward);
 
 }  // namespace garmentfit

@@ -12,27 +12,29 @@
 #include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_backing = 3;  // thicknesses; along a rim it is further to the next cloth
-constexpr double k_crumb = 0.05;  // of the sheet's area
-constexpr double k_back = 0.5;  // cosine; less, and what lies behind a face is not the other sheet
+using namespace garment_tuning;
 
-// Two faces are of one sheet, or of two.
-struct Statement {
-    double doubt;  // 0 (level, or just behind) to 2
+constexpr double k_ray_start = 1e-3;  // unit: thicknesses below a face, so that a ray does not hit it
+
+/// Two faces belong to the same sheet, or to different sheets.
+struct Relation {
+    double uncertainty;  // 0 (coplanar, or behind at exactly the thickness) to 2
     int a, b;
     bool apart;
 
-    bool operator<(const Statement& other) const
+    bool operator<(const Relation& other) const
     {
-        return std::tie(doubt, a, b) < std::tie(other.doubt, other.a, other.b);
+        return std::tie(uncertainty, a, b) < std::tie(other.uncertainty, other.a, other.b);
     }
 };
 
-// Disjoint sets of faces; each face knows whether it is of the same sheet as its set's root.
+/// Disjoint sets of faces with a side relative to the root of the set: whether a face belongs to the root's sheet.
 class Sheets {
 public:
     explicit Sheets(std::size_t faces) : parent_(faces), other_side_(faces, 0)
@@ -40,14 +42,14 @@ public:
         std::iota(parent_.begin(), parent_.end(), 0);
     }
 
-    void state(const Statement& statement)
+    void add(const Relation& relation)
     {
-        const auto [a, a_side] = root(statement.a);
-        const auto [b, b_side] = root(statement.b);
+        const auto [a, a_side] = root(relation.a);
+        const auto [b, b_side] = root(relation.b);
         if (a == b)
-            return;  // known, or a contradiction to what is surer
+            return;  // known, or it contradicts relations that are more certain
         parent_[a] = b;
-        other_side_[a] = a_side ^ b_side ^ char(statement.apart);
+        other_side_[a] = a_side ^ b_side ^ char(relation.apart);
     }
     /// Root and side of a face.
     std::pair<int, char> root(int face)
@@ -57,7 +59,7 @@ public:
         for (; parent_[top] != top; top = parent_[top])
             side ^= other_side_[top];
         const char found = side;
-        while (parent_[face] != top && face != top) {  // next time it is near
+        while (parent_[face] != top && face != top) {  // path compression
             const int next = parent_[face];
             const char rest = side ^ other_side_[face];
             parent_[face] = top;
@@ -76,11 +78,8 @@ private:
 std::vector<Vec3> area_vectors(const TriangleMesh& cloth)
 {
     std::vector<Vec3> result(std::size_t(cloth.triangles.rows()));
-    for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f) {
-        const Vec3 a = cloth.positions.row(cloth.triangles(f, 0)), b = cloth.positions.row(cloth.triangles(f, 1)),
-                   c = cloth.positions.row(cloth.triangles(f, 2));
-        result[f] = 0.5 * (b - a).cross(c - a);
-    }
+    for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f)
+        result[f] = area_vector(cloth.positions, cloth.triangles, f);
     return result;
 }
 
@@ -89,12 +88,12 @@ Vec3 middle(const TriangleMesh& cloth, int face)
     return cloth.positions(cloth.triangles.row(face), Eigen::all).colwise().mean();
 }
 
-// What lies close behind a face is the other sheet.
-std::vector<Statement> about_backs(const TriangleMesh& cloth, const std::vector<int>& faces,
-                                   const std::vector<Vec3>& areas, double thickness)
+/// The face close behind a face belongs to the other sheet.
+std::vector<Relation> relate_to_backs(const TriangleMesh& cloth, const std::vector<int>& faces,
+                                      const std::vector<Vec3>& areas, double thickness)
 {
     const TriangleTree tree({ cloth.positions, cloth.triangles(faces, Eigen::all) });
-    std::vector<std::optional<Statement>> found(faces.size());
+    std::vector<std::optional<Relation>> found(faces.size());
     parallel_for<std::size_t>(
         faces.size(),
         [&](std::size_t i) {
@@ -102,35 +101,35 @@ std::vector<Statement> about_backs(const TriangleMesh& cloth, const std::vector<
             if (areas[f].norm() == 0)
                 return;
             const Vec3 inwards = -areas[f].normalized();
-            const auto hit = tree.first_hit(middle(cloth, f) + 1e-3 * thickness * inwards, inwards);
-            if (hit && hit->distance < k_backing * thickness && hit->cosine > k_back)
+            const auto hit = tree.first_hit(middle(cloth, f) + k_ray_start * thickness * inwards, inwards);
+            if (hit && hit->distance < k_backing * thickness && hit->cosine > k_back_cosine)
                 found[i] = { std::abs(hit->distance / thickness - 1) / k_backing + 1 - hit->cosine, f,
                              faces[hit->triangle], true };
         },
-        256);
-    std::vector<Statement> statements;
+        256);  // unit: grain of the parallel loop
+    std::vector<Relation> relations;
     for (const auto& one : found)
         if (one)
-            statements.push_back(*one);
-    return statements;
+            relations.push_back(*one);
+    return relations;
 }
 
-// Neighbours are of one sheet, unless there is a rim or a fold between them.
-std::vector<Statement> about_neighbours(const std::vector<int>& faces, const std::vector<int>& opposite,
-                                        const std::vector<Vec3>& areas)
+/// Neighbours belong to the same sheet, with an uncertainty that grows with the angle, as at a rim or a fold.
+std::vector<Relation> relate_to_neighbours(const std::vector<int>& faces, const std::vector<int>& opposite,
+                                           const std::vector<Vec3>& areas)
 {
-    std::vector<Statement> statements;
+    std::vector<Relation> relations;
     for (const int f : faces)
         for (int e = 3 * f; e < 3 * f + 3; ++e)
             if (const int other = opposite[e] / 3; opposite[e] > e)
-                statements.push_back(
+                relations.push_back(
                     { 1 - areas[f].stableNormalized().dot(areas[other].stableNormalized()), f, other, false });
-    return statements;
+    return relations;
 }
 
-// Strips of rims, and of folds: what hangs together but has hardly any area.
-std::vector<int> without_crumbs(const std::vector<int>& faces, const std::vector<int>& opposite,
-                                const std::vector<Vec3>& areas)
+/// Drops connected parts with a small area: strips of rims and folds.
+std::vector<int> drop_small_parts(const std::vector<int>& faces, const std::vector<int>& opposite,
+                                  const std::vector<Vec3>& areas)
 {
     std::vector<char> is_kept(areas.size(), 0);
     for (const int f : faces)
@@ -141,14 +140,14 @@ std::vector<int> without_crumbs(const std::vector<int>& faces, const std::vector
             if (opposite[e] >= 0 && is_kept[opposite[e] / 3])
                 joined.join(f, opposite[e] / 3);
     std::map<int, double> area;
-    double whole = 0;
+    double total = 0;
     for (const int f : faces) {
         area[joined.root(f)] += areas[f].norm();
-        whole += areas[f].norm();
+        total += areas[f].norm();
     }
     std::vector<int> result;
     for (const int f : faces)
-        if (area[joined.root(f)] > k_crumb * whole)
+        if (area[joined.root(f)] > k_small_part * total)
             result.push_back(f);
     return result;
 }
@@ -159,16 +158,17 @@ std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& 
                              double thickness)
 {
     const std::vector<Vec3> areas = area_vectors(cloth);
-    std::vector<Statement> statements = about_neighbours(faces, opposite, areas);
-    const std::vector<Statement> backs = about_backs(cloth, faces, areas, thickness);
-    statements.insert(statements.end(), backs.begin(), backs.end());
-    std::sort(statements.begin(), statements.end());
+    std::vector<Relation> relations = relate_to_neighbours(faces, opposite, areas);
+    const std::vector<Relation> backs = relate_to_backs(cloth, faces, areas, thickness);
+    relations.insert(relations.end(), backs.begin(), backs.end());
+    std::sort(relations.begin(), relations.end());
     Sheets sheets(areas.size());
-    for (const Statement& statement : statements)
-        sheets.state(statement);
+    for (const Relation& relation : relations)
+        sheets.add(relation);
 
-    // The outer sheet encloses more than the inner one, which is turned towards the body and encloses less than nothing.
-    std::map<int, double> volumes;  // by root, of its own side less the other one
+    // The outer sheet encloses a positive volume. The inner one is oriented towards the body, so its volume is
+    // negative.
+    std::map<int, double> volumes;  // by root: three times the volume of the root's side minus that of the other side
     const Vec3 origin = middle(cloth, faces[0]);
     for (const int f : faces) {
         const auto [root, side] = sheets.root(f);
@@ -178,7 +178,7 @@ std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& 
     for (const int f : faces)
         if (const auto [root, side] = sheets.root(f); (volumes[root] > 0) == (side == 0))
             outer.push_back(f);
-    return without_crumbs(outer, opposite, areas);
+    return drop_small_parts(outer, opposite, areas);
 }
 
 }  // namespace garmentfit

@@ -16,18 +16,23 @@
 #include "disjoint_sets.h"
 #include "outer_sheet.h"
 #include "parallel.h"
+#include "surface_measures.h"
+#include "topology.h"
+#include "tuning.h"
 #include "winding_number.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_weld_fraction = 1e-6;  // of the diagonal: what file formats round away, far below a stitch
-constexpr double k_flat_patch = 0.01;  // volume / area^1.5; a sphere has 0.094, a sleeve 0.03, a pocket 0.002
-constexpr double k_thickest = 0.02;  // m between the sheets of cloth that has two
-constexpr double k_side_step = 0.02;  // m; how far a flat patch looks to either side of itself
+using namespace garment_tuning;
 
-// Turned round to begin with their lowest corner: the same face, however it was written.
-Triangles begun_at_lowest(Triangles triangles)
+// unit: share of the diagonal, the precision of file formats; far below a stitch. The cells of a diagonal fit 21 bits
+// an axis.
+constexpr double k_weld_fraction = 1e-6;
+constexpr double k_no_length = 1e-300;  // m, unit: avoids 0 / 0
+
+/// Rotates the corners of each face so that the smallest index comes first.
+Triangles start_at_lowest_corner(Triangles triangles)
 {
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
         Eigen::Index lowest = 0;
@@ -38,25 +43,25 @@ Triangles begun_at_lowest(Triangles triangles)
     return triangles;
 }
 
-// Equal vertices become one; vertices without a face are left behind.
-TriangleMesh welded(const GarmentMesh& garment)
+/// Merges equal vertices; the first vertex of each cell replaces the others. Drops vertices without a face.
+TriangleMesh weld_vertices(const GarmentMesh& garment)
 {
     const Vec3 low = garment.positions.colwise().minCoeff();
     const double diagonal = (Vec3(garment.positions.colwise().maxCoeff()) - low).norm();
-    const double cell = std::max(k_weld_fraction * diagonal, 1e-300);
+    const double cell = std::max(k_weld_fraction * diagonal, k_no_length);
     const auto place
         = [&](int v, int axis) { return std::uint64_t(std::llround((garment.positions(v, axis) - low[axis]) / cell)); };
 
     std::vector<bool> used(garment.positions.rows(), false);
     for (const int v : garment.triangles.reshaped())
         used[v] = true;
-    std::vector<std::pair<std::uint64_t, int>> places;  // 1e6 cells along the diagonal: 21 bits an axis
+    std::vector<std::pair<std::uint64_t, int>> places;
     for (int v = 0; v < int(used.size()); ++v)
         if (used[v])
             places.emplace_back(place(v, 0) << 42 | place(v, 1) << 21 | place(v, 2), v);
     std::sort(places.begin(), places.end());
 
-    std::vector<int> first_of(garment.positions.rows(), -1);  // the first vertex of each place stands for all
+    std::vector<int> first_of(garment.positions.rows(), -1);
     for (std::size_t i = 0; i < places.size(); ++i)
         first_of[places[i].second]
             = i > 0 && places[i].first == places[i - 1].first ? first_of[places[i - 1].second] : places[i].second;
@@ -67,7 +72,7 @@ TriangleMesh welded(const GarmentMesh& garment)
             first.push_back(v);
         }
     return { garment.positions(first, Eigen::all),
-             begun_at_lowest(garment.triangles.unaryExpr([&](int v) { return row_of[first_of[v]]; })) };
+             start_at_lowest_corner(garment.triangles.unaryExpr([&](int v) { return row_of[first_of[v]]; })) };
 }
 
 std::array<int, 3> sorted_corners(const Triangles& triangles, Eigen::Index f)
@@ -77,7 +82,8 @@ std::array<int, 3> sorted_corners(const Triangles& triangles, Eigen::Index f)
     return key;
 }
 
-Triangles distinct_faces(const Triangles& triangles, int vertices)
+/// Drops degenerate faces and all but the first of equal faces, of either orientation.
+Triangles drop_equal_faces(const Triangles& triangles, int vertices)
 {
     std::vector<int> lowest(triangles.rows());
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
@@ -98,68 +104,52 @@ Triangles distinct_faces(const Triangles& triangles, int vertices)
     return triangles(rows, Eigen::all);
 }
 
-// Edge k of face f is 3 f + k. The other edge between the same vertices; -1 where there is none or more than one.
+/// Half-edge k of face f has number 3 f + k. The other half-edge between the same vertices; -1 if there is none or more
+/// than one.
 std::vector<int> opposite_edges(const Triangles& triangles, int vertices)
 {
-    const auto from = [&](int e) { return triangles(e / 3, e % 3); };
-    const auto to = [&](int e) { return triangles(e / 3, (e % 3 + 1) % 3); };
-    std::vector<int> lowest(3 * triangles.rows());
-    for (int e = 0; e < int(lowest.size()); ++e)
-        lowest[e] = std::min(from(e), to(e));
-    const Buckets edges_at(vertices, lowest);
-    std::vector<int> opposite(lowest.size(), -1);
-    parallel_for(int(lowest.size()), [&](int e) {
-        int found = -1, count = 0;
-        for (const int other : edges_at[lowest[e]])
-            if (other != e && std::max(from(other), to(other)) == std::max(from(e), to(e))) {
-                found = other;
-                ++count;
-            }
-        opposite[e] = count == 1 ? found : -1;
-    });
+    const MeshTopology topology(triangles, vertices);
+    std::vector<int> opposite(3 * triangles.rows());
+    for (int e = 0; e < int(opposite.size()); ++e)
+        opposite[e] = topology.opposite(e);
     return opposite;
 }
 
-// Faces that hang together through edges of exactly two faces, all turned to agree with the first.
+/// Faces connected through edges of exactly two faces, oriented consistently with the first face.
 struct Patch {
     std::vector<int> faces;
-    std::vector<std::pair<int, int>> border;  // directed as its faces are
-    double volume = 0, area = 0;  // volume with each opening closed by a fan to the opening's middle
+    std::vector<std::pair<int, int>> border;  // directed as in its faces
+    double volume = 0, area = 0;  // m^3, each opening closed by a fan to its centroid; m^2
 };
 
-Vec3 area_vector(const Positions& p, const Triangles& t, Eigen::Index f)
-{
-    const Vec3 a = p.row(t(f, 0)), b = p.row(t(f, 1)), c = p.row(t(f, 2));
-    return 0.5 * (b - a).cross(c - a);
-}
+void flip(Triangles& triangles, int f) { std::swap(triangles(f, 1), triangles(f, 2)); }
 
-void turn(Triangles& triangles, int f) { std::swap(triangles(f, 1), triangles(f, 2)); }
-
-// Turning a face renames its edges, so faces are turned when all of the patch is known.
-Patch patch_from(int seed, Triangles& triangles, const std::vector<int>& opposite, std::vector<bool>& seen)
+/// Collects a patch and orients its faces. A flip renumbers the edges of a face, so faces are flipped at the end.
+Patch collect_patch(int seed, Triangles& triangles, const std::vector<int>& opposite, std::vector<bool>& seen)
 {
     Patch patch { { seed }, {}, 0, 0 };
-    std::vector<bool> turned { false };
+    std::vector<bool> flipped { false };
     seen[seed] = true;
     for (std::size_t next = 0; next < patch.faces.size(); ++next)
         for (int k = 0; k < 3; ++k) {
             const int e = 3 * patch.faces[next] + k, other = opposite[e];
             const int a = triangles(e / 3, k), b = triangles(e / 3, (k + 1) % 3);
             if (other < 0) {
-                patch.border.push_back(turned[next] ? std::pair { b, a } : std::pair { a, b });
+                patch.border.push_back(flipped[next] ? std::pair { b, a } : std::pair { a, b });
             } else if (!seen[other / 3]) {
                 seen[other / 3] = true;
                 patch.faces.push_back(other / 3);
                 const bool runs_along = triangles(other / 3, other % 3) == a;
-                turned.push_back(runs_along != turned[next]);
+                flipped.push_back(runs_along != flipped[next]);
             }
         }
     for (std::size_t i = 0; i < patch.faces.size(); ++i)
-        if (turned[i])
-            turn(triangles, patch.faces[i]);
+        if (flipped[i])
+            flip(triangles, patch.faces[i]);
     return patch;
 }
 
+/// Signed volume of the tetrahedron with the origin, m^3.
 double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6; }
 
 void measure(Patch& patch, const TriangleMesh& cloth, DisjointSets& rings)
@@ -199,30 +189,31 @@ Triangles rows_of(const Triangles& triangles, const std::vector<const Patch*>& p
     return triangles(rows, Eigen::all);
 }
 
-// A pocket encloses nothing itself: it faces away from what the rest of the garment encloses.
+/// Whether a patch that encloses nothing, such as a pocket, is oriented towards the interior of the rest of the
+/// garment.
 bool faces_inwards(const TriangleMesh& cloth, const Patch& patch, const WindingNumber& winding)
 {
-    double vote = 0;
+    double evidence = 0;  // m^2 times winding number
     for (const int f : patch.faces) {
         const Vec3 area = area_vector(cloth.positions, cloth.triangles, f);
         if (area.norm() == 0)
             continue;
         const Vec3 middle = cloth.positions(cloth.triangles.row(f), Eigen::all).colwise().mean();
         const Vec3 step = k_side_step * area.normalized();
-        vote += area.norm() * (winding(middle + step) - winding(middle - step));
+        evidence += area.norm() * (winding(middle + step) - winding(middle - step));
     }
-    return vote > 0;
+    return evidence > 0;
 }
 
 // ---- cloth with thickness ------------------------------------------------------------------------------------------
 
-// m, between the sheets of a closed patch.
+/// derived: two sheets of area A / 2 with distance d enclose A d / 2. m, of a closed patch.
 double thickness_of(const Patch& patch) { return 2 * std::abs(patch.volume) / patch.area; }
 
-// Edges of more than two faces, at which it touches itself; none where an edge is open.
-std::optional<std::ptrdiff_t> edges_touched(const Patch& patch)
+/// Number of edges with more than two faces, where the patch touches itself; empty if an edge is open.
+std::optional<std::ptrdiff_t> count_touching_edges(const Patch& patch)
 {
-    std::map<std::pair<int, int>, int> balance;  // open edges are left over when those run back and forth cancel
+    std::map<std::pair<int, int>, int> balance;  // of directions of each edge, 0 if all cancel
     for (const auto& [a, b] : patch.border)
         balance[std::minmax(a, b)] += a < b ? 1 : -1;
     for (const auto& [edge, count] : balance)
@@ -231,12 +222,12 @@ std::optional<std::ptrdiff_t> edges_touched(const Patch& patch)
     return std::ptrdiff_t(balance.size());
 }
 
-// Closed all round, but for tunnels, with no more between its two sheets than padding.
+/// Whether a patch is closed, has tunnels, and has its two sheets no farther apart than padding.
 bool is_thick_cloth(const Patch& patch, const Triangles& triangles)
 {
     if (thickness_of(patch) > k_thickest)
         return false;
-    const auto touched = edges_touched(patch);
+    const auto touched = count_touching_edges(patch);
     if (!touched)
         return false;
     std::set<int> vertices;
@@ -245,11 +236,11 @@ bool is_thick_cloth(const Patch& patch, const Triangles& triangles)
             vertices.insert(triangles(f, k));
     const auto faces = std::ptrdiff_t(patch.faces.size());
     const auto edges = (3 * faces - std::ptrdiff_t(patch.border.size())) / 2 + *touched;
-    return std::ptrdiff_t(vertices.size()) - edges + faces <= 0;  // Euler: tunnels
+    return std::ptrdiff_t(vertices.size()) - edges + faces <= 0;  // derived: Euler characteristic with tunnels
 }
 
-// Cloth with thickness has two sheets, and only the outer one is what a garment looks like without.
-TriangleMesh without_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches)
+/// Keeps the outer sheets of cloth with thickness, so that a garment looks the same with and without thickness.
+TriangleMesh drop_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches)
 {
     if (std::none_of(patches.begin(), patches.end(),
                      [&](const Patch& patch) { return is_thick_cloth(patch, cloth.triangles); }))
@@ -265,42 +256,55 @@ TriangleMesh without_inner_sheets(const TriangleMesh& cloth, const std::vector<P
     GarmentMesh outer;
     outer.positions = cloth.positions;
     outer.triangles = cloth.triangles(kept, Eigen::all);
-    return welded(outer);
+    return weld_vertices(outer);
 }
 
-}  // namespace
-
-TriangleMesh outward_cloth(const GarmentMesh& garment)
+std::vector<Patch> collect_patches(TriangleMesh& cloth)
 {
-    TriangleMesh cloth = welded(garment);
     const int vertices = int(cloth.positions.rows());
-    cloth.triangles = distinct_faces(cloth.triangles, vertices);
     const std::vector<int> opposite = opposite_edges(cloth.triangles, vertices);
     std::vector<bool> seen(cloth.triangles.rows(), false);
     DisjointSets rings(vertices);
     std::vector<Patch> patches;
     for (int seed = 0; seed < int(seen.size()); ++seed)
         if (!seen[seed]) {
-            patches.push_back(patch_from(seed, cloth.triangles, opposite, seen));
+            patches.push_back(collect_patch(seed, cloth.triangles, opposite, seen));
             measure(patches.back(), cloth, rings);
         }
+    return patches;
+}
 
-    std::vector<const Patch*> outward, flat;
+/// Patches that enclose a volume are oriented by its sign, flat ones by the winding number of the others.
+void orient_outwards(TriangleMesh& cloth, const std::vector<Patch>& patches)
+{
+    const auto flip_all = [&](const Patch& patch) {
+        for (const int f : patch.faces)
+            flip(cloth.triangles, f);
+    };
+    std::vector<const Patch*> enclosing, flat;
     for (const Patch& patch : patches) {
         if (patch.volume < 0)
-            for (const int f : patch.faces)
-                turn(cloth.triangles, f);
-        const bool is_sure = patch.border.empty() || std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5);
-        (is_sure ? outward : flat).push_back(&patch);
+            flip_all(patch);
+        const bool encloses = patch.border.empty() || std::abs(patch.volume) > k_flat_patch * std::pow(patch.area, 1.5);
+        (encloses ? enclosing : flat).push_back(&patch);
     }
-    if (!outward.empty() && !flat.empty()) {
-        const WindingNumber winding({ cloth.positions, rows_of(cloth.triangles, outward) });
-        for (const Patch* patch : flat)
-            if (faces_inwards(cloth, *patch, winding))
-                for (const int f : patch->faces)
-                    turn(cloth.triangles, f);
-    }
-    return without_inner_sheets(cloth, patches);
+    if (enclosing.empty() || flat.empty())
+        return;
+    const WindingNumber winding({ cloth.positions, rows_of(cloth.triangles, enclosing) });
+    for (const Patch* patch : flat)
+        if (faces_inwards(cloth, *patch, winding))
+            flip_all(*patch);
+}
+
+}  // namespace
+
+TriangleMesh outward_cloth(const GarmentMesh& garment)
+{
+    TriangleMesh cloth = weld_vertices(garment);
+    cloth.triangles = drop_equal_faces(cloth.triangles, int(cloth.positions.rows()));
+    const std::vector<Patch> patches = collect_patches(cloth);
+    orient_outwards(cloth, patches);
+    return drop_inner_sheets(cloth, patches);
 }
 
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)

@@ -12,9 +12,12 @@
 
 #include "garmentfit/error.h"
 #include "outward_cloth.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
+
+using namespace garment_tuning;
 
 const std::vector<Bone> k_trunk { lowerback, upperback, thorax, lclavicle, rclavicle };
 const std::vector<Bone> k_upper_arms { lhumerus, rhumerus };
@@ -22,7 +25,7 @@ const std::vector<Bone> k_forearms { lradius, rradius };
 const std::vector<Bone> k_thighs { lhipjoint, rhipjoint, lfemur, rfemur };
 const std::vector<Bone> k_shins { ltibia, rtibia };
 
-std::vector<Bone> together(std::initializer_list<std::vector<Bone>> groups)
+std::vector<Bone> unite(std::initializer_list<std::vector<Bone>> groups)
 {
     std::vector<Bone> bones;
     for (const auto& group : groups)
@@ -31,33 +34,30 @@ std::vector<Bone> together(std::initializer_list<std::vector<Bone>> groups)
     return bones;
 }
 
-constexpr double k_armhole = 0.55;  // of armhole_likeness; sleeves have 0.1 to 0.4, a vest 0.7
-constexpr double k_armhole_length = 0.25;  // girths at most; a T-shirt's sleeve has 0.35
-constexpr double k_long_sleeve = 0.9;  // girths; to the elbow 0.5, to the wrist 1.4
-
-// One connected piece of cloth, its openings told apart.
+/// One connected piece of cloth with classified openings.
 struct Piece {
-    std::vector<Opening> sleeves, legs;  // two each, or none
+    std::vector<Opening> sleeves, legs;  // two each, or empty
     std::vector<Opening> others;  // neck, hem, waist, an open front
     double height = 0;  // m
-    double middle = 0;  // m; arms are above it, also below a hood
-    double margin = 1;  // of the closest decision so far
+    double middle = 0;  // m, y that separates arms from legs
+    double margin = 1;  // smallest margin of all decisions
 
-    // Is `value` above `threshold`? Half as much again is clear.
+    /// Whether `value` is above `threshold`; reduces the margin if it is close.
     bool above(double value, double threshold)
     {
-        margin = std::min(margin, 2 * std::abs(value - threshold) / threshold);
+        margin = std::min(margin, k_margin_slope * std::abs(value - threshold) / threshold);
         return value > threshold;
     }
 };
 
-// Mirror images: equal girths, equal heights, to the two sides of the piece.
+/// Whether two openings are mirror images: equal girths, equal heights, on two sides of the piece.
 bool are_pair(const Opening& a, const Opening& b)
 {
     Vec3 across = b.centre - a.centre;
     const double lift = std::exchange(across.y(), 0);
-    return std::max(a.girth, b.girth) < 1.4 * std::min(a.girth, b.girth) && std::abs(lift) < 0.15 * a.piece_height
-        && across.norm() > 0.25 * std::max(a.girth, b.girth) && face_alike(a, b, across.normalized());
+    return std::max(a.girth, b.girth) < k_pair_girths * std::min(a.girth, b.girth)
+        && std::abs(lift) < k_pair_lift * a.piece_height && across.norm() > k_pair_distance * std::max(a.girth, b.girth)
+        && face_alike(a, b, across.normalized());
 }
 
 std::vector<Opening> take_pair(std::vector<Opening>& from, std::size_t i, std::size_t j)
@@ -68,23 +68,23 @@ std::vector<Opening> take_pair(std::vector<Opening>& from, std::size_t i, std::s
     return pair;
 }
 
-// Legs are the lowest two openings; a hem that reaches as low, or hangs between them, makes them sleeves.
+/// Legs are the lowest two openings. If a hem is as low or between them, they are sleeves.
 void take_legs(Piece& piece)
 {
     auto& all = piece.others;
-    if (all.size() < 3 || !are_pair(all[0], all[1]) || all[0].facing.y() > -0.5 || all[1].facing.y() > -0.5)
+    if (all.size() < 3 || !are_pair(all[0], all[1]) || all[0].facing.y() > k_leg_normal
+        || all[1].facing.y() > k_leg_normal)
         return;
     for (std::size_t i = 2; i < all.size(); ++i)
-        if (all[i].facing.y() < -0.8 || all[i].low.y() < std::max(all[0].high.y(), all[1].high.y()))
+        if (all[i].facing.y() < k_hem_between_legs || all[i].low.y() < std::max(all[0].high.y(), all[1].high.y()))
             return;
-    if (all.back().facing.y() > -0.3)  // or it is a jacket that lies on its back
+    if (all.back().facing.y() > k_waist_normal)  // otherwise a jacket that lies on its back
         piece.legs = take_pair(all, 0, 1);
 }
 
-// Arms are thinner than the trunk, and so are their openings.
+/// Whether openings are narrow enough for arms, compared with the widest opening.
 bool are_narrow(const Opening& a, const Opening& b, const Piece& piece)
 {
-    constexpr double k_narrow = 0.9;
     double widest = 0;
     for (const Opening& other : piece.others)
         if (&other != &a && &other != &b)
@@ -92,22 +92,22 @@ bool are_narrow(const Opening& a, const Opening& b, const Piece& piece)
     return !piece.legs.empty() || std::max(a.girth, b.girth) < k_narrow * widest;
 }
 
-// One sleeve, a tube, and across the chest an armhole, with a hem below.
+/// Whether one opening is a sleeve, a tube, and the other an armhole across the chest, with a hem below.
 bool are_sleeve_and_armhole(const Opening& sleeve, const Opening& armhole, const Piece& piece)
 {
-    constexpr double k_tube = 0.25;  // girths long at least
     const Vec3 across = (armhole.centre - sleeve.centre).normalized();
     const double facing = std::min(-sleeve.facing.dot(across), armhole.facing.dot(across));
-    const bool is_missing = sleeve.girth < armhole.girth  // or cut off, to a stub
-        || (sleeve.girth < 1.25 * armhole.girth && sleeve.tube_length > 2 * armhole.tube_length);
+    const bool is_missing = sleeve.girth < armhole.girth  // or cut short
+        || (sleeve.girth < k_stub_girth * armhole.girth && sleeve.tube_length > k_stub_length * armhole.tube_length);
     const bool has_hem = std::any_of(piece.others.begin(), piece.others.end(), [&](const Opening& other) {
-        return other.facing.y() < -0.6 && other.low.y() < std::min(sleeve.low.y(), armhole.low.y());
+        return other.facing.y() < k_hem_below && other.low.y() < std::min(sleeve.low.y(), armhole.low.y());
     });
-    return sleeve.tube_length > k_tube * sleeve.tube_girth && is_missing && facing > 0.5 && std::abs(across.y()) < 0.6
-        && armhole.centre.y() > piece.middle && (has_hem || !piece.legs.empty());
+    return sleeve.tube_length > k_sleeve_tube * sleeve.tube_girth && is_missing && facing > k_sleeve_facing
+        && std::abs(across.y()) < k_across_lift && armhole.centre.y() > piece.middle
+        && (has_hem || !piece.legs.empty());
 }
 
-// What is missing has no length.
+/// The missing sleeve has length 0.
 std::vector<Opening> take_sleeve_and_armhole(std::vector<Opening>& from, std::size_t sleeve, std::size_t armhole)
 {
     from[armhole].tube_length = 0;
@@ -140,7 +140,7 @@ std::vector<Piece> pieces_of(const std::vector<Opening>& openings)
         std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.centre.y() < b.centre.y(); });
         Piece piece;
         piece.height = some[0].piece_height;
-        piece.middle = some[0].piece_low + 0.45 * piece.height;
+        piece.middle = some[0].piece_low + k_arm_height * piece.height;
         piece.others = some;
         take_legs(piece);
         take_sleeves(piece);
@@ -154,17 +154,18 @@ double length_in_girths(const std::vector<Opening>& pair)
     return std::max(pair[0].tube_length / pair[0].tube_girth, pair[1].tube_length / pair[1].tube_girth);
 }
 
+/// m, of the longer one.
 double length_of(const std::vector<Opening>& pair) { return std::max(pair[0].tube_length, pair[1].tube_length); }
 
 GarmentType type_with_legs(Piece& piece)
 {
-    if (!piece.sleeves.empty() || piece.above(piece.height / length_of(piece.legs), 1.5))
+    if (!piece.sleeves.empty() || piece.above(piece.height / length_of(piece.legs), k_jumpsuit_height))
         return GarmentType::jumpsuit;
-    return piece.above(length_in_girths(piece.legs), 1.0) ? GarmentType::trousers : GarmentType::shorts;
+    return piece.above(length_in_girths(piece.legs), k_trouser_length) ? GarmentType::trousers : GarmentType::shorts;
 }
 
-// A front is open where one opening runs from the neck to the hem; a blouse's edges meet, a jacket's stand apart. A coat's skirts reach further
-// below the arms than it is wide.
+/// An open front is one opening from neck to hem. The edges of a blouse meet, those of a jacket are apart. A coat's
+/// skirts are longer below the arms than the coat is wide.
 GarmentType type_with_open_front(Piece& piece, const Opening& front)
 {
     if (!piece.above(length_in_girths(piece.sleeves), k_armhole_length))
@@ -172,38 +173,39 @@ GarmentType type_with_open_front(Piece& piece, const Opening& front)
     const Opening &a = piece.sleeves[0], &b = piece.sleeves[1];
     const double chest = (a.tube_end - b.tube_end).norm(),
                  skirts = 0.5 * (a.tube_end.y() + b.tube_end.y()) - a.piece_low;
-    if (piece.above(skirts / chest, 1.5))
+    if (piece.above(skirts / chest, k_coat_skirts))
         return GarmentType::coat;
-    return piece.above(std::hypot(front.facing.x(), front.facing.z()), 0.3) ? GarmentType::jacket : GarmentType::blouse;
+    return piece.above(std::hypot(front.facing.x(), front.facing.z()), k_jacket_front) ? GarmentType::jacket
+                                                                                       : GarmentType::blouse;
 }
 
-// Armholes are wide and face up or sideways; sleeves are narrower and face sideways or down.
+/// Armholes are wide and face up or sideways. Sleeves are narrower and face sideways or down.
 double armhole_likeness(const std::vector<Opening>& pair, const Opening& hem)
 {
     const double width = std::min(pair[0].tube_waist, pair[1].tube_waist) / hem.tube_waist;
-    return width + 0.15 * (pair[0].facing.y() + pair[1].facing.y());
+    return width + k_armhole_normal * (pair[0].facing.y() + pair[1].facing.y());
 }
 
 GarmentType type_with_hem(Piece& piece, const Opening& hem, const Opening& top)
 {
-    if (piece.above(piece.height / hem.tube_waist, 1.1))
+    if (piece.above(piece.height / hem.tube_waist, k_dress_height))
         return GarmentType::dress;
     if (piece.sleeves.empty() || piece.above(armhole_likeness(piece.sleeves, hem), k_armhole))
         return GarmentType::vest;
     if (!piece.above(length_in_girths(piece.sleeves), k_long_sleeve))
         return GarmentType::tshirt;
-    return top.facing.y() < 0.5 ? GarmentType::hoodie : GarmentType::longsleeve;
+    return top.facing.y() < k_hood_normal ? GarmentType::hoodie : GarmentType::longsleeve;
 }
 
 std::optional<GarmentType> type_of(Piece& piece)
 {
     if (!piece.legs.empty())
         return type_with_legs(piece);
-    if (piece.others.size() < (piece.sleeves.empty() ? 2 : 1))  // a way in, but none out
+    if (piece.others.size() < (piece.sleeves.empty() ? 2 : 1))  // too few openings for a body
         return {};
     const Opening& lowest = piece.others.front();
     const Opening& highest = piece.others.back();
-    const bool open_front = lowest.high.y() - lowest.low.y() > 0.6 * piece.height;
+    const bool open_front = lowest.high.y() - lowest.low.y() > k_open_front * piece.height;
     if (open_front)
         return piece.sleeves.empty() ? GarmentType::vest : type_with_open_front(piece, lowest);
     if (piece.sleeves.empty() && piece.others.size() == 2)
@@ -230,7 +232,7 @@ Sleeves sleeves_of(const Piece& piece)
     return length_in_girths(piece.sleeves) > k_long_sleeve ? Sleeves::whole_arm : Sleeves::upper_arm;
 }
 
-// m, of its openings, from front to back as its legs or sleeves tell.
+/// Extent of the openings from front to back, m; legs or sleeves determine the direction.
 double depth_of(const Piece& piece)
 {
     const std::vector<Opening>& pair = piece.legs.empty() ? piece.sleeves : piece.legs;
@@ -245,30 +247,28 @@ double depth_of(const Piece& piece)
     return high - low;
 }
 
-// Legs point down, and so do sleeves; where they are held level, they leave from the upper half, above a hem or under a neckline. Who
-// lies is deeper than high. A waist is narrower than a hem.
+/// Evidence for upright: legs and sleeves point down. Horizontal sleeves are in the upper half. A piece that lies is
+/// deeper than high. A waist is narrower than a hem.
 double uprightness(const Piece& piece)
 {
-    constexpr double level = 0.25, plumb = 0.6;  // sines
-    constexpr double least_narrower = 0.05, clearly_narrower = 0.3;  // shares of the hem's girth
     if (!piece.legs.empty())
         return piece.height > depth_of(piece) ? 1 : 0;
-    const auto is_plumb = [](const Opening& opening) { return std::abs(opening.facing.y()) > plumb; };
-    if (!std::any_of(piece.others.begin(), piece.others.end(), is_plumb))
+    const auto is_vertical = [](const Opening& opening) { return std::abs(opening.facing.y()) > k_plumb; };
+    if (!std::any_of(piece.others.begin(), piece.others.end(), is_vertical))
         return 0;
     if (piece.sleeves.empty()) {
         const double narrower = piece.others.size() == 2 ? 1 - piece.others[1].girth / piece.others[0].girth : 0;
-        return narrower > least_narrower ? std::min(1.0, narrower / clearly_narrower) : 0;
+        return narrower > k_least_narrower ? std::min(1.0, narrower / k_clearly_narrower) : 0;
     }
     const double facing = sleeves_of(piece) == Sleeves::none  // armholes face any way
         ? 0
         : 0.5 * (piece.sleeves[0].facing.y() + piece.sleeves[1].facing.y());
     const double height = 0.5 * (piece.sleeves[0].centre.y() + piece.sleeves[1].centre.y());
-    const bool points_down = facing < -level || (facing < level && height > piece.middle);
+    const bool points_down = facing < -k_level || (facing < k_level && height > piece.middle);
     return points_down && piece.height > depth_of(piece) ? 1 : 0;
 }
 
-// Where elbows bend; across, two sleeves need not be alike.
+/// Direction in which elbows bend: sum of the sleeves' normals, horizontal, without the part across.
 Vec3 bend_of(const std::vector<Opening>& sleeves)
 {
     const Vec3 across = (sleeves[1].centre - sleeves[0].centre).stableNormalized();
@@ -278,8 +278,8 @@ Vec3 bend_of(const std::vector<Opening>& sleeves)
     return bend;
 }
 
-// Necklines are lower in front, trousers rise higher behind, coats open in front, elbows bend forwards: openings face the front. A hem faces
-// down, and the one opening above a bib, round straps, faces anywhere.
+/// Openings face the front: necklines are lower in front, trousers are higher behind, coats open in front, elbows bend
+/// forwards. Left out are hems, which face down, and the opening above a bib with straps, which faces anywhere.
 Vec3 front_of(const Piece& piece)
 {
     const auto share_of_height
@@ -290,8 +290,8 @@ Vec3 front_of(const Piece& piece)
     if (!piece.sleeves.empty())
         sum += bend_of(piece.sleeves);
     for (const Opening& opening : piece.others) {
-        const bool is_hem = opening.facing.y() < -0.8 && share_of_height(opening) < 0.5;
-        if (!is_hem && (piece.legs.empty() || share_of_height(opening) < 0.25))
+        const bool is_hem = opening.facing.y() < k_hem_normal && share_of_height(opening) < k_hem_share;
+        if (!is_hem && (piece.legs.empty() || share_of_height(opening) < k_level_share))
             sum += opening.facing;
     }
     return sum - sum.y() * Vec3::UnitY();
@@ -342,9 +342,10 @@ TypeGuess resolve_type(GarmentType given, const std::vector<Opening>& openings)
         return { given, 1 };
     const TypeGuess guess = guess_type(openings);
     if (guess.type == GarmentType::automatic)
-        throw InvalidInput(std::string("garment has ") + (openings.size() == 1 ? "only one opening" : "no openings")
-                           + " that a body could be put through, so its type cannot be told; give a garment with a way "
-                             "in and a way out, or its type");
+        throw InvalidInput(ErrorCode::no_opening,
+                           std::string("garment: its type cannot be guessed, because it has ")
+                               + (openings.size() == 1 ? "only one opening" : "no openings")
+                               + " large enough for a body; give its type, or a garment with openings");
     return guess;
 }
 
@@ -365,7 +366,8 @@ GarmentType garment_type_of(std::string_view name)
     std::string known;
     for (const auto& n : names)
         known += (known.empty() ? "" : ", ") + std::string(n);
-    throw InvalidInput("garment type \"" + std::string(name) + "\" is unknown; give one of " + known);
+    throw InvalidInput(ErrorCode::unknown_name,
+                       "garment type \"" + std::string(name) + "\" is unknown; give one of " + known);
 }
 
 std::string_view name_of(GarmentType type) { return garment_type_names()[int(type)]; }
@@ -374,19 +376,19 @@ std::vector<Bone> bones_covered_by(GarmentType type)
 {
     switch (type) {
     case GarmentType::automatic: return {};
-    case GarmentType::tshirt: return together({ k_trunk, k_upper_arms });
+    case GarmentType::tshirt: return unite({ k_trunk, k_upper_arms });
     case GarmentType::longsleeve:
     case GarmentType::blouse:
     case GarmentType::hoodie:
-    case GarmentType::jacket: return together({ k_trunk, k_upper_arms, k_forearms });
-    case GarmentType::coat: return together({ k_trunk, k_upper_arms, k_forearms, k_thighs });
-    case GarmentType::vest: return together({ k_trunk });
-    case GarmentType::trousers: return together({ k_thighs, k_shins });
+    case GarmentType::jacket: return unite({ k_trunk, k_upper_arms, k_forearms });
+    case GarmentType::coat: return unite({ k_trunk, k_upper_arms, k_forearms, k_thighs });
+    case GarmentType::vest: return unite({ k_trunk });
+    case GarmentType::trousers: return unite({ k_thighs, k_shins });
     case GarmentType::shorts:
-    case GarmentType::skirt: return together({ k_thighs });
-    case GarmentType::dress: return together({ k_trunk, k_upper_arms, k_thighs });
+    case GarmentType::skirt: return unite({ k_thighs });
+    case GarmentType::dress: return unite({ k_trunk, k_upper_arms, k_thighs });
     case GarmentType::jumpsuit:
-    case GarmentType::suit: return together({ k_trunk, k_upper_arms, k_forearms, k_thighs, k_shins });
+    case GarmentType::suit: return unite({ k_trunk, k_upper_arms, k_forearms, k_thighs, k_shins });
     }
     return {};
 }
@@ -400,11 +402,11 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
     Sleeves longest = Sleeves::none;
     for (const Piece& piece : pieces_of(openings))
         longest = std::max(longest, sleeves_of(piece));
-    const auto is_bare = [&](Bone b) {
+    const auto is_uncovered = [&](Bone b) {
         const bool upper = b == lhumerus || b == rhumerus, fore = b == lradius || b == rradius;
         return (upper && longest == Sleeves::none) || (fore && longest != Sleeves::whole_arm);
     };
-    bones.erase(std::remove_if(bones.begin(), bones.end(), is_bare), bones.end());
+    bones.erase(std::remove_if(bones.begin(), bones.end(), is_uncovered), bones.end());
     return bones;
 }
 

@@ -9,18 +9,20 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "type_guess.h"
 #include "outward_cloth.h"
 #include "posture.h"
+#include "tuning.h"
+#include "type_guess.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_nearly_along = 0.26;  // rad, 15 degrees: so far a worn garment's axes lean from the vertical
-constexpr double k_apart = 0.17;  // rad; between ways that are worth trying apart
+using namespace garment_tuning;
 
-// Along which the cloth is spread, most first.
-std::vector<Vec3> axes_of(const TriangleMesh& cloth)
+constexpr double k_no_area = 1e-300;  // m^2, unit: avoids 0 / 0
+
+/// Principal axes of the cloth's area, largest first.
+std::vector<Vec3> principal_axes(const TriangleMesh& cloth)
 {
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
     Vec3 first = Vec3::Zero();
@@ -34,21 +36,22 @@ std::vector<Vec3> axes_of(const TriangleMesh& cloth)
         first += weight * middle;
         second += weight * middle * middle.transpose();
     }
-    const Vec3 mean = first / std::max(area, 1e-300);
+    const Vec3 mean = first / std::max(area, k_no_area);
     const Eigen::Matrix3d axes
         = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second - area * mean * mean.transpose()).eigenvectors();
     return { axes.col(2), axes.col(1), axes.col(0) };
 }
 
-// Two sleeves, or two legs, as far as that can be told whatever the way up.
+/// Whether two openings are two sleeves or two legs, independent of the vertical.
 bool are_twins(const Opening& a, const Opening& b)
 {
-    constexpr double k_alike = 1.4;
-    return a.piece == b.piece && std::max(a.girth, b.girth) < k_alike * std::min(a.girth, b.girth)
-        && std::max(a.tube_girth, b.tube_girth) < k_alike * std::min(a.tube_girth, b.tube_girth)
-        && face_alike(a, b, (b.centre - a.centre).stableNormalized()) && (b.centre - a.centre).norm() > 0.5 * a.girth;
+    return a.piece == b.piece && std::max(a.girth, b.girth) < k_twin_girths * std::min(a.girth, b.girth)
+        && std::max(a.tube_girth, b.tube_girth) < k_twin_girths * std::min(a.tube_girth, b.tube_girth)
+        && face_alike(a, b, (b.centre - a.centre).stableNormalized())
+        && (b.centre - a.centre).norm() > k_twin_distance * a.girth;
 }
 
+/// Largest distance between two openings, m.
 double spread(const std::vector<Opening>& openings)
 {
     double largest = 0;
@@ -59,12 +62,12 @@ double spread(const std::vector<Opening>& openings)
 }
 
 struct Middles {
-    std::vector<Vec3> points;  // of openings, or of twins
-    Vec3 across = Vec3::Zero();  // from one twin to the other
+    std::vector<Vec3> points;  // of openings, and of pairs
+    Vec3 across = Vec3::Zero();  // between the pair that is farthest apart
 };
 
-// Of one piece's openings.
-Middles middles_of(const std::vector<Opening>& openings)
+/// @param openings  of one piece
+Middles collect_middles(const std::vector<Opening>& openings)
 {
     Middles middles;
     for (std::size_t i = 0; i < openings.size(); ++i) {
@@ -80,19 +83,18 @@ Middles middles_of(const std::vector<Opening>& openings)
     return middles;
 }
 
-// Along which its parts follow each other, in the plane that parts left from right: from hem to neck, from between the legs to the waist.
-// Too short a line says nothing.
+/// Lines between middles, in the plane of symmetry: from hem to neck, from between the legs to the waist. Short lines
+/// are no evidence and are left out.
 std::vector<Vec3> lines_along(const std::vector<Opening>& openings)
 {
-    constexpr double k_long = 0.4;  // of the distance between its openings
-    const Middles middles = middles_of(openings);
+    const Middles middles = collect_middles(openings);
     const Vec3 across = middles.across.stableNormalized();
-    const double least = k_long * spread(openings);
+    const double least = k_long_line * spread(openings);
     std::vector<Vec3> lines;
     for (std::size_t i = 0; i < middles.points.size(); ++i)
         for (std::size_t j = i + 1; j < middles.points.size(); ++j) {
             const Vec3 line = middles.points[j] - middles.points[i], level = line - line.dot(across) * across;
-            if (level.norm() > least && level.norm() > 0.8 * line.norm())
+            if (level.norm() > least && level.norm() > k_line_across * line.norm())
                 lines.push_back(level);
         }
     std::stable_sort(lines.begin(), lines.end(), [](const Vec3& a, const Vec3& b) { return a.norm() > b.norm(); });
@@ -119,10 +121,10 @@ std::vector<Vec3> both_ways(const std::vector<Vec3>& lines)
     return result;
 }
 
-std::vector<Vec3> room_axes() { return both_ways({ Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ() }); }
+std::vector<Vec3> coordinate_axes() { return both_ways({ Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ() }); }
 
-// The first of those that are nearly alike.
-std::vector<Vec3> distinct(const std::vector<Vec3>& directions)
+/// Keeps the first of directions that are close to each other.
+std::vector<Vec3> keep_distinct(const std::vector<Vec3>& directions)
 {
     std::vector<Vec3> kept;
     for (const Vec3& one : directions)
@@ -132,24 +134,24 @@ std::vector<Vec3> distinct(const std::vector<Vec3>& directions)
     return kept;
 }
 
-// Garments are mostly given along the room's axes, and lean a little by their cut.
-Vec3 snapped(const Vec3& direction)
+/// Most garments are given along the coordinate axes; their cut makes their measured axes deviate a little.
+Vec3 snap_to_axes(const Vec3& direction)
 {
-    for (const Vec3& axis : room_axes())
+    for (const Vec3& axis : coordinate_axes())
         if (angle_between(axis, direction) < k_nearly_along)
             return axis;
     return direction;
 }
 
-std::vector<Vec3> likely_ups(const TriangleMesh& outward, const std::vector<Opening>& openings)
+std::vector<Vec3> list_candidates(const TriangleMesh& outward, const std::vector<Opening>& openings)
 {
     std::vector<Vec3> lines = lines_along_pieces(openings);
-    if (lines.empty())  // as for a jacket, whose front is open from neck to hem
-        lines = axes_of(outward);
+    if (lines.empty())  // for example a jacket that is open from neck to hem
+        lines = principal_axes(outward);
     std::vector<Vec3> ups = both_ways(lines);
-    std::transform(ups.begin(), ups.end(), ups.begin(), snapped);
+    std::transform(ups.begin(), ups.end(), ups.begin(), snap_to_axes);
     std::stable_partition(ups.begin(), ups.end(), [](const Vec3& up) { return up == Vec3::UnitY(); });
-    return distinct(ups);
+    return keep_distinct(ups);
 }
 
 double uprightness_turned(const TriangleMesh& outward, const std::vector<Opening>& openings,
@@ -158,8 +160,8 @@ double uprightness_turned(const TriangleMesh& outward, const std::vector<Opening
     return uprightness(rotate(openings, rotate(outward, turn), turn));
 }
 
-// Less what speaks for the way that is upside down.
-WayUp way(const Vec3& up, const TriangleMesh& outward, const std::vector<Opening>& openings)
+/// The evidence of a rotation minus the evidence of the same upside down.
+WayUp score_rotation(const Vec3& up, const TriangleMesh& outward, const std::vector<Opening>& openings)
 {
     const Eigen::Quaterniond turn = shortest_arc(up, Vec3::UnitY()),
                              over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
@@ -170,16 +172,16 @@ WayUp way(const Vec3& up, const TriangleMesh& outward, const std::vector<Opening
 
 std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Opening>& openings)
 {
-    const std::vector<Vec3> ups = likely_ups(outward, openings);
-    const WayUp given = way(Vec3::UnitY(), outward, openings);
+    const std::vector<Vec3> ups = list_candidates(outward, openings);
+    const WayUp given = score_rotation(Vec3::UnitY(), outward, openings);
     if (given.evidence > 0 && !ups.empty() && ups[0] == Vec3::UnitY())
         return { given };
 
-    std::vector<Vec3> all = room_axes();
+    std::vector<Vec3> all = coordinate_axes();
     all.insert(all.end(), ups.begin(), ups.end());
     std::vector<WayUp> ways;
-    for (const Vec3& up : distinct(all))
-        ways.push_back(way(up, outward, openings));
+    for (const Vec3& up : keep_distinct(all))
+        ways.push_back(score_rotation(up, outward, openings));
     std::stable_sort(ways.begin(), ways.end(), [](const WayUp& a, const WayUp& b) { return a.evidence > b.evidence; });
     return ways;
 }

@@ -8,25 +8,20 @@
 #include <Eigen/Eigenvalues>
 
 #include "segment.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// How far people stray from the usual ratio, and cuts from straight limbs.
-constexpr double k_ratio_spread = 0.03;
-constexpr double k_straight_spread = 0.006;  // of stature
+using namespace rig_tuning;
 
-// Bends: from where on, rad, the bones' axes say more about the joint than the line of cuts, and what is too far to be so.
-constexpr double k_corner_from = 0.5, k_corner_to = 1.0;
-constexpr double k_corner_gap = 0.03, k_corner_reach = 0.06, k_outlier = 0.06;  // of stature
-constexpr int k_fewest_cuts = 6;
-
-/// Row between `from` and `to` where two straight bones explain the line best, weighed against the usual ratio.
-int bend_row(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
+/// The row between `from` and `to` with the smallest sum of squared residuals: of the cuts from two straight bones, and
+/// of the ratio of the bones from the usual one.
+int find_bend_row(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
 {
     int best = (from + to) / 2;
     double least = std::numeric_limits<double>::max();
-    const double outlier = std::pow(k_outlier * size, 2);  // in a deep bend some cuts go astray
+    const double outlier = std::pow(k_outlier * size, 2);  // m^2
     for (int i = from + 1; i < to; ++i) {
         double squares = 0;
         for (int k = from; k <= to; ++k)
@@ -48,8 +43,8 @@ struct StraightLine {
     Vec3 middle, direction;
 };
 
-/// Through the middles of the cuts between two rows.
-StraightLine fitted(const Centreline& line, int from, int to)
+/// Least squares fit to the centroids of the cuts between two rows.
+StraightLine fit_line(const Centreline& line, int from, int to)
 {
     StraightLine result { Vec3::Zero(), Vec3::Zero() };
     for (int i = from; i <= to; ++i)
@@ -67,26 +62,30 @@ StraightLine fitted(const Centreline& line, int from, int to)
 
 }  // namespace
 
-Vec3 bend(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
+Vec3 place_bend(const Centreline& line, int from, int to, const Vec3& root, double usual_ratio, double size)
 {
-    const int row = bend_row(line, from, to, root, usual_ratio, size);
+    const int row = find_bend_row(line, from, to, root, usual_ratio, size);
     const int upper = row - from, lower = to - row;
+    const Vec3 on_line = line.points[row];
     if (upper < k_fewest_cuts || lower < k_fewest_cuts)
-        return line.points[row];
-    const StraightLine a = fitted(line, from + upper / 5, row - upper * 3 / 10),
-                       b = fitted(line, row + lower * 3 / 10, to);
+        return on_line;
+    const StraightLine a = fit_line(line, from + upper * k_trunk_tenths / 10, row - upper * k_bend_tenths / 10),
+                       b = fit_line(line, row + lower * k_bend_tenths / 10, to);
     const double cosine = a.direction.dot(b.direction), angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double share = std::clamp((angle - k_corner_from) / (k_corner_to - k_corner_from), 0.0, 1.0);
     if (share == 0)
-        return line.points[row];
+        return on_line;
+    // derived: the points of two lines that are nearest to each other
     const Vec3 between = b.middle - a.middle;
-    const double sine = 1 - cosine * cosine;
-    const Vec3 on_a = a.middle + (between.dot(a.direction) - cosine * between.dot(b.direction)) / sine * a.direction;
-    const Vec3 on_b = b.middle + (cosine * between.dot(a.direction) - between.dot(b.direction)) / sine * b.direction;
+    const double squared_sine = 1 - cosine * cosine;
+    const Vec3 on_a
+        = a.middle + (between.dot(a.direction) - cosine * between.dot(b.direction)) / squared_sine * a.direction;
+    const Vec3 on_b
+        = b.middle + (cosine * between.dot(a.direction) - between.dot(b.direction)) / squared_sine * b.direction;
     const Vec3 corner = 0.5 * (on_a + on_b);
-    if ((on_a - on_b).norm() > k_corner_gap * size || (corner - line.points[row]).norm() > k_corner_reach * size)
-        return line.points[row];
-    return line.points[row] + share * (corner - line.points[row]);
+    if ((on_a - on_b).norm() > k_corner_gap * size || (corner - on_line).norm() > k_corner_reach * size)
+        return on_line;
+    return on_line + share * (corner - on_line);
 }
 
 }  // namespace garmentfit

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -11,35 +10,24 @@
 
 #include "curve_loops.h"
 #include "garmentfit/error.h"
+#include "number_text.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr int k_ends = 5;  // one less where the head is missing
+using namespace rig_tuning;
+
+constexpr int k_ends = 5;  // one less without head
 constexpr int k_parts = 3;
 
 enum Part : int { head_end, hand_end, foot_end };
 
-// Lengths along the curves between the ends, as shares of stature, in the order of Part: segment lengths of
-// [deleva_1996_segments], to the middle of the fingers and toes, where the curves end.
+// literature: [deleva_1996_segments], sums of segment lengths to the middle of fingers and toes, where the curves end.
+// Lengths along the curves between the ends as shares of stature, rows and columns as Part.
 constexpr double k_between[k_parts][k_parts] = { { 0, 0.61, 1.05 }, { 0.61, 0.90, 1.31 }, { 1.05, 1.31, 1.215 } };
 
-// The curves of real bodies leave some 0.1 of spread (a child's large head most of all); a shape with another plan leaves far more.
-constexpr double k_largest_spread = 0.30;
-constexpr double k_largest_headless_spread = 0.15;  // fewer lengths to agree: they must do so better
-
-// A limb is at least this much longer than the longest finger, ear or toe that was pruned.
-constexpr double k_limb_over_finger = 1.25;
-constexpr double k_limb_over_stump = 2.5;  // without a head, what was pruned is a neck or a finger, nothing longer
-
-std::string text(double value)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.2f", value);
-    return buffer;
-}
-
-/// A graph that loses its branches.
+/// A graph from which branches are removed.
 class Tree {
 public:
     explicit Tree(const CurveSkeleton& skeleton) : nodes_(skeleton.nodes), neighbours_(skeleton.nodes.size())
@@ -59,7 +47,7 @@ public:
         return result;
     }
 
-    /// From a leaf to the next fork, the fork included; to the other leaf where there is no fork.
+    /// Nodes from a leaf to the next fork, the fork included; to the other leaf if there is no fork.
     std::vector<int> branch(int leaf) const
     {
         std::vector<int> nodes { leaf };
@@ -92,7 +80,7 @@ public:
         fork.erase(std::find(fork.begin(), fork.end(), branch[branch.size() - 2]));
     }
 
-    /// @pre both are still there
+    /// @pre neither node was removed
     std::vector<int> path(int from, int to) const
     {
         std::vector<int> before(nodes_.size(), -1), front { to };
@@ -114,13 +102,16 @@ private:
     std::vector<std::vector<int>> neighbours_;
 };
 
-/// Fingers, toes, ears and nose are the shortest branches: they go until as many as wanted are left.
+/// Removes the shortest branches (fingers, toes, ears, nose) until `ends` leaves remain.
 std::vector<int> prune_to_ends(Tree& tree, std::size_t ends)
 {
     std::vector<int> leaves = tree.leaves();
     if (leaves.size() < ends)
-        throw InvalidInput("body: " + std::to_string(leaves.size())
-                           + " ends found, a human has 5 (head, hands, feet); give one whole human body");
+        throw InvalidInput(
+            ErrorCode::not_human,
+            "body: " + std::to_string(leaves.size())
+                + " ends found, a human has 5 (head, hands, feet); give one whole human body whose limbs do not"
+                  " merge");
     double longest_pruned = 0;
     const auto shorter = [&](int a, int b) { return tree.length(tree.branch(a)) < tree.length(tree.branch(b)); };
     for (; leaves.size() > ends; leaves = tree.leaves()) {
@@ -130,22 +121,24 @@ std::vector<int> prune_to_ends(Tree& tree, std::size_t ends)
     }
     const double shortest = tree.length(tree.branch(*std::min_element(leaves.begin(), leaves.end(), shorter)));
     if (shortest < (ends == k_ends ? k_limb_over_finger : k_limb_over_stump) * longest_pruned)
-        throw InvalidInput("body: more than 5 ends found, the sixth is " + text(longest_pruned)
-                           + " m long and the fifth " + text(shortest)
-                           + " m; give one human body without things attached to it");
+        throw InvalidInput(ErrorCode::not_human,
+                           "body: more than " + std::to_string(ends) + " ends found, the next one is "
+                               + fixed_text(longest_pruned, 2) + " m long and the shortest of the others "
+                               + fixed_text(shortest, 2)
+                               + " m; give one human body without tail, wings or things in its hands");
     return leaves;
 }
 
-/// (head,) hand, hand, foot, foot, and how far the lengths between them are from a human's.
+/// (head,) hand, hand, foot, foot, and how well the lengths between them agree with a human's.
 struct Labels {
     std::vector<int> ends;
-    double spread = std::numeric_limits<double>::max();
-    double size = 0;
+    double spread = std::numeric_limits<double>::max();  ///< standard deviation of the logarithms of length ratios
+    double size = 0;  ///< m, stature by the mean of the logarithms
 
     bool headless() const { return ends.size() < k_ends; }
 };
 
-Labels judged(const std::vector<int>& order, const Eigen::MatrixXd& lengths)
+Labels score_labels(const std::vector<int>& order, const Eigen::MatrixXd& lengths)
 {
     constexpr std::array<Part, k_ends> parts { head_end, hand_end, hand_end, foot_end, foot_end };
     const std::size_t missing = k_ends - order.size();
@@ -161,6 +154,7 @@ Labels judged(const std::vector<int>& order, const Eigen::MatrixXd& lengths)
     return { order, std::sqrt(squares), std::exp(mean) };
 }
 
+/// The permutation of leaves with the smallest spread.
 Labels best_labels(const Tree& tree, const std::vector<int>& leaves)
 {
     const int n = int(leaves.size());
@@ -173,29 +167,31 @@ Labels best_labels(const Tree& tree, const std::vector<int>& leaves)
     std::iota(order.begin(), order.end(), 0);
     do {
         if (order[n - 4] > order[n - 3] || order[n - 2] > order[n - 1])
-            continue;  // sides come later
-        const Labels labels = judged(order, lengths);
+            continue;  // left and right are classified later
+        const Labels labels = score_labels(order, lengths);
         if (labels.spread < best.spread)
             best = labels;
     } while (std::next_permutation(order.begin(), order.end()));
     const double most = best.headless() ? k_largest_headless_spread : k_largest_spread;
     if (best.spread > most)
-        throw InvalidInput("body: the lengths between its ends differ from a human's by a spread of "
-                           + text(best.spread) + " (at most " + text(most)
-                           + "); give a human body, or check that limbs are not fused");
+        throw InvalidInput(ErrorCode::not_human,
+                           "body: the lengths between head, hands and feet differ from a human's by a spread of "
+                               + fixed_text(best.spread, 2) + " (at most " + fixed_text(most, 2)
+                               + "); give a human body whose limbs do not merge, or give joints");
     for (int& end : best.ends)
         end = leaves[end];
     return best;
 }
 
-/// A curve skeleton without loops, as much of it as leads to an end with a name.
+/// A curve skeleton without loops, pruned to the branches whose ends have names.
 struct NamedTree {
     Tree tree;
     Labels labels;
 };
 
-/// Of all ways to open the loops, the one that leaves a tree most like a human. @throws InvalidInput of the first way.
-NamedTree most_human(const std::vector<CurveSkeleton>& ways, std::size_t ends)
+/// Of all ways to open the loops, the one whose tree agrees best with a human's lengths. @throws InvalidInput of the
+/// first way.
+NamedTree best_tree(const std::vector<CurveSkeleton>& ways, std::size_t ends)
 {
     std::optional<NamedTree> best;
     std::optional<InvalidInput> refusal;
@@ -215,22 +211,22 @@ NamedTree most_human(const std::vector<CurveSkeleton>& ways, std::size_t ends)
     return *std::move(best);
 }
 
-/// With its head or, where that finds none, without: a neck is no longer than a finger.
-NamedTree named_tree(const std::vector<CurveSkeleton>& ways)
+/// Names a tree with a head or, if that fails, without. A neck without head is not longer than a finger.
+NamedTree name_tree(const std::vector<CurveSkeleton>& ways)
 {
     try {
-        return most_human(ways, k_ends);
+        return best_tree(ways, k_ends);
     } catch (const InvalidInput&) {
         try {
-            return most_human(ways, k_ends - 1);
+            return best_tree(ways, k_ends - 1);
         } catch (const InvalidInput&) {
-            // the reason with a head is the one to tell
+            // the error of the attempt with a head is reported
         }
         throw;
     }
 }
 
-/// The part of `path` after its last node on `trunk`, that node included.
+/// The part of `path` from its last node on `trunk`, that node included.
 std::vector<int> beyond(const std::vector<int>& trunk, const std::vector<int>& path)
 {
     std::size_t first = 0;
@@ -240,7 +236,7 @@ std::vector<int> beyond(const std::vector<int>& trunk, const std::vector<int>& p
     return { path.begin() + first, path.end() };
 }
 
-/// Stature by the distances between head and feet alone: an arm cut off the hip that it was fused to is bent out of length.
+/// Stature from the distances between head and feet only: an arm that was cut off a hip has a wrong length.
 double size_by_legs(const Tree& tree, int head, int foot0, int foot1)
 {
     const auto distance = [&](int a, int b) { return tree.length(tree.path(a, b)); };
@@ -248,12 +244,12 @@ double size_by_legs(const Tree& tree, int head, int foot0, int foot1)
                      / (k_between[head_end][foot_end] * k_between[head_end][foot_end] * k_between[foot_end][foot_end]));
 }
 
-/// Every node takes the place of the nearest node, along the whole graph, that lies on a curve.
-std::vector<BodyGraph::Place> places(const BodyGraph& graph, const CurveSkeleton& skeleton)
+/// Each node gets the place of the nearest node on a curve, by the number of edges of the whole graph.
+std::vector<BodyGraph::Place> assign_places(const BodyGraph& graph, const CurveSkeleton& skeleton)
 {
     std::vector<BodyGraph::Place> places(skeleton.nodes.size());
     std::vector<int> front;
-    for (const int c : { 5, 4, 0, 1, 2, 3 })  // where curves meet, the trunk's place counts
+    for (const int c : { k_trunk_curve, k_head_curve, 0, 1, 2, 3 })  // where curves meet, the trunk has priority
         for (int row = 0; row < int(graph.curve(c).size()); ++row)
             if (const int node = graph.curve(c)[row]; places[node].curve < 0) {
                 places[node] = { c, row };
@@ -277,7 +273,7 @@ std::vector<BodyGraph::Place> places(const BodyGraph& graph, const CurveSkeleton
 
 BodyGraph body_graph(const CurveSkeleton& skeleton)
 {
-    const auto [tree, labels] = named_tree(open_loops(skeleton));
+    const auto [tree, labels] = name_tree(open_loops(skeleton));
     const int* end = labels.ends.data() + labels.ends.size() - 4;
     const int hand0 = end[0], hand1 = end[1], foot0 = end[2], foot1 = end[3];
 
@@ -295,10 +291,11 @@ BodyGraph body_graph(const CurveSkeleton& skeleton)
     const auto fork = std::max(leaves_at(0), leaves_at(1));
     if (fork == spine.end())
         throw InvalidInput(
-            "body: its arms do not leave the line from hips to head; give a human body whose limbs are not fused");
+            ErrorCode::not_human,
+            "body: the arms do not branch off between hips and head; give a human body whose limbs do not merge");
     graph.trunk.assign(spine.begin(), fork + 1);
     graph.head.assign(fork, spine.end());
-    graph.place_of_node = places(graph, skeleton);
+    graph.place_of_node = assign_places(graph, skeleton);
     return graph;
 }
 

@@ -8,7 +8,9 @@
 
 namespace garmentfit {
 
-/// What the curve skeleton of a human says: which of its curves is which part of the body, sides still open.
+constexpr int k_head_curve = 4, k_trunk_curve = 5;
+
+/// Body part of each curve of a human's curve skeleton. Left and right are not known yet.
 struct BodyGraph {
     // Rows of CurveSkeleton::nodes, from the trunk outwards.
     std::array<std::vector<int>, 2> arms;  ///< from where they leave the trunk to the fingertips
@@ -19,19 +21,22 @@ struct BodyGraph {
     double size = 0;  ///< m, roughly the stature, from lengths along the curves
     double size_by_legs = 0;  ///< m, the same from the lengths between head and feet alone
 
-    /// Where each node hangs: 0, 1 = arms, 2, 3 = legs, 4 = head, 5 = trunk, and the row of that curve. Fingers hang on
-    /// the node that they branch off.
+    /// Curve of each node (0, 1 = arms, 2, 3 = legs, 4 = head, 5 = trunk) and row of that curve. Fingers belong to the
+    /// node from which they branch off.
     struct Place {
         int curve = -1, row = 0;
     };
     std::vector<Place> place_of_node;
 
-    const std::vector<int>& curve(int c) const { return c < 2 ? arms[c] : c < 4 ? legs[c - 2] : c == 4 ? head : trunk; }
+    const std::vector<int>& curve(int c) const
+    {
+        return c < 2 ? arms[c] : c < k_head_curve ? legs[c - 2] : c == k_head_curve ? head : trunk;
+    }
 };
 
-/// Opens loops, prunes the graph to five ends (four where that leaves no head) and tells them apart by the lengths
-/// between them, which no pose changes. O(n^2).
-/// @throws InvalidInput where it does not have the five ends of a human, or not a human's proportions.
+/// Opens loops, prunes the graph to five ends (four if no head is found) and names them by the lengths between them,
+/// which do not depend on the pose. O(n^2).
+/// @throws InvalidInput when the graph does not have five ends, or when the lengths are not those of a human.
 BodyGraph body_graph(const CurveSkeleton& skeleton);
 
 }  // namespace garmentfit

@@ -2,16 +2,14 @@
 #include "centreline.h"
 
 #include <algorithm>
+#include <numbers>
+
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_pi = 3.14159265358979323846;
-constexpr int k_half_window = 3;   // cuts either side that a tangent is read from
-constexpr int k_rounds = 2;        // of moving the line to the middle of its cuts
-constexpr double k_roundness = 0.6;      // 1 = a circle; a plane that runs along a bent limb cuts out something long
-constexpr int k_free_in_a_row = 4;
-constexpr double k_foreign_share = 0.1;  // of an outline; labels of vertices are a little ragged where curves meet
+using namespace rig_tuning;
 
 std::vector<double> arcs_along(const std::vector<Vec3>& points)
 {
@@ -21,7 +19,7 @@ std::vector<double> arcs_along(const std::vector<Vec3>& points)
     return arcs;
 }
 
-std::vector<Vec3> resampled(const Centreline& line, double spacing)
+std::vector<Vec3> resample(const Centreline& line, double spacing)
 {
     const int steps = std::max(2, int(line.length() / spacing + 0.5));
     std::vector<Vec3> points;
@@ -30,6 +28,7 @@ std::vector<Vec3> resampled(const Centreline& line, double spacing)
     return points;
 }
 
+/// derived: binomial filter.
 void smooth(std::vector<Vec3>& points)
 {
     const std::vector<Vec3> before = points;
@@ -42,16 +41,17 @@ std::vector<Vec3> tangents(const std::vector<Vec3>& points)
     const int n = int(points.size());
     std::vector<Vec3> result;
     for (int i = 0; i < n; ++i)
-        result.push_back((points[std::min(i + k_half_window, n - 1)] - points[std::max(i - k_half_window, 0)]).normalized());
+        result.push_back(
+            (points[std::min(i + k_half_window, n - 1)] - points[std::max(i - k_half_window, 0)]).normalized());
     return result;
 }
 
 double roundness(const CrossSection& section)
 {
-    return 4 * k_pi * section.area / (section.girth * section.girth);
+    return 4 * std::numbers::pi * section.area / (section.girth * section.girth);
 }
 
-/// The first cut, going outwards, from which on a few in a row belong to the limb alone and run across it.
+/// The first of several consecutive cuts that are free and across the limb.
 int first_free(const Centreline& line)
 {
     int in_a_row = 0;
@@ -112,7 +112,7 @@ Centreline polyline(const std::vector<Vec3>& points, double spacing)
     Centreline line;
     line.points = points;
     line.arcs = arcs_along(points);
-    line.points = resampled(line, spacing);
+    line.points = resample(line, spacing);
     line.arcs = arcs_along(line.points);
     return line;
 }
@@ -126,8 +126,8 @@ bool is_free(const CrossSection& section, const IsForeign& is_foreign)
 Centreline centreline(const Slicer& slicer, const std::vector<Vec3>& curve, double spacing, const IsForeign& is_foreign)
 {
     Centreline line = polyline(curve, spacing);
-    for (int round = 0; round < k_rounds; ++round) {
-        std::vector<Vec3> points = resampled(line, spacing);
+    for (int round = 0; round < k_centring_rounds; ++round) {
+        std::vector<Vec3> points = resample(line, spacing);
         smooth(points);
         line = cut_along(slicer, std::move(points), is_foreign);
     }

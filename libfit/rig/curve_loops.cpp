@@ -6,11 +6,14 @@
 
 #include <Eigen/Geometry>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
 
-constexpr double k_short_loop = 0.15;  // of the diagonal: two fingers that touch, not an arm and the trunk
-constexpr std::size_t k_most_ways = 300;
+using namespace rig_tuning;
+
+constexpr std::size_t k_most_ways = 300;  // unit: limits the time for surfaces with many handles
 
 using Edge = std::array<int, 2>;
 using Neighbours = std::vector<std::vector<int>>;
@@ -33,8 +36,8 @@ double length(const CurveSkeleton& skeleton, const std::vector<int>& loop)
     return sum;
 }
 
-/// Nodes from one end of an edge round to the other with the fewest steps, the edge itself left out; none: it is on no loop.
-std::vector<int> way_round(const Neighbours& neighbours, const Edge& edge)
+/// The nodes of the loop with the fewest edges through an edge; empty if the edge is on no loop.
+std::vector<int> loop_through(const Neighbours& neighbours, const Edge& edge)
 {
     std::vector<int> before(neighbours.size(), -1), front { edge[0] };
     before[edge[0]] = edge[0];
@@ -44,11 +47,11 @@ std::vector<int> way_round(const Neighbours& neighbours, const Edge& edge)
                 before[n] = front[i];
                 front.push_back(n);
             }
-    std::vector<int> way;
+    std::vector<int> loop;
     if (before[edge[1]] >= 0)
-        for (way.push_back(edge[1]); way.back() != edge[0];)
-            way.push_back(before[way.back()]);
-    return way;
+        for (loop.push_back(edge[1]); loop.back() != edge[0];)
+            loop.push_back(before[loop.back()]);
+    return loop;
 }
 
 std::vector<int> shortest_loop(const CurveSkeleton& skeleton, const Neighbours& neighbours)
@@ -56,7 +59,7 @@ std::vector<int> shortest_loop(const CurveSkeleton& skeleton, const Neighbours& 
     std::vector<int> shortest;
     double least = std::numeric_limits<double>::max();
     for (const Edge& edge : skeleton.edges)
-        if (const std::vector<int> loop = way_round(neighbours, edge); !loop.empty())
+        if (const std::vector<int> loop = loop_through(neighbours, edge); !loop.empty())
             if (const double l = length(skeleton, loop); l < least) {
                 least = l;
                 shortest = loop;
@@ -69,7 +72,7 @@ Edge edge_at(const std::vector<int>& loop, std::size_t i)
     return { loop[i % loop.size()], loop[(i + 1) % loop.size()] };
 }
 
-/// The edges of a loop beside its forks, and those halfway between.
+/// The edges of a loop beside its forks, and halfway between forks.
 std::vector<Edge> places_to_cut(const std::vector<int>& loop, const Neighbours& neighbours)
 {
     std::vector<std::size_t> forks;
@@ -88,7 +91,7 @@ std::vector<Edge> places_to_cut(const std::vector<int>& loop, const Neighbours& 
     return places;
 }
 
-/// The edge of a loop farthest from the middle of the body, so that what is left of it points outwards.
+/// The edge of a loop farthest from the middle of the body, so that the two remaining ends point outwards.
 Edge outermost(const CurveSkeleton& skeleton, const std::vector<int>& loop, const Vec3& middle)
 {
     const auto distance = [&](std::size_t i) {
@@ -102,11 +105,11 @@ Edge outermost(const CurveSkeleton& skeleton, const std::vector<int>& loop, cons
     return edge_at(loop, best);
 }
 
-CurveSkeleton without(CurveSkeleton skeleton, const Edge& edge)
+CurveSkeleton remove_edge(CurveSkeleton skeleton, const Edge& edge)
 {
-    const Edge turned { edge[1], edge[0] };
+    const Edge reversed { edge[1], edge[0] };
     auto& edges = skeleton.edges;
-    edges.erase(std::find_if(edges.begin(), edges.end(), [&](const Edge& e) { return e == edge || e == turned; }));
+    edges.erase(std::find_if(edges.begin(), edges.end(), [&](const Edge& e) { return e == edge || e == reversed; }));
     return skeleton;
 }
 
@@ -122,10 +125,10 @@ void cut_loops(CurveSkeleton skeleton, const Eigen::AlignedBox3d& box, std::vect
         if (length(skeleton, loop) > k_short_loop * box.diagonal().norm()) {
             for (const Edge& place : places_to_cut(loop, neighbours))
                 if (ways.size() < k_most_ways)
-                    cut_loops(without(skeleton, place), box, ways);
+                    cut_loops(remove_edge(skeleton, place), box, ways);
             return;
         }
-        skeleton = without(std::move(skeleton), outermost(skeleton, loop, box.center()));
+        skeleton = remove_edge(std::move(skeleton), outermost(skeleton, loop, box.center()));
     }
 }
 

@@ -7,9 +7,10 @@
 
 namespace garmentfit {
 
-/// A surface that closes over a contact (a hand on the hip of a scan) has handles, and its curves have loops. Gives the
-/// ways to cut them all open, each a tree: short loops, between fingers, in one way only; long ones wherever a hand may
-/// touch, that is beside a fork or halfway between two. A tree is its own only way. O(loops * edges * nodes).
+/// A surface that closes over a contact, such as a hand on the hip of a scan, has handles, and its curves have loops.
+/// Returns the possible trees after cutting all loops. A short loop, between fingers, is cut in one way. A long one is
+/// cut wherever a hand may touch: beside a fork or halfway between two. A tree is returned unchanged. O(loops * edges *
+/// nodes).
 std::vector<CurveSkeleton> open_loops(const CurveSkeleton& skeleton);
 
 }  // namespace garmentfit

@@ -5,7 +5,8 @@
 
 #include "ordered_memory.h"
 
-// The flow collapses edges in the order of a std::set of handles, which compares addresses: its mesh gets ordered memory.
+// The flow collapses edges in the order of a std::set of handles, which compares addresses. OrderedAllocator gives its
+// mesh ascending addresses, so that results are reproducible.
 #include <CGAL/memory.h>
 #undef CGAL_ALLOCATOR
 #define CGAL_ALLOCATOR(T) garmentfit::OrderedAllocator<T>
@@ -25,20 +26,22 @@ namespace {
 
 using Flow = CGAL::Mean_curvature_flow_skeletonization<CgalMesh>;
 
-constexpr int k_most_steps = 200;          // a body takes some 20 to 40
-constexpr std::size_t k_bytes_a_vertex = 8192;  // reserved, not touched: room for the splits of the flow
-constexpr double k_still_fraction = 1e-4;  // of the surface's area: a step that changes less is the last
+constexpr int k_most_steps = 200;  // unit: a body needs 20 to 40
+constexpr std::size_t k_bytes_a_vertex
+    = 8192;  // unit: address space for the splits of the flow, reserved and not touched
+constexpr double k_still_fraction = 1e-4;  // unit: share of the area; converged when a step changes it by less
 
 void contract(Flow& flow, double area, const Progress& progress)
 {
     double before = area;
     for (int step = 0; step < k_most_steps; ++step) {
-        progress.at(step / (step + 20.0));
+        progress.at(step / (step + 20.0));  // unit: display only
         flow.contract();
         const double now = CGAL::Polygon_mesh_processing::area(flow.meso_skeleton());
         if (!std::isfinite(now))
-            throw InvalidInput("body: its surface does not contract to a skeleton (step " + std::to_string(step)
-                               + " is not finite); remesh it to even triangles");
+            throw InvalidInput(ErrorCode::not_human,
+                               "body: its surface does not contract to a skeleton (step " + std::to_string(step)
+                                   + " is not finite); remesh it with triangles of similar size");
         if (std::abs(before - now) < k_still_fraction * area)
             return;
         before = now;
@@ -73,8 +76,9 @@ CurveSkeleton curve_skeleton(const TriangleMesh& closed, const Progress& progres
         flow.convert_to_skeleton(graph);
         return from_cgal(graph, closed.positions.rows());
     } catch (const CGAL::Failure_exception& failure) {
-        throw InvalidInput(std::string("body: its surface does not contract to a skeleton (") + failure.expression()
-                           + "); remesh it to even triangles");
+        throw InvalidInput(ErrorCode::not_human,
+                           std::string("body: its surface does not contract to a skeleton (") + failure.expression()
+                               + "); remesh it with triangles of similar size");
     }
 }
 

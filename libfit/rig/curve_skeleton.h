@@ -9,11 +9,11 @@
 
 namespace garmentfit {
 
-/// A graph of curves that runs through the middle of a closed surface.
+/// A graph of curves through the middle of a closed surface.
 struct CurveSkeleton {
     std::vector<Vec3> nodes;
     std::vector<std::array<int, 2>> edges;
-    std::vector<int> node_of_vertex;  ///< to which node each vertex of the surface contracted
+    std::vector<int> node_of_vertex;  ///< node to which each vertex of the surface contracted, or -1
 };
 
 /// Mean curvature flow skeleton [tagliasacchi_2012_skeletons] by CGAL. About linear: 0.8 s for 13 thousand vertices.

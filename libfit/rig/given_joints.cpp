@@ -6,14 +6,15 @@
 namespace garmentfit {
 namespace {
 
-/// What lies beyond the last joint, as a share of the bone before it [drillis_1966_segments]: head, hands; feet go forward.
+// literature: [drillis_1966_segments], lengths beyond the last joint as shares of the bone before it. Feet point
+// forward.
 constexpr double k_head_beyond_neck = 1.2, k_hand_beyond_forearm = 0.7, k_foot_beside_shin = 0.6;
 
 class Correction {
 public:
     Correction(const Skeleton& found, const GivenJoints& given) : found_(found), given_(given), result_(found) { }
 
-    Skeleton operator()()
+    Skeleton apply()
     {
         for (int b = 0; b < bone_count; ++b)
             if (given_.tails[b])
@@ -21,26 +22,27 @@ public:
         for (int e = 0; e < extremity_count; ++e)
             if (given_.tips[e])
                 result_.tips[e] = *given_.tips[e];
-        result_.root = given_.root ? *given_.root : found_.root + 0.5 * (moved(lhipjoint) + moved(rhipjoint));
+        result_.root
+            = given_.root ? *given_.root : found_.root + 0.5 * (displacement(lhipjoint) + displacement(rhipjoint));
         for (const int b : { lfemur, rfemur, lhumerus, rhumerus })
-            adapt(b, moved(parent_of(b)), moved(b + 1));
+            adapt(b, displacement(parent_of(b)), displacement(b + 1));
         const Vec3 root = result_.root - found_.root;
-        adapt(lowerback, root, moved(thorax));
-        adapt(upperback, moved(lowerback), moved(thorax));
-        adapt(lowerneck, moved(thorax), moved(upperneck));
+        adapt(lowerback, root, displacement(thorax));
+        adapt(upperback, displacement(lowerback), displacement(thorax));
+        adapt(lowerneck, displacement(thorax), displacement(upperneck));
         return result_;
     }
 
 private:
-    Vec3 moved(int b) const { return result_.tails[b] - found_.tails[b]; }
+    Vec3 displacement(int b) const { return result_.tails[b] - found_.tails[b]; }
 
-    /// Moves the joint between two others along with them, more with the nearer one.
+    /// Moves the joint between two others by a mean of their displacements, weighted towards the nearer one.
     void adapt(int b, const Vec3& before, const Vec3& after)
     {
         if (given_.tails[b])
             return;
         const double upper = found_.length(b), lower = found_.length(b + 1);
-        const double t = upper / std::max(upper + lower, 1e-300);
+        const double t = upper / std::max(upper + lower, 1e-300);  // unit: avoids 0 / 0
         result_.tails[b] += (1 - t) * before + t * after;
     }
 
@@ -51,12 +53,12 @@ private:
 
 }  // namespace
 
-bool GivenJoints::complete() const
+bool GivenJoints::is_complete() const
 {
     return root && std::all_of(tails.begin(), tails.end(), [](const auto& tail) { return tail.has_value(); });
 }
 
-Skeleton correct(const Skeleton& found, const GivenJoints& given) { return Correction(found, given)(); }
+Skeleton correct(const Skeleton& found, const GivenJoints& given) { return Correction(found, given).apply(); }
 
 Skeleton skeleton_of(const GivenJoints& given)
 {

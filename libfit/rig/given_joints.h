@@ -5,11 +5,12 @@
 
 namespace garmentfit {
 
-/// Puts given joints in place. Elbows, knees and the joints of the spine that were not given keep their place between
-/// their neighbours; shoulders, hips, wrists, ankles and tips that were not given stay where they were found.
+/// Replaces found joints by given ones. Elbows, knees and joints of the spine that were not given keep their position
+/// relative to their neighbours. Shoulders, hips, wrists, ankles and tips that were not given stay.
 Skeleton correct(const Skeleton& found, const GivenJoints& given);
 
-/// @pre given.complete(). Tips that were not given lie as far beyond the last joints as hands, feet and heads are long.
+/// Tips that were not given lie beyond the last joints by the usual length of hands, feet and heads. @pre
+/// given.is_complete()
 Skeleton skeleton_of(const GivenJoints& given);
 
 }  // namespace garmentfit

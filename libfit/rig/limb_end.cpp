@@ -5,24 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
 
-constexpr double k_girth_spread = 0.10;  // relative
-constexpr double k_widening = 1.15;  // of girth: wrist to palm, shin to heel
-constexpr int k_wider_in_a_row = 3;  // a single cut may go astray
+using namespace rig_tuning;
 
-// Fingers end 0.035 of stature round, toes 0.07 at most, stumps of arms 0.08, of legs 0.12 at least. What ends wide, a fist or a shoe, is
-// wider than the wrist or shin behind it, by 1.15 of girth in nearly all bodies; a stump only tapers, to 1.02 at most.
-constexpr double k_thin_hand = 0.045, k_thin_foot = 0.09, k_wider_end = 1.08;
-// A mitten may hide the wrist, but does not taper: forearms to 0.73 to 0.83 of their girth between these places. With it an arm is
-// longer, from where it leaves the trunk, than 0.33; without a hand, than 0.31 at most.
-constexpr double k_taper_from = 0.12, k_taper_to = 0.04,
-                 k_most_tapered = 0.9;  // shares of stature, from the end; of girth
-constexpr double k_with_hand = 0.32;  // of stature
-constexpr double k_end = 0.16, k_palm = 0.1, k_instep = 0.14;  // of stature, from the end of a limb's curve
-
-/// Median of three cuts: one may go astray.
+/// Median of three cuts, because a single cut may be wrong.
 double girth_about(const Centreline& line, int row)
 {
     const double before = line.girths[std::max(0, row - 1)], here = line.girths[row],
@@ -30,13 +20,14 @@ double girth_about(const Centreline& line, int row)
     return std::max(std::min(before, here), std::min(std::max(before, here), after));
 }
 
-/// How much wider a limb's last stretch is, m, than what is behind it: elbows bulge too, but further up.
-double widening(const Centreline& line, double last_stretch, double size)
+/// Largest ratio of a girth in the last part of a limb, m long, to the smallest girth before it. The search begins
+/// beyond the elbow, which is wide too.
+double widening(const Centreline& line, double last_part, double size)
 {
     double smallest = std::numeric_limits<double>::max(), widest = 0;
-    for (int i = line.nearest_row(line.at(line.length() - k_end * size)); i + 1 < line.size(); ++i)
+    for (int i = line.nearest_row(line.at(line.length() - k_limb_end * size)); i + 1 < line.size(); ++i)
         if (const double girth = girth_about(line, i); girth > 0) {
-            if (line.length() - line.arcs[i] < last_stretch)
+            if (line.length() - line.arcs[i] < last_part)
                 widest = std::max(widest, girth / smallest);
             smallest = std::min(smallest, girth);
         }
@@ -45,7 +36,7 @@ double widening(const Centreline& line, double last_stretch, double size)
 
 double end_girth(const Centreline& line) { return std::min(line.girths.back(), line.girths[line.size() - 2]); }
 
-/// Of girth, towards the end of an arm.
+/// Ratio of two girths near the end of an arm.
 double taper(const Centreline& line, double size)
 {
     const auto girth
@@ -57,22 +48,24 @@ double free_length(const Centreline& line) { return line.length() - line.arcs[li
 
 }  // namespace
 
-Narrowest narrowest(const Centreline& line, const Vec3& tip, const ReachRange& reach)
+Narrowest find_narrowest(const Centreline& line, const Vec3& tip, const TipDistance& distance)
 {
     Narrowest best;
     int wider_in_a_row = 0;
     double least = std::numeric_limits<double>::max(), smallest = least;
     for (int i = line.first_free; i < line.size() && !best.widens; ++i) {
         const double off = (tip - line.points[i]).norm();
-        if (!line.free[i] || off > reach.most || off < reach.least)
+        if (!line.free[i] || off > distance.most || off < distance.least)
             continue;
         const double girth = girth_about(line, i);
-        wider_in_a_row = girth > k_widening * smallest ? wider_in_a_row + 1 : 0;
+        wider_in_a_row = girth > k_limb_widening * smallest ? wider_in_a_row + 1 : 0;
         best.widens = wider_in_a_row == k_wider_in_a_row;
         if (wider_in_a_row > 0 || !line.across[i])
             continue;
         smallest = std::min(smallest, girth);
-        const double score = std::log(girth) / k_girth_spread + 0.5 * std::pow((off - reach.usual) / reach.spread, 2);
+        // derived: negative log-likelihood of two normal distributions, constants and the factor of the first left out
+        const double score
+            = std::log(girth) / k_girth_spread + 0.5 * std::pow((off - distance.usual) / distance.spread, 2);
         if (score < least) {
             least = score;
             best.row = i;
@@ -84,7 +77,7 @@ Narrowest narrowest(const Centreline& line, const Vec3& tip, const ReachRange& r
 bool has_hand(const Centreline& line, double size)
 {
     return end_girth(line) < k_thin_hand * size || widening(line, k_palm * size, size) > k_wider_end
-        || (taper(line, size) > k_most_tapered && free_length(line) > k_with_hand * size);
+        || (taper(line, size) > k_most_tapered && free_length(line) > k_arm_with_hand * size);
 }
 
 bool has_foot(const Centreline& line, double size)

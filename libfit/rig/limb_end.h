@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What girths along a limb say about its end: a hand, a foot or a stump.
+// The end of a limb from the girths along it: a hand, a foot or a stump.
 
 #include "centreline.h"
 
 namespace garmentfit {
 
-struct ReachRange {
-    double least, usual, most, spread;  ///< m, straight to the limb's tip
+/// Where a limb's narrowest part may be: limits, mean and standard deviation of its straight distance from the tip, m.
+struct TipDistance {
+    double least, usual, most, spread;
 };
 
-/// Where a limb is narrowest before it widens to the hand or the heel.
+/// The narrowest cut of a limb before it widens to the hand or the heel.
 struct Narrowest {
-    int row = -1;  ///< -1: it is nowhere free
+    int row = -1;  ///< of the centre line; -1: no cut within the limits is free
     bool widens = false;
 };
 
-/// A reach unlike the usual one counts as a larger girth.
-Narrowest narrowest(const Centreline& line, const Vec3& tip, const ReachRange& reach);
+/// A distance that differs from the mean counts as a larger girth: the most likely cut is chosen.
+Narrowest find_narrowest(const Centreline& line, const Vec3& tip, const TipDistance& distance);
 
-/// @param size  stature, m
+/// Whether a limb ends thin like fingers or toes, widens towards its end, or, an arm, does not taper. @param size
+/// stature, m
 bool has_hand(const Centreline& line, double size);
 bool has_foot(const Centreline& line, double size);
 

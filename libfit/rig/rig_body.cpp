@@ -13,9 +13,12 @@
 #include "rig_validation.h"
 #include "side_classification.h"
 #include "skin_transfer.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
+
+using namespace rig_tuning;
 
 struct LimbBones {
     int root, upper, lower;
@@ -34,7 +37,7 @@ void place(const LimbJoints& joints, const LimbBones& bones, Skeleton& skeleton)
     skeleton.tips[bones.tip] = joints.tip;
 }
 
-Skeleton skeleton_of(const BodyJoints& joints, const Sides& sides)
+Skeleton build_skeleton(const BodyJoints& joints, const Sides& sides)
 {
     Skeleton skeleton;
     skeleton.root = joints.pelvis;
@@ -51,7 +54,7 @@ Skeleton skeleton_of(const BodyJoints& joints, const Sides& sides)
     return skeleton;
 }
 
-/// A stretch of the surface sees the bones inside it and those next to them.
+/// The bones inside a part of the surface and their neighbours.
 std::array<bool, bone_count> bones_of_curve(int curve, const Sides& sides)
 {
     std::array<bool, bone_count> visible {};
@@ -62,10 +65,10 @@ std::array<bool, bone_count> bones_of_curve(int curve, const Sides& sides)
     const auto see_limb = [&](const LimbBones& limb) { see({ limb.root, limb.upper, limb.lower }); };
     if (curve < 2) {
         see_limb(curve == sides.left_arm ? k_left_arm : k_right_arm);
-        see({ thorax });  // an arm's curve begins on the flank
-    } else if (curve < 4)
+        see({ thorax });  // an arm's curve begins at the flank
+    } else if (curve < k_head_curve)
         see_limb(curve - 2 == sides.left_leg ? k_left_leg : k_right_leg);
-    else if (curve == 4)
+    else if (curve == k_head_curve)
         see({ thorax, lowerneck, upperneck, lclavicle, rclavicle });
     else
         see({ lhipjoint, rhipjoint, lowerback, upperback, thorax, lclavicle, rclavicle });
@@ -82,15 +85,15 @@ VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, 
     return visible;
 }
 
-/// Far from the origin, differences of squares lose their digits.
-BodyMesh centred(BodyMesh body, const Vec3& centre)
+/// A body far from the origin loses digits in differences of squares.
+BodyMesh centre_at_origin(BodyMesh body, const Vec3& centre)
 {
     body.surface.positions.rowwise() -= centre.transpose();
     body.closed.positions.rowwise() -= centre.transpose();
     return body;
 }
 
-Skeleton moved(Skeleton skeleton, const Vec3& by)
+Skeleton translate(Skeleton skeleton, const Vec3& by)
 {
     skeleton.root += by;
     for (Vec3& tail : skeleton.tails)
@@ -100,13 +103,13 @@ Skeleton moved(Skeleton skeleton, const Vec3& by)
     return skeleton;
 }
 
-/// Skeleton and what the limbs' curves say about who sees whom.
-struct FoundBones {
+/// A skeleton, and the bones that each vertex of the proxy may belong to.
+struct VisibleRig {
     Rig rig;  ///< without weights
     VisibleBones visible;
 };
 
-FoundBones found_bones(const TriangleMesh& proxy, const RigOptions& options, const Progress& progress)
+VisibleRig find_bones(const TriangleMesh& proxy, const RigOptions& options, const Progress& progress)
 {
     const CurveSkeleton curves = curve_skeleton(proxy, progress);
     const BodyGraph graph = body_graph(curves);
@@ -117,20 +120,20 @@ FoundBones found_bones(const TriangleMesh& proxy, const RigOptions& options, con
         sides.left_leg = 1 - sides.left_leg;
         sides.front = -sides.front;
     }
-    FoundBones found { {}, visible_bones(curves, graph, sides) };
-    found.rig.skeleton = correct(skeleton_of(joints, sides), options.joints);
+    VisibleRig found { {}, visible_bones(curves, graph, sides) };
+    found.rig.skeleton = correct(build_skeleton(joints, sides), options.joints);
     found.rig.up = sides.up;
     found.rig.front = sides.front;
     found.rig.side_margin = sides.margin;
     return found;
 }
 
-/// Nothing to find: every joint is given.
-FoundBones given_bones(const TriangleMesh& proxy, const GivenJoints& joints)
+/// For joints that are all given: nothing is searched, and every vertex may belong to every bone.
+VisibleRig take_given_bones(const TriangleMesh& proxy, const GivenJoints& joints)
 {
     std::array<bool, bone_count> all;
     all.fill(true);
-    FoundBones given { {}, VisibleBones(proxy.positions.rows(), all) };
+    VisibleRig given { {}, VisibleBones(proxy.positions.rows(), all) };
     const Skeleton& s = given.rig.skeleton = skeleton_of(joints);
     given.rig.up = (s.tail(thorax) - s.root).normalized();
     given.rig.front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(given.rig.up).normalized();
@@ -138,12 +141,12 @@ FoundBones given_bones(const TriangleMesh& proxy, const GivenJoints& joints)
     return given;
 }
 
-Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
+Rig rig_by_proxy(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
 {
     const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
     progress.at(0.15);
-    auto [rig, visible] = options.joints.complete() ? given_bones(proxy, options.joints)
-                                                    : found_bones(proxy, options, progress.part(0.15, 0.8));
+    auto [rig, visible] = options.joints.is_complete() ? take_given_bones(proxy, options.joints)
+                                                       : find_bones(proxy, options, progress.part(0.15, 0.8));
     progress.at(0.8);
     check_rig(proxy, rig.skeleton);
     const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible);
@@ -154,7 +157,7 @@ Rig rigged(const BodyMesh& body, int proxy_vertices, const RigOptions& options, 
     return rig;
 }
 
-GivenJoints moved(GivenJoints joints, const Vec3& by)
+GivenJoints translate(GivenJoints joints, const Vec3& by)
 {
     const auto move = [&](std::optional<Vec3>& joint) {
         if (joint)
@@ -167,20 +170,21 @@ GivenJoints moved(GivenJoints joints, const Vec3& by)
 }
 
 struct Attempt {
-    double proxy, from, to;  ///< share of the vertices; slice of the progress
+    double proxy;  ///< share of RigOptions::proxy_vertices
+    double from, to;  ///< part of the progress
 };
 
-// The flow may lose its way at a touching hand or a deep bend: other triangles, another way.
-constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { 2.0 / 3, 0.9, 0.95 }, { 1.5, 0.95, 1 } };
+// At touching hands or deep bends the flow may fail with one triangulation and succeed with another.
+constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { k_coarser_proxy, 0.9, 0.95 }, { k_finer_proxy, 0.95, 1 } };
 
-/// @throws InvalidInput of the first attempt, when none passes the gates.
-Rig first_that_passes(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+/// @throws InvalidInput of the first attempt, when no attempt gives a valid rig.
+Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
     std::optional<InvalidInput> refusal;
     for (const Attempt& attempt : k_attempts)
         try {
-            Rig rig = rigged(body, int(attempt.proxy * options.proxy_vertices), options,
-                             progress.part(attempt.from, attempt.to));
+            Rig rig = rig_by_proxy(body, int(attempt.proxy * options.proxy_vertices), options,
+                                   progress.part(attempt.from, attempt.to));
             progress.at(1);
             return rig;
         } catch (const InvalidInput& reason) {
@@ -195,13 +199,13 @@ Rig first_that_passes(const BodyMesh& body, const RigOptions& options, const Pro
 Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
     const Vec3 centre = 0.5 * (body.closed.positions.colwise().minCoeff() + body.closed.positions.colwise().maxCoeff());
-    const BodyMesh at_origin = centred(body, centre);
-    RigOptions there = options;
-    there.joints = moved(options.joints, -centre);
-    if (!options.joints.complete())
+    const BodyMesh at_origin = centre_at_origin(body, centre);
+    RigOptions centred = options;
+    centred.joints = translate(options.joints, -centre);
+    if (!options.joints.is_complete())
         check_shape(at_origin.closed);
-    Rig rig = first_that_passes(at_origin, there, progress);
-    rig.skeleton = moved(rig.skeleton, centre);
+    Rig rig = first_valid_rig(at_origin, centred, progress);
+    rig.skeleton = translate(rig.skeleton, centre);
     return rig;
 }
 

@@ -3,34 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <numbers>
 #include <string>
 
 #include "garmentfit/error.h"
+#include "number_text.h"
 #include "surface_measures.h"
+#include "tuning.h"
 #include "winding_number.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_pi = 3.14159265358979323846;
-constexpr int k_samples = 5;  // of each bone, ends included
-constexpr double k_inside_share = 0.85;  // of all samples: mouth, armpit and crotch come close to bones
-constexpr double k_most_compact
-    = 0.3;  // isoperimetric quotient: 1 a ball, 0.52 a cube; humans 0.04, curled up fat ones 0.13
-constexpr double k_side_tolerance = 0.2;  // between a left length and its right one; humans stay below 0.05
+using namespace rig_tuning;
 
-struct Proportion {
-    const char* what;
-    double value, least, most;
-};
-
-std::string text(double value)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.2f", value);
-    return buffer;
-}
+constexpr int k_samples = 5;  // unit: of each bone, ends included
 
 void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
 {
@@ -38,12 +25,15 @@ void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
     for (int b = 0; b < bone_count; ++b)
         for (int k = 0; k < k_samples; ++k) {
             const double t = double(k) / (k_samples - 1);
-            inside += winding_number(closed, (1 - t) * skeleton.head(b) + t * skeleton.tail(b)) > 0.5;
+            inside += winding_number(closed, (1 - t) * skeleton.head(b) + t * skeleton.tail(b))
+                > 0.5;  // derived: 1 inside, 0 outside
         }
     const double share = double(inside) / (bone_count * k_samples);
     if (share < k_inside_share)
-        throw InvalidInput("body: only " + text(share) + " of the skeleton found lies inside it (at least "
-                           + text(k_inside_share) + "); give a human body whose limbs are not fused together");
+        throw InvalidInput(ErrorCode::not_human,
+                           "body: only " + fixed_text(share, 2) + " of the skeleton lies inside it (at least "
+                               + fixed_text(k_inside_share, 2)
+                               + "); give a human body whose limbs do not merge, or give joints");
 }
 
 void check_sides(const Skeleton& skeleton)
@@ -51,36 +41,48 @@ void check_sides(const Skeleton& skeleton)
     for (const int left : { lfemur, ltibia, lhumerus, lradius }) {
         const double l = skeleton.length(left), r = skeleton.length(mirror_of(left));
         if (std::abs(l - r) > k_side_tolerance * std::max(l, r))
-            throw InvalidInput("body: " + std::string(bone_name(left)) + " comes out " + text(l) + " m long and "
-                               + std::string(bone_name(mirror_of(left))) + " " + text(r)
-                               + " m; give a whole human body whose limbs are not fused together");
+            throw InvalidInput(ErrorCode::not_human,
+                               "body: " + std::string(bone_name(left)) + " is " + fixed_text(l, 2) + " m long and "
+                                   + std::string(bone_name(mirror_of(left))) + " " + fixed_text(r, 2)
+                                   + " m; give a whole human body whose limbs do not merge, or give joints");
     }
+}
+
+void check_proportion(const char* what, double value, const Proportion& human)
+{
+    if (!(value >= human.least && value <= human.most))  // not a number fails too
+        throw InvalidInput(ErrorCode::not_human,
+                           std::string("body: the ratio ") + what + " is " + fixed_text(value, 2) + ", a human has "
+                               + fixed_text(human.least, 2) + " to " + fixed_text(human.most, 2)
+                               + "; give a human body whose limbs do not merge, or give joints");
 }
 
 void check_proportions(const Skeleton& s)
 {
     const double arm = s.length(lhumerus) + s.length(lradius), leg = s.length(lfemur) + s.length(ltibia);
     const double trunk = (s.tail(thorax) - s.root).norm();
-    for (const Proportion& p :
-         { Proportion { "upper arm to forearm", s.length(lhumerus) / s.length(lradius), 0.6, 1.7 },
-           Proportion { "thigh to shin", s.length(lfemur) / s.length(ltibia), 0.6, 1.6 },
-           Proportion { "arm to leg", arm / leg, 0.4, 0.85 }, Proportion { "trunk to leg", trunk / leg, 0.4, 1.25 },
-           Proportion { "hip width to leg", (s.tail(lhipjoint) - s.tail(rhipjoint)).norm() / leg, 0.05, 0.5 },
-           Proportion { "shoulder width to leg", (s.tail(lclavicle) - s.tail(rclavicle)).norm() / leg, 0.15, 0.8 },
-           Proportion { "collarbone to leg", std::max(s.length(lclavicle), s.length(rclavicle)) / leg, 0.1, 0.65 } })
-        if (!(p.value >= p.least && p.value <= p.most))
-            throw InvalidInput(std::string("body: ") + p.what + " comes out as " + text(p.value) + ", a human's is "
-                               + text(p.least) + " to " + text(p.most) + "; give a human body");
+    const double hip_width = (s.tail(lhipjoint) - s.tail(rhipjoint)).norm();
+    const double shoulder_width = (s.tail(lclavicle) - s.tail(rclavicle)).norm();
+    const double collarbone = std::max(s.length(lclavicle), s.length(rclavicle));
+    check_proportion("upper arm to forearm", s.length(lhumerus) / s.length(lradius), k_upper_arm_to_forearm);
+    check_proportion("thigh to shin", s.length(lfemur) / s.length(ltibia), k_thigh_to_shin);
+    check_proportion("arm to leg", arm / leg, k_arm_to_leg);
+    check_proportion("trunk to leg", trunk / leg, k_trunk_to_leg);
+    check_proportion("hip width to leg", hip_width / leg, k_hip_width_to_leg);
+    check_proportion("shoulder width to leg", shoulder_width / leg, k_shoulder_width_to_leg);
+    check_proportion("collarbone to leg", collarbone / leg, k_collarbone_to_leg);
 }
 
 }  // namespace
 
 void check_shape(const TriangleMesh& closed)
 {
-    const double quotient = 36 * k_pi * std::pow(volume(closed), 2) / std::pow(area(closed), 3);
+    const double quotient = 36 * std::numbers::pi * std::pow(volume(closed), 2) / std::pow(area(closed), 3);
     if (quotient > k_most_compact)
-        throw InvalidInput("body: it is as compact as a block, with an isoperimetric quotient of " + text(quotient)
-                           + " (a human's is at most " + text(k_most_compact) + "); give a human body");
+        throw InvalidInput(ErrorCode::not_human,
+                           "body: it is too compact for a human, with an isoperimetric quotient of "
+                               + fixed_text(quotient, 2) + " (a human's is at most " + fixed_text(k_most_compact, 2)
+                               + "); give a human body");
 }
 
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)

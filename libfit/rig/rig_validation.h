@@ -6,11 +6,11 @@
 
 namespace garmentfit {
 
-/// Refuses blocks and balls before any work is done on them. O(n). @throws InvalidInput with the number.
+/// Refuses compact shapes such as blocks and balls, before expensive work. O(n). @throws InvalidInput with the number.
 void check_shape(const TriangleMesh& closed);
 
-/// Lets only a human's skeleton pass: joints and bones inside the body, limbs of equal lengths left and right, usual
-/// proportions. O(samples * triangles). @throws InvalidInput naming the gate, with numbers.
+/// Checks that a skeleton is human: bones inside the body, equal lengths left and right, usual proportions.
+/// O(samples * triangles). @throws InvalidInput that names the failed test, with numbers.
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
 
 }  // namespace garmentfit

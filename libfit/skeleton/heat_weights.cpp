@@ -9,16 +9,18 @@
 
 #include "garmentfit/error.h"
 #include "segment.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_smallest_cotangent = 1e-3;  // keeps the matrix positive definite on obtuse triangles
-constexpr double k_heat = 18;  // c of the paper; larger keeps skin stiffer between joints
-constexpr double k_heat_of_arms = 1.5;  // else they would reach down the flank, far from the spine that should hold it
-constexpr double k_least_facing = 0.1;  // cosine: no bone is hidden from skin, only further away
+using namespace skeleton_tuning;
 
-/// Hands, feet and head hang on the bones before them.
+constexpr double k_smallest_cotangent = 1e-3;  // unit: keeps the matrix positive definite with obtuse triangles
+constexpr double k_smallest_squared_distance = 1e-8;  // m^2, unit: 0.1 mm, for skin that touches a bone
+constexpr double k_no_length = 1e-300;  // unit: avoids 0 / 0
+
+/// The nearest point of a bone, which includes the hand, foot or head at its end.
 Vec3 nearest_on_bone(const Vec3& p, const Skeleton& skeleton, int bone)
 {
     Vec3 nearest = nearest_on_segment(p, skeleton.head(bone), skeleton.tail(bone));
@@ -36,8 +38,8 @@ struct NearestBone {
     double distance = 0;
 };
 
-/// Nearest by the ball that touches the skin from inside and reaches the bone: bones that skin faces count as near. An arm
-/// beside the trunk may be nearer to the flank than the spine is, but it does not lie behind that skin.
+/// The bone with the smallest ball that touches the skin from inside and reaches the bone. An arm beside the trunk may
+/// be nearer to the flank than the spine, but it does not lie behind that skin, so its ball is larger.
 NearestBone nearest_visible(const Vec3& p, const Vec3& normal, const Skeleton& skeleton,
                             const std::array<bool, bone_count>& visible)
 {
@@ -48,7 +50,8 @@ NearestBone nearest_visible(const Vec3& p, const Vec3& normal, const Skeleton& s
             continue;
         const Vec3 from_bone = p - nearest_on_bone(p, skeleton, b);
         const double distance = from_bone.norm();
-        const double ball = distance / std::max(k_least_facing, from_bone.dot(normal) / std::max(distance, 1e-300));
+        const double ball
+            = distance / std::max(k_least_facing, from_bone.dot(normal) / std::max(distance, k_no_length));
         if (ball < smallest_ball) {
             smallest_ball = ball;
             nearest = { b, distance };
@@ -68,8 +71,9 @@ Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd&
             const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o),
                        b = mesh.positions.row(j) - mesh.positions.row(o);
             const double twice_area = a.cross(b).norm();
-            const double half_cotangent = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, 1e-300));
-            areas[o] += twice_area / 6;
+            const double half_cotangent
+                = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, k_no_length));
+            areas[o] += twice_area / 6;  // derived: a third of the triangle
             entries.emplace_back(i, i, half_cotangent);
             entries.emplace_back(j, j, half_cotangent);
             entries.emplace_back(i, j, -half_cotangent);
@@ -92,14 +96,14 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     for (Eigen::Index v = 0; v < n; ++v) {
         const NearestBone nearest = nearest_visible(closed.positions.row(v), normals.row(v), skeleton, visible[v]);
         const double heat_of_bone = is_arm(nearest.bone) ? k_heat_of_arms : k_heat;
-        const double source
-            = heat_of_bone * areas[v] / std::max(std::pow(nearest.distance, 2), 1e-8);  // H of the paper
+        const double source = heat_of_bone * areas[v]
+            / std::max(std::pow(nearest.distance, 2), k_smallest_squared_distance);  // H of the paper
         system.coeffRef(v, v) += source;
         heat(v, nearest.bone) = source;
     }
     const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver(system);
     if (solver.info() != Eigen::Success)
-        throw SolverFailure("skin weights: the heat equation cannot be solved on this surface");
+        throw SolverFailure("skin weights: the heat equation has no solution on this surface; remesh the body");
     Eigen::MatrixXd weights = solver.solve(heat);
     weights = weights.cwiseMax(0.0);
     for (Eigen::Index v = 0; v < n; ++v)

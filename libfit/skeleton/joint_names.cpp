@@ -38,7 +38,7 @@ constexpr std::array k_words {
     Word { "ankle", JointKind::ankle, true },
 };
 
-/// "mixamorig:LeftUpLeg" -> left, up, leg; "thigh_l" -> thigh, l; digits go.
+/// "mixamorig:LeftUpLeg" -> left, up, leg; "thigh_l" -> thigh, l; digits are dropped.
 std::vector<std::string> tokens_of(const std::string& name)
 {
     std::vector<std::string> tokens(1);
@@ -54,7 +54,7 @@ std::vector<std::string> tokens_of(const std::string& name)
     return tokens;
 }
 
-std::optional<NamedJoint> known(const std::string& word, int side)
+std::optional<NamedJoint> look_up(const std::string& word, int side)
 {
     for (const Word& w : k_words)
         if (w.word == word && w.has_side == (side != 0))
@@ -62,7 +62,7 @@ std::optional<NamedJoint> known(const std::string& word, int side)
     return {};
 }
 
-std::optional<NamedJoint> named(const std::string& name)
+std::optional<NamedJoint> recognize(const std::string& name)
 {
     int side = 0;
     std::string word;
@@ -71,12 +71,12 @@ std::optional<NamedJoint> named(const std::string& name)
             side = 1;
         else if (token == "right" || token == "r")
             side = 2;
-        else if (token != "j" && token != "bip" && token != "c")  // VRM's prefix
+        else if (token != "j" && token != "bip" && token != "c")  // prefixes of VRM names
             word += token;
-    if (const auto joint = known(word, side))
+    if (const auto joint = look_up(word, side))
         return joint;
     if (side == 0 && (word.starts_with("l") || word.starts_with("r")))  // "lfemur"
-        return known(word.substr(1), word[0] == 'l' ? 1 : 2);
+        return look_up(word.substr(1), word[0] == 'l' ? 1 : 2);
     return {};
 }
 
@@ -87,8 +87,9 @@ std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::s
     std::vector<std::optional<NamedJoint>> joints;
     const auto is_shoulder = [](const std::optional<NamedJoint>& j) { return j && j->kind == JointKind::shoulder; };
     for (const std::string& name : names)
-        joints.push_back(named(name));
-    if (std::count_if(joints.begin(), joints.end(), is_shoulder) > 2)
+        joints.push_back(recognize(name));
+    if (std::count_if(joints.begin(), joints.end(), is_shoulder)
+        > 2)  // derived: a rig has two shoulders, so some are clavicles
         for (std::size_t i = 0; i < names.size(); ++i)
             if (is_shoulder(joints[i]) && tokens_of(names[i]).back() == "shoulder")
                 joints[i]->kind = JointKind::clavicle;

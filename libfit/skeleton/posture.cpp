@@ -11,7 +11,7 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::clamp
 Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
 {
     const double w = 1 + from.dot(to);
-    if (w < 1e-9) {  // opposite: any axis across will do, so long as it is always the same one
+    if (w < 1e-9) {  // unit: opposite directions; any fixed axis across them is valid
         const Vec3 axis = from.unitOrthogonal();
         return { 0, axis.x(), axis.y(), axis.z() };
     }
@@ -19,7 +19,8 @@ Eigen::Quaterniond shortest_arc(const Vec3& from, const Vec3& to)
     return Eigen::Quaterniond(w, axis.x(), axis.y(), axis.z()).normalized();
 }
 
-Eigen::Quaterniond bone_turn(const Skeleton& rest, int bone, const Eigen::Quaterniond& parent_turn, const Vec3& direction)
+Eigen::Quaterniond bone_turn(const Skeleton& rest, int bone, const Eigen::Quaterniond& parent_turn,
+                             const Vec3& direction)
 {
     return (shortest_arc(parent_turn * rest.direction(bone), direction) * parent_turn).normalized();
 }
@@ -56,8 +57,8 @@ PlacedBones place_bones(const Skeleton& rest, const Posture& posture)
 PlacedBones place_bones(const Skeleton& rest, const Posture& posture, const PlacedBones& near)
 {
     return place_bones(rest, posture, [&](int b, const Eigen::Quaterniond& parent_turn) {
-        const bool is_same = posture.directions[b] == near.directions[b]
-            && parent_turn.coeffs() == near.parent_turn(b).coeffs();
+        const bool is_same
+            = posture.directions[b] == near.directions[b] && parent_turn.coeffs() == near.parent_turn(b).coeffs();
         return is_same ? near.turns[b] : bone_turn(rest, b, parent_turn, posture.directions[b]);
     });
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
 
@@ -14,12 +16,23 @@ struct BoneRow {
 };
 
 constexpr std::array<BoneRow, bone_count> k_bones { {
-    { "lhipjoint", -1, rhipjoint }, { "lfemur", lhipjoint, rfemur }, { "ltibia", lfemur, rtibia },
-    { "rhipjoint", -1, lhipjoint }, { "rfemur", rhipjoint, lfemur }, { "rtibia", rfemur, ltibia },
-    { "lowerback", -1, lowerback }, { "upperback", lowerback, upperback }, { "thorax", upperback, thorax },
-    { "lowerneck", thorax, lowerneck }, { "upperneck", lowerneck, upperneck },
-    { "lclavicle", thorax, rclavicle }, { "lhumerus", lclavicle, rhumerus }, { "lradius", lhumerus, rradius },
-    { "rclavicle", thorax, lclavicle }, { "rhumerus", rclavicle, lhumerus }, { "rradius", rhumerus, lradius },
+    { "lhipjoint", -1, rhipjoint },
+    { "lfemur", lhipjoint, rfemur },
+    { "ltibia", lfemur, rtibia },
+    { "rhipjoint", -1, lhipjoint },
+    { "rfemur", rhipjoint, lfemur },
+    { "rtibia", rfemur, ltibia },
+    { "lowerback", -1, lowerback },
+    { "upperback", lowerback, upperback },
+    { "thorax", upperback, thorax },
+    { "lowerneck", thorax, lowerneck },
+    { "upperneck", lowerneck, upperneck },
+    { "lclavicle", thorax, rclavicle },
+    { "lhumerus", lclavicle, rhumerus },
+    { "lradius", lhumerus, rradius },
+    { "rclavicle", thorax, lclavicle },
+    { "rhumerus", rclavicle, lhumerus },
+    { "rradius", rhumerus, lradius },
 } };
 
 struct DualQuaternion {
@@ -34,10 +47,7 @@ DualQuaternion dual_quaternion(const Eigen::Isometry3d& transform)
     return { q.coeffs(), 0.5 * d.coeffs() };
 }
 
-bool is_identity(const Eigen::Isometry3d& t)
-{
-    return t.matrix() == Eigen::Matrix4d::Identity();
-}
+bool is_identity(const Eigen::Isometry3d& t) { return t.matrix() == Eigen::Matrix4d::Identity(); }
 
 }  // namespace
 
@@ -59,10 +69,7 @@ int bone_before(Extremity extremity)
     return bones[extremity];
 }
 
-const Vec3& Skeleton::head(int bone) const
-{
-    return parent_of(bone) < 0 ? root : tails[parent_of(bone)];
-}
+const Vec3& Skeleton::head(int bone) const { return parent_of(bone) < 0 ? root : tails[parent_of(bone)]; }
 
 Pose::Pose() { rotations.fill(Eigen::Quaterniond::Identity()); }
 
@@ -79,7 +86,7 @@ BoneTransforms bone_transforms(const Skeleton& rest, const Pose& pose)
     const auto about = [](const Vec3& from, const Vec3& to, const Eigen::Quaterniond& rotation) {
         Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
         t.linear() = rotation.toRotationMatrix();
-        t.translation() = (to - from) + (from - t.linear() * from);  // exactly zero for the identity
+        t.translation() = (to - from) + (from - t.linear() * from);  // exactly zero for the identity rotation
         return t;
     };
     std::array<Eigen::Quaterniond, bone_count> world;
@@ -118,47 +125,66 @@ Pose slerp(const Pose& from, const Pose& to, double t)
     return result;
 }
 
-// Kavan et al. 2008, algorithm 1; antipodal quaternions are flipped towards the vertex's first bone.
-Positions skin(const Positions& rest_positions, const SkinWeights& weights,
-               const BoneTransforms& transforms)
-{
-    std::array<DualQuaternion, bone_count> dual;
-    std::array<bool, bone_count> still {};
-    for (int b = 0; b < bone_count; ++b) {
-        dual[b] = dual_quaternion(transforms[b]);
-        still[b] = is_identity(transforms[b]);
+namespace {
+
+/// [kavan_2008_dual_quaternions], algorithm 1. Antipodal quaternions are flipped towards the vertex's first bone. A
+/// vertex whose bones do not move returns bit for bit.
+class DualQuaternionBlend {
+public:
+    explicit DualQuaternionBlend(const BoneTransforms& transforms)
+    {
+        for (int b = 0; b < bone_count; ++b) {
+            dual_[b] = dual_quaternion(transforms[b]);
+            still_[b] = is_identity(transforms[b]);
+        }
     }
-    Positions result(rest_positions.rows(), 3);
-    for (Eigen::Index v = 0; v < rest_positions.rows(); ++v) {
-        const Vec3 p = rest_positions.row(v);
-        Eigen::Vector4d real = Eigen::Vector4d::Zero(), d = Eigen::Vector4d::Zero();
+
+    Vec3 apply(const Vec3& p, const SkinWeights& weights, Eigen::Index v) const
+    {
+        Eigen::Vector4d real = Eigen::Vector4d::Zero(), dual = Eigen::Vector4d::Zero();
         bool moves = false;
-        const Eigen::Vector4d& first = dual[weights.bones(v, 0)].real;
+        const Eigen::Vector4d& first = dual_[weights.bones(v, 0)].real;
         for (int k = 0; k < 4; ++k) {
             const double w = weights.weights(v, k);
             if (w == 0)
                 continue;
             const int b = weights.bones(v, k);
-            moves |= !still[b];
-            const double sign = first.dot(dual[b].real) < 0 ? -w : w;
-            real += sign * dual[b].real;
-            d += sign * dual[b].dual;
+            moves |= !still_[b];
+            const double sign = first.dot(dual_[b].real) < 0 ? -w : w;
+            real += sign * dual_[b].real;
+            dual += sign * dual_[b].dual;
         }
-        if (!moves) {
-            result.row(v) = p;
-            continue;
-        }
+        return moves ? transform(p, real, dual) : p;
+    }
+
+private:
+    static Vec3 transform(const Vec3& p, Eigen::Vector4d real, Eigen::Vector4d dual)
+    {
         const double norm = real.norm();
         real /= norm;
-        d /= norm;
-        const Vec3 r = real.head<3>(), e = d.head<3>();
-        const double w = real.w(), ew = d.w();
-        result.row(v) = p + 2 * r.cross(r.cross(p) + w * p) + 2 * (w * e - ew * r + r.cross(e));
+        dual /= norm;
+        const Vec3 r = real.head<3>(), d = dual.head<3>();
+        const double w = real.w(), dw = dual.w();
+        return p + 2 * r.cross(r.cross(p) + w * p) + 2 * (w * d - dw * r + r.cross(d));
     }
+
+    std::array<DualQuaternion, bone_count> dual_;
+    std::array<bool, bone_count> still_ {};
+};
+
+}  // namespace
+
+Positions skin(const Positions& rest_positions, const SkinWeights& weights, const BoneTransforms& transforms)
+{
+    const DualQuaternionBlend blend(transforms);
+    Positions result(rest_positions.rows(), 3);
+    for (Eigen::Index v = 0; v < rest_positions.rows(); ++v)
+        result.row(v) = blend.apply(rest_positions.row(v), weights, v);
     return result;
 }
 
-std::array<double, bone_count> bone_radii(const Skeleton& rest, const SkinWeights& weights, const Positions& rest_positions)
+std::array<double, bone_count> bone_radii(const Skeleton& rest, const SkinWeights& weights,
+                                          const Positions& rest_positions)
 {
     std::array<std::vector<double>, bone_count> distances;
     for (Eigen::Index v = 0; v < rest_positions.rows(); ++v) {
@@ -167,14 +193,14 @@ std::array<double, bone_count> bone_radii(const Skeleton& rest, const SkinWeight
         const int b = weights.bones(v, slot);
         const Vec3 from_head = Vec3(rest_positions.row(v)) - rest.head(b);
         const double along = from_head.dot(rest.direction(b));
-        if (along > 0 && along < rest.length(b))  // beside the bone: neither hand nor foot
+        if (along > 0 && along < rest.length(b))  // excludes the skin of hands and feet
             distances[b].push_back((from_head - along * rest.direction(b)).norm());
     }
     std::array<double, bone_count> radii {};
     for (int b = 0; b < bone_count; ++b)
         if (auto& d = distances[b]; !d.empty()) {
-            std::nth_element(d.begin(), d.begin() + d.size() / 4, d.end());
-            radii[b] = d[d.size() / 4];
+            std::nth_element(d.begin(), d.begin() + d.size() / skeleton_tuning::k_radius_quantile, d.end());
+            radii[b] = d[d.size() / skeleton_tuning::k_radius_quantile];
         }
     return radii;
 }

@@ -11,16 +11,21 @@
 #include "nearest.h"
 #include "parallel.h"
 #include "skin_weights.h"
+#include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_normal_weight = 0.015;  // of the diagonal: half of how far a point that faces away seems
-constexpr int k_neighbours = 4;  // that a transferred weight is blended from
-constexpr int k_block = 4096;  // vertices, of which one core finds the neighbours at a time
-constexpr int k_far_bones = 3;  // steps: from forearm to ribs; at the crotch thigh meets thigh, but both meet the hips
+using namespace skeleton_tuning;
 
-/// Rows (position, weighted normal): near in this space means near and facing the same way.
+constexpr int k_block = 4096;  // unit: vertices of one parallel task, no influence on results
+constexpr double k_same_place = 1e-12;  // unit: share of the squared diagonal, avoids 1 / 0 at the very place
+// derived: steps from forearm to ribs, which are far apart. At the crotch thigh meets thigh, but both are one step from
+// the hips. Held by SkinTransfer.NothingIsStrayWhereBonesFollowEachOther.
+constexpr int k_far_bones = 3;
+
+/// Rows (position, weighted normal): points that are near in this space are near and have similar normals.
 using OrientedPoints = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
 OrientedPoints oriented_points(const Positions& positions, const Positions& normals, double normal_length)
@@ -30,7 +35,8 @@ OrientedPoints oriented_points(const Positions& positions, const Positions& norm
     return rows;
 }
 
-/// Outwards. What had to be repaired may be turned any way: there the nearest place of the closed surface tells.
+/// The user's faces may have any orientation if the mesh was repaired. Then the nearest points of the closed surface
+/// have the outward normals.
 Positions outward_normals(const BodyMesh& body, const Positions& places)
 {
     if (!body.repaired)
@@ -43,6 +49,7 @@ Positions outward_normals(const BodyMesh& body, const Positions& places)
     return normals;
 }
 
+/// The bone with the largest weight of each row.
 std::vector<int> main_bones(const Eigen::MatrixXd& weights)
 {
     std::vector<int> bones(weights.rows());
@@ -53,7 +60,8 @@ std::vector<int> main_bones(const Eigen::MatrixXd& weights)
 
 using BoneSteps = std::array<std::array<int, bone_count>, bone_count>;
 
-/// Steps along the skeleton from bone to bone; the three bones at the root are next to each other.
+/// Number of steps along the skeleton between bones by the Floyd-Warshall algorithm. Bones of one parent are
+/// neighbours, also those at the root.
 BoneSteps bone_steps()
 {
     BoneSteps steps;
@@ -76,12 +84,13 @@ int steps_between(int bone, int other)
     return steps[bone][other];
 }
 
-/// Rows of weights at places nearby, blended by inverse squared distance. Fingertips that touch have no part in each other: neighbours
-/// count that hang on bones near to that of the nearest.
+/// Weights interpolated from the nearest points by inverse squared distance. Points count only if their main bone is
+/// near, along the skeleton, to that of the nearest point: fingertips that touch do not share weights.
 class BlendedWeights {
 public:
     BlendedWeights(OrientedPoints points, Eigen::MatrixXd weights) :
         points_(std::move(points)), weights_(std::move(weights)), bones_(main_bones(weights_)),
+        same_place_(k_same_place * (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).squaredNorm()),
         neighbours_(std::min<int>(k_neighbours, int(points_.rows()))),
         tree_(flann::Matrix<double>(points_.data(), points_.rows(), 6), flann::KDTreeSingleIndexParams())
     {
@@ -91,32 +100,38 @@ public:
     Eigen::MatrixXd at(OrientedPoints queries) const
     {
         const std::size_t n = queries.rows();
-        const double same = 1e-12 * (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).squaredNorm();
         Eigen::MatrixXd blended(n, bone_count);
         parallel_for((n + k_block - 1) / k_block, [&](std::size_t block) {
             const std::size_t first = block * k_block, count = std::min<std::size_t>(k_block, n - first);
-            std::vector<int> rows(count * neighbours_);
-            std::vector<double> squared(count * neighbours_);
-            flann::Matrix<int> found(rows.data(), count, neighbours_);
-            flann::Matrix<double> distances(squared.data(), count, neighbours_);
-            tree_.knnSearch(flann::Matrix<double>(queries.data() + 6 * first, count, 6), found, distances, neighbours_,
-                            flann::SearchParams(-1));
-            for (std::size_t v = 0; v < count; ++v) {
-                Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
-                const int* const near = rows.data() + v * neighbours_;
-                for (int k = 0; k < neighbours_; ++k)
-                    if (steps_between(bones_[near[0]], bones_[near[k]]) < k_far_bones)
-                        row += weights_.row(near[k]) / (squared[v * neighbours_ + k] + same);
-                blended.row(first + v) = row;
-            }
+            interpolate(queries.data() + 6 * first, blended.middleRows(first, count));
         });
         return blended;
     }
 
 private:
+    void interpolate(double* queries, Eigen::Ref<Eigen::MatrixXd> blended) const
+    {
+        const std::size_t count = blended.rows();
+        std::vector<int> rows(count * neighbours_);
+        std::vector<double> squared(count * neighbours_);
+        flann::Matrix<int> found(rows.data(), count, neighbours_);
+        flann::Matrix<double> distances(squared.data(), count, neighbours_);
+        tree_.knnSearch(flann::Matrix<double>(queries, count, 6), found, distances, neighbours_,
+                        flann::SearchParams(-1));
+        for (std::size_t v = 0; v < count; ++v) {
+            Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bone_count);
+            const int* const near = rows.data() + v * neighbours_;
+            for (int k = 0; k < neighbours_; ++k)
+                if (steps_between(bones_[near[0]], bones_[near[k]]) < k_far_bones)
+                    row += weights_.row(near[k]) / (squared[v * neighbours_ + k] + same_place_);
+            blended.row(v) = row;
+        }
+    }
+
     OrientedPoints points_;
     Eigen::MatrixXd weights_;
     std::vector<int> bones_;
+    double same_place_;  // m^2
     int neighbours_;
     flann::Index<flann::L2<double>> tree_;
 };
@@ -129,8 +144,8 @@ void for_each_edge(const Triangles& triangles, Visit&& visit)
             visit(triangles(f, k), triangles(f, (k + 1) % 3));
 }
 
-/// Vertices that are not of the largest part of their surface, when it is cut where bones far apart meet.
-std::vector<bool> cut_off(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
+/// Vertices outside the largest part of their surface, after cuts along edges where bones far apart meet.
+std::vector<bool> find_separated(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
 {
     const int n = int(bone_of_vertex.size());
     DisjointSets parts(n), surfaces(n);
@@ -153,7 +168,7 @@ std::vector<bool> cut_off(const Triangles& triangles, const std::vector<int>& bo
     return result;
 }
 
-/// The weights of those vertices alone that hang mostly on one of the bones; of all, where none does.
+/// Interpolation from those points only whose main bone is one of `bones`; from all points if there are none.
 BlendedWeights weights_on(const std::array<bool, bone_count>& bones, const std::vector<int>& bone_of_vertex,
                           const OrientedPoints& points, const Eigen::MatrixXd& weights)
 {
@@ -170,7 +185,7 @@ BlendedWeights weights_on(const std::array<bool, bone_count>& bones, const std::
 
 std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
 {
-    const std::vector<bool> stray = cut_off(triangles, bone_of_vertex);
+    const std::vector<bool> stray = find_separated(triangles, bone_of_vertex);
     DisjointSets joined(int(bone_of_vertex.size()));
     for_each_edge(triangles, [&](int a, int b) {
         if (stray[a] && stray[b])
@@ -195,19 +210,18 @@ std::vector<StrayPatch> stray_patches(const Triangles& triangles, const std::vec
 
 SkinWeights transfer_skin_weights(const TriangleMesh& from, const Eigen::MatrixXd& weights, const BodyMesh& to)
 {
-    const double normal_length
-        = k_normal_weight * (from.positions.colwise().maxCoeff() - from.positions.colwise().minCoeff()).norm();
+    const double normal_length = k_normal_weight * diagonal(from.positions);
     const OrientedPoints points
         = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), normal_length);
     const Positions places = brought_to_stumps(to);
     const OrientedPoints queries = oriented_points(places, outward_normals(to, places), normal_length);
 
-    Eigen::MatrixXd carried = BlendedWeights(points, weights).at(queries);
+    Eigen::MatrixXd transferred = BlendedWeights(points, weights).at(queries);
     const std::vector<int> bone_of_point = main_bones(weights);
-    for (const StrayPatch& patch : stray_patches(to.surface.triangles, main_bones(carried)))
-        carried(patch.vertices, Eigen::all)
+    for (const StrayPatch& patch : stray_patches(to.surface.triangles, main_bones(transferred)))
+        transferred(patch.vertices, Eigen::all)
             = weights_on(patch.near_bones, bone_of_point, points, weights).at(queries(patch.vertices, Eigen::all));
-    return strongest_four(std::move(carried));
+    return strongest_four(std::move(transferred));
 }
 
 }  // namespace garmentfit

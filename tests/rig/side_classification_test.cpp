@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "side_classification.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace garmentfit;
+
+/// Of a person that faces +z. @param left  row of the left limbs
+BodyJoints joints_of(const Skeleton& s, int left)
+{
+    BodyJoints joints;
+    joints.arms[left] = { s.tail(lclavicle), s.tail(lhumerus), s.tail(lradius), s.tips[lhand_tip] };
+    joints.arms[1 - left] = { s.tail(rclavicle), s.tail(rhumerus), s.tail(rradius), s.tips[rhand_tip] };
+    joints.legs[left] = { s.tail(lhipjoint), s.tail(lfemur), s.tail(ltibia), s.tips[lfoot_tip] };
+    joints.legs[1 - left] = { s.tail(rhipjoint), s.tail(rfemur), s.tail(rtibia), s.tips[rfoot_tip] };
+    joints.pelvis = s.root;
+    joints.neck_base = s.tail(thorax);
+    joints.size = 1.75;
+    return joints;
+}
+
+TEST(SideClassification, FindsTheLeftLimbsInEitherOrder)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    for (const int left : { 0, 1 }) {
+        const Sides sides = classify_sides(joints_of(skeleton, left));
+        EXPECT_EQ(sides.left_arm, left);
+        EXPECT_EQ(sides.left_leg, left);
+        EXPECT_GT(sides.front.z(), 0.95);
+        EXPECT_GT(sides.margin, 0.5);
+    }
+}
+
+TEST(SideClassification, ArmsMayBeInAnotherOrderThanLegs)
+{
+    BodyJoints joints = joints_of(fixtures::person_skeleton({}), 0);
+    std::swap(joints.arms[0], joints.arms[1]);
+    const Sides sides = classify_sides(joints);
+    EXPECT_EQ(sides.left_leg, 0);
+    EXPECT_EQ(sides.left_arm, 1);
+}
+
+TEST(SideClassification, AGivenFrontReplacesTheCues)
+{
+    const Sides sides = classify_sides(joints_of(fixtures::person_skeleton({}), 0), Vec3(0, 0, -1));
+    EXPECT_EQ(sides.left_leg, 1);
+    EXPECT_LT(sides.front.z(), -0.95);
+    EXPECT_GT(sides.margin, 0.95);
+}
+
+TEST(SideClassification, StraightLimbsWithoutFeetGiveNoEvidence)
+{
+    BodyJoints joints = joints_of(fixtures::person_skeleton({ .elbow_angle = 0 }), 0);
+    for (LimbJoints& leg : joints.legs) {
+        leg.middle = 0.5 * (leg.root + leg.end);
+        leg.tip = leg.end;
+    }
+    EXPECT_LT(classify_sides(joints).margin, 0.2);
+}
+
+}  // namespace
