@@ -3,7 +3,7 @@
 
 // Retracts sleeves and trouser legs that reach beyond wrists and ankles, before the body grows, as people do who put a
 // garment on. A thumb or a heel that grew inside a cuff would be caught there
-// (docs/decisions/0014-sleeves-pushed-up.md).
+// (docs/decisions/0014-sleeve-retraction.md).
 
 #include <array>
 #include <vector>

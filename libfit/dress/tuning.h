@@ -38,7 +38,7 @@ inline constexpr double k_enlarged_stretch_share = 0.5;
 /// crumpled cuffs failed, because the hand grew into the folds (docs/decisions/0010-straight-hands.md).
 inline constexpr std::array<double, 2> k_hand_stretches { 0, 1 };
 
-// ---- sleeve retraction (sleeve_retraction.cpp), docs/decisions/0014-sleeves-pushed-up.md --------------------------
+// ---- sleeve retraction (sleeve_retraction.cpp), docs/decisions/0014-sleeve-retraction.md --------------------------
 
 /// Share of the forearm's or shin's length up to which a sleeve is retracted. The skin of a hand or foot blends into
 /// its limb from 0.88 on (ExtremityBend::blend); this leaves as much again. Fitted: guess, on the house pairs.
@@ -104,7 +104,7 @@ inline constexpr int k_steps_to_rest = 60;
 inline constexpr double k_in_place = 1e-3;
 /// m; a part that lags by this much more than at the start has no clearance further on: the cloth would only be torn.
 /// Fitted: on paths that end well no part lags by more than 0.02, but hands that cross reach 0.07
-/// (docs/decisions/0011-turning-back.md).
+/// (docs/decisions/0011-restore-when-stuck.md).
 inline constexpr double k_stuck_lag = 0.08;
 /// Share of the path after which creases are fully bridged. Fitted: guess.
 inline constexpr double k_bridged_from = 0.5;
