@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/error.h"
 #include "fixtures.h"
+#include "garmentfit/error.h"
 
 namespace {
 
@@ -62,12 +62,12 @@ double weight_of(const SkinWeights& weights, Eigen::Index vertex, int bone)
     return sum;
 }
 
-/// Fewer vertices to contract, for what does not depend on their number.
+/// A smaller proxy, for tests that do not depend on its size.
 const RigOptions k_coarse { .proxy_vertices = 3500 };
 
 class RigBodyInPose : public testing::TestWithParam<PersonOptions> { };
 
-TEST_P(RigBodyInPose, FindsSidesAndTheJointsThatAPersonWasBuiltRoundAllInside)
+TEST_P(RigBodyInPose, FindsSidesAndJointsInsideTheBody)
 {
     const Person person = capsule_person(GetParam());
     const Rig rig = rig_body(body_of(person.mesh));
@@ -107,7 +107,7 @@ TEST(RigBody, GivesEveryVertexPositiveWeightsThatSumToOne)
     EXPECT_LT((weights.weights.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
 }
 
-TEST(RigBody, HangsASkinVertexOnTheBoneBelowIt)
+TEST(RigBody, WeightsASkinVertexToTheBoneBelowIt)
 {
     const Person person = capsule_person();
     const Rig rig = rig_body(body_of(person.mesh));
@@ -122,7 +122,7 @@ TEST(RigBody, HangsASkinVertexOnTheBoneBelowIt)
         }
 }
 
-TEST(RigBody, WeighsVerticesOfIslandsToo)
+TEST(RigBody, WeightsVerticesOfIslands)
 {
     Person person = capsule_person();
     const Vec3 head = person.skeleton.tips[head_top] + Vec3(0, -0.1, 0.05);
@@ -135,18 +135,18 @@ TEST(RigBody, WeighsVerticesOfIslandsToo)
         EXPECT_GT(weight_of(weights, v, upperneck) + weight_of(weights, v, lowerneck), 0.8);
 }
 
-TEST(RigBody, OfATurnedBodyIsTheTurnedRig)
+TEST(RigBody, OfARotatedBodyIsTheRotatedRig)
 {
     const Person person = capsule_person();
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
     motion.rotate(Eigen::AngleAxisd(2.1, Vec3(1, -2, 0.5).normalized()));
     motion.translation() = Vec3(3, -1, 2);
-    const Rig rig = rig_body(body_of(person.mesh)), turned = rig_body(body_of(moved(person.mesh, motion)));
+    const Rig rig = rig_body(body_of(person.mesh)), rotated = rig_body(body_of(moved(person.mesh, motion)));
     for (int bone = 0; bone < bone_count; ++bone)
-        EXPECT_LT((motion * rig.skeleton.tail(bone) - turned.skeleton.tail(bone)).norm(), 0.03 * k_stature)
+        EXPECT_LT((motion * rig.skeleton.tail(bone) - rotated.skeleton.tail(bone)).norm(), 0.03 * k_stature)
             << bone_name(bone);
-    EXPECT_GT((motion.linear() * rig.front).dot(turned.front), 0.98);
-    EXPECT_GT((motion.linear() * rig.up).dot(turned.up), 0.98);
+    EXPECT_GT((motion.linear() * rig.front).dot(rotated.front), 0.98);
+    EXPECT_GT((motion.linear() * rig.up).dot(rotated.up), 0.98);
 }
 
 TEST(RigBody, OfAMirroredBodyIsTheMirroredRig)
@@ -184,7 +184,7 @@ TEST(RigBody, ExchangesSidesWhenAsked)
     EXPECT_EQ(rig.front, -swapped.front);
 }
 
-TEST(RigBody, TakesGivenJointsAndMovesThoseBetween)
+TEST(RigBody, TakesGivenJointsAndAdaptsThoseBetween)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
     const Rig found = rig_body(body, k_coarse);
@@ -199,7 +199,7 @@ TEST(RigBody, TakesGivenJointsAndMovesThoseBetween)
     EXPECT_LT((given.skeleton.tail(rhumerus) - found.skeleton.tail(rhumerus)).norm(), 1e-9);
 }
 
-TEST(RigBody, NeedsToFindNothingWhenEveryJointIsGiven)
+TEST(RigBody, SearchesNothingWhenEveryJointIsGiven)
 {
     const Person person = capsule_person();
     RigOptions options;
@@ -213,7 +213,7 @@ TEST(RigBody, NeedsToFindNothingWhenEveryJointIsGiven)
     EXPECT_EQ(rig.weights.weights.rows(), person.mesh.positions.rows());
 }
 
-TEST(RigBody, FacesWhereTheUserSays)
+TEST(RigBody, FacesTheGivenFront)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
     RigOptions options = k_coarse;
@@ -235,7 +235,7 @@ TEST(RigBody, IsAsGoodFarFromTheOrigin)
         EXPECT_LT((there.skeleton.tail(b) - far - here.skeleton.tail(b)).norm(), 0.02 * k_stature) << bone_name(b);
 }
 
-/// What is left of a person where `keep` says so, with holes where the rest was cut off.
+/// The part of a person for which `keep` is true, with holes at the cuts.
 TriangleMesh cut(const TriangleMesh& mesh, const std::function<bool(const Vec3&)>& keep)
 {
     std::vector<int> rows;
@@ -245,7 +245,7 @@ TriangleMesh cut(const TriangleMesh& mesh, const std::function<bool(const Vec3&)
     return { mesh.positions, mesh.triangles(rows, Eigen::all) };
 }
 
-TEST(RigBody, DoesWithoutAHead)
+TEST(RigBody, RigsABodyWithoutHead)
 {
     const Person person = capsule_person();
     const double neck = person.skeleton.tail(thorax).y() + 0.03;
@@ -254,7 +254,7 @@ TEST(RigBody, DoesWithoutAHead)
         EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.05 * k_stature) << bone_name(bone);
 }
 
-TEST(RigBody, CutsAHandOffTheHipThatItIsFusedTo)
+TEST(RigBody, SeparatesAHandFromTheHipThatItIsMergedWith)
 {
     const Person person = capsule_person({ .arm_angle = 60, .elbow_angle = 15 });
     const auto bridge = [&](const Vec3& p) {  // from the left hand to the thigh beside it
@@ -262,8 +262,8 @@ TEST(RigBody, CutsAHandOffTheHipThatItIsFusedTo)
         return (p - a - std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0) * axis).norm() - 0.035;
     };
     const auto both = [&](const Vec3& p) { return std::min(fixtures::person_distance(person.skeleton, p), bridge(p)); };
-    const TriangleMesh fused = fixtures::polygonise(both, Vec3(-1.1, -0.2, -0.5), Vec3(1.1, 2.1, 0.5), 0.02);
-    const Rig rig = rig_body(body_of(fused));
+    const TriangleMesh merged = fixtures::polygonise(both, Vec3(-1.1, -0.2, -0.5), Vec3(1.1, 2.1, 0.5), 0.02);
+    const Rig rig = rig_body(body_of(merged));
     for (const int bone : { lhumerus, rhumerus, lfemur, rfemur, ltibia, rtibia })
         EXPECT_LT((rig.skeleton.tail(bone) - person.skeleton.tail(bone)).norm(), 0.06 * k_stature) << bone_name(bone);
 }
@@ -277,23 +277,23 @@ TEST(RigBody, RefusesTwoPeople)
                    "pieces that lie apart, the second 100% the size");
 }
 
-TEST(RigBody, StaysWhereItWasOnFinerAndCoarserTrianglesAndInAnyOrderOfVertices)
+TEST(RigBody, DependsLittleOnTrianglesAndNotOnTheOrderOfVertices)
 {
     const Person person = capsule_person();
     const Rig rig = rig_body(body_of(person.mesh));
-    TriangleMesh turned = person.mesh;  // vertices in reverse order
-    turned.positions = person.mesh.positions.colwise().reverse().eval();
-    turned.triangles = int(person.mesh.positions.rows()) - 1 - person.mesh.triangles.array();
+    TriangleMesh rotated = person.mesh;  // vertices in reverse order
+    rotated.positions = person.mesh.positions.colwise().reverse().eval();
+    rotated.triangles = int(person.mesh.positions.rows()) - 1 - person.mesh.triangles.array();
     const TriangleMesh finer = capsule_person({ .spacing = 0.025 }).mesh,
                        coarser = capsule_person({ .spacing = 0.06 }).mesh;
-    for (const TriangleMesh& mesh : { turned, finer, coarser }) {
+    for (const TriangleMesh& mesh : { rotated, finer, coarser }) {
         const Rig other = rig_body(body_of(mesh));
         for (int b = 0; b < bone_count; ++b)
             EXPECT_LT((other.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 0.03 * k_stature) << bone_name(b);
     }
 }
 
-TEST(RigBody, GivesTheSameBitsAgain)
+TEST(RigBody, GivesTheSameBitsTwice)
 {
     const BodyMesh body = body_of(capsule_person().mesh);
     const Rig first = rig_body(body, k_coarse), second = rig_body(body, k_coarse);
@@ -340,7 +340,7 @@ TEST(RigBody, RefusesBallsAndCubesAsBlocks)
         expect_invalid([&] { rig_body(body_of(block)); }, "isoperimetric quotient");
 }
 
-TEST(RigBody, SaysHowManyEndsItMissed)
+TEST(RigBody, NamesTheNumberOfEndsFound)
 {
     const TriangleMesh rod = shape([](const Vec3& p) {
         return segment_distance(p, { 0, -0.9, 0 }, { 0, 0.9, 0 }) - 0.1;
@@ -363,7 +363,7 @@ TEST(RigBody, RefusesATorusAndADog)
         EXPECT_THROW(rig_body(body_of(mesh)), InvalidInput);
 }
 
-TEST(RigBody, RefusesClothesThatWereClosed)
+TEST(RigBody, RefusesClosedClothes)
 {
     const fixtures::Person person = capsule_person({ .spacing = 0.03 });
     const auto worn = [&](const Vec3& p) {  // no head, hands or feet

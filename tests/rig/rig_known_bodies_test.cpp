@@ -23,7 +23,7 @@ using namespace garmentfit;
 
 struct KnownBody {
     const char* name;
-    double mean, worst;  ///< of stature, over the twelve joints; measured, and a quarter more
+    double mean, worst;  ///< of stature, over the twelve joints; the measured value plus a quarter
 };
 
 constexpr KnownBody k_bodies[] = {
@@ -70,7 +70,7 @@ double mean(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-/// Between a point and the triangles whose first corner counts, m^3.
+/// Volume between a point and the triangles whose first corner counts, m^3.
 double volume(const TriangleMesh& mesh, const Vec3& origin, const std::function<bool(int)>& counts)
 {
     double sum = 0;
@@ -87,7 +87,7 @@ double volume(const TriangleMesh& mesh)
     return volume(mesh, mesh.positions.colwise().mean(), [](int) { return true; });
 }
 
-enum class About { across, front, itself };  ///< the axis that a bone turns about: of the body, or its own
+enum class About { across, front, itself };  ///< the axis of rotation: of the body, or the bone
 
 struct Bend {
     int bone;
@@ -95,8 +95,8 @@ struct Bend {
     About about;
 };
 
-/// The body's axis, square to the bone.
-Eigen::Quaterniond turned(const Rig& rig, const Bend& bend, double share)
+/// The rotation of a bone by a share of its range, about an axis square to the bone.
+Eigen::Quaterniond bend_rotation(const Rig& rig, const Bend& bend, double share)
 {
     const Vec3 across = rig.front.cross(rig.up);  // towards the body's right
     const Vec3 bone = rig.skeleton.direction(bend.bone);
@@ -105,7 +105,7 @@ Eigen::Quaterniond turned(const Rig& rig, const Bend& bend, double share)
     return Eigen::Quaterniond(Eigen::AngleAxisd(share * bend.most * std::acos(-1) / 180, axis));
 }
 
-/// Of an arm from the shoulder, a leg from the hip, or else of all but the limbs.
+/// Volume of an arm from the shoulder, of a leg from the hip, or otherwise of the body without limbs.
 double volume_of_limb(const BodyMesh& body, const Rig& rig, int bone)
 {
     const auto limb = [&](int upper) {  // its cut runs through the joint, so nothing is missing where it is open
@@ -118,7 +118,7 @@ double volume_of_limb(const BodyMesh& body, const Rig& rig, int bone)
     return volume(body.surface) - limb(lfemur) - limb(rfemur) - limb(lhumerus) - limb(rhumerus);
 }
 
-TEST(Slow, JointsOfKnownBodiesAreWhereTheyAre)
+TEST(Slow, JointsOfKnownBodiesAreFound)
 {
     std::vector<double> means;
     for (const KnownBody& body : k_bodies) {
@@ -131,7 +131,7 @@ TEST(Slow, JointsOfKnownBodiesAreWhereTheyAre)
     EXPECT_LT(mean(means), 0.013);
 }
 
-/// The body without the faces beyond the ends of two bones that hold them; their vertices stay.
+/// The body without the faces beyond the ends of two bones. Their vertices stay.
 BodyMesh cut_off(const BodyMesh& body, const Rig& rig, const std::array<int, 2>& bones)
 {
     std::vector<int> kept;
@@ -157,7 +157,7 @@ TEST(Slow, JointsStayWhereHandsOrFeetAreCutOff)
     }
 }
 
-TEST(Slow, VerticesLeftOfCutOffHandsHangOnTheArmsThoughThighsAreNearer)
+TEST(Slow, VerticesOfRemovedHandsBelongToTheArmsThoughThighsAreNearer)
 {
     const BodyMesh whole = body_of("heavy_man_arms_down"), cut = cut_off(whole, rig_body(whole), k_forearms);
     const Rig rig = rig_body(cut);
@@ -170,8 +170,8 @@ TEST(Slow, VerticesLeftOfCutOffHandsHangOnTheArmsThoughThighsAreNearer)
         }
 }
 
-// Shares of stature [drillis_1966_segments]: thigh 0.245, shin 0.246, upper arm 0.186 (0.17 between joint centres), forearm 0.146,
-// hips to the base of the neck 0.34. People differ by a tenth, children by more.
+// Shares of stature [drillis_1966_segments]: thigh 0.245, shin 0.246, upper arm 0.186 (0.17 between joint centres),
+// forearm 0.146, hips to the base of the neck 0.34. People differ by a tenth, children by more.
 TEST(Slow, SegmentsHaveTheProportionsOfPeople)
 {
     for (const char* name : { "man_a_pose", "woman_t_pose", "heavy_man_arms_down", "tall_man_fighting" }) {
@@ -206,11 +206,11 @@ TEST(Slow, LimbsKeepTheirVolumeWhenAnyJointBendsThroughItsRange)
         for (const Bend& bend : bends)
             for (const double share : { 0.5, 1.0 }) {
                 Pose pose;
-                pose.rotations[std::size_t(bend.bone)] = turned(rig, bend, share);
+                pose.rotations[std::size_t(bend.bone)] = bend_rotation(rig, bend, share);
                 const Positions posed = skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
                 const double lost = volume(body.surface) - volume({ posed, body.surface.triangles });
                 EXPECT_LT(lost, 0.1 * volume_of_limb(body, rig, bend.bone))
-                    << name << ": " << bone_name(bend.bone) << " turned by " << share * bend.most << " degrees";
+                    << name << ": " << bone_name(bend.bone) << " rotated by " << share * bend.most << " degrees";
             }
     }
 }

@@ -18,7 +18,7 @@ Eigen::Quaterniond turn(double angle, const Vec3& axis)
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
-/// Every bone turned a little, each another way; the root moved and turned.
+/// Every bone rotated by a small angle about another axis; the root moved and rotated.
 Pose some_pose()
 {
     Pose pose;
@@ -29,13 +29,13 @@ Pose some_pose()
     return pose;
 }
 
-/// A few points round each bone, hanging on it and on its parent.
+/// Points around each bone, with weights on it and on its parent.
 struct Skin {
     Positions positions { 4 * bone_count, 3 };
     SkinWeights weights;
 };
 
-Skin some_skin(const Skeleton& skeleton, double own_weight)
+Skin some_skin(const Skeleton& skeleton, double weight_on_bone)
 {
     Skin skin;
     skin.weights.bones.setZero(4 * bone_count, 4);
@@ -44,7 +44,7 @@ Skin some_skin(const Skeleton& skeleton, double own_weight)
         const int bone = v / 4;
         skin.positions.row(v) = skeleton.head(bone) + 0.02 * Vec3(v % 4 - 1.5, (v + 1) % 3, v % 2);
         skin.weights.bones.row(v) << bone, std::max(parent_of(bone), 0), 0, 0;
-        skin.weights.weights.row(v) << own_weight, 1 - own_weight, 0, 0;
+        skin.weights.weights.row(v) << weight_on_bone, 1 - weight_on_bone, 0, 0;
     }
     return skin;
 }
@@ -86,7 +86,7 @@ TEST(Posed, KeepsTheLengthOfEveryBone)
     }
 }
 
-TEST(Posed, InTheOwnPoseIsTheSameBitForBit)
+TEST(Posed, InTheRestPoseIsTheSameBitForBit)
 {
     const Skeleton rest = fixtures::capsule_person().skeleton, there = pose_skeleton(rest, Pose());
     EXPECT_EQ(there.root, rest.root);
@@ -94,7 +94,7 @@ TEST(Posed, InTheOwnPoseIsTheSameBitForBit)
     EXPECT_EQ(there.tips, rest.tips);
 }
 
-TEST(Posed, BendsAnElbowAndLeavesTheRest)
+TEST(Posed, BendsAnElbowAndNothingElse)
 {
     const Skeleton rest = fixtures::capsule_person().skeleton;
     Pose pose;
@@ -106,7 +106,7 @@ TEST(Posed, BendsAnElbowAndLeavesTheRest)
     EXPECT_GT((there.tips[lhand_tip] - rest.tips[lhand_tip]).norm(), 0.1);
 }
 
-TEST(Slerp, BeginsAndEndsExactly)
+TEST(Slerp, StartsAndEndsExactly)
 {
     const Pose from = some_pose(), to;
     const Pose at_start = slerp(from, to, 0), at_end = slerp(from, to, 1);
@@ -128,7 +128,7 @@ TEST(Slerp, IsHalfTheTurnHalfWay)
     EXPECT_NEAR(half.root_translation.x(), 1, k_tiny);
 }
 
-TEST(Skin, ComesBackBitForBitInTheOwnPose)
+TEST(Skin, IsTheSameBitForBitInTheRestPose)
 {
     const Skeleton rest = fixtures::capsule_person().skeleton;
     const Skin s = some_skin(rest, 0.37);

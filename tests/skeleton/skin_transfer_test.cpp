@@ -19,7 +19,7 @@ TriangleMesh skin_with_bump(double base, double height)
                  [=](double x, double z) { return base + (std::hypot(x - 0.1, z - 0.1) < 0.035 ? height : 0); });
 }
 
-/// Two sheets of skin 3 cm apart that face the same way, each on one bone.
+/// Two sheets of skin 3 cm apart that face the same way, each with all weight on one bone.
 struct TwoSheets {
     TriangleMesh mesh = joined(skin_with_bump(0, 0), skin_with_bump(0.03, 0));
     Eigen::MatrixXd weights;
@@ -31,33 +31,33 @@ struct TwoSheets {
     }
 };
 
-SkinWeights carried_to(const TriangleMesh& surface, const TwoSheets& from)
+SkinWeights transfer_to(const TriangleMesh& surface, const TwoSheets& from)
 {
     return transfer_skin_weights(from.mesh, from.weights, { surface, surface, false });
 }
 
-TEST(SkinTransfer, SkinThatReachesOtherSkinHangsOnTheBoneOfItsNeighbours)
+TEST(SkinTransfer, SkinThatTouchesOtherSkinGetsTheBoneOfItsNeighbours)
 {
-    const SkinWeights carried = carried_to(skin_with_bump(0, 0.028), TwoSheets(lradius, rradius));
-    for (Eigen::Index v = 0; v < carried.bones.rows(); ++v) {
-        EXPECT_EQ(carried.bones(v, 0), lradius);
-        EXPECT_NEAR(carried.weights(v, 0), 1, 1e-12);
+    const SkinWeights transferred = transfer_to(skin_with_bump(0, 0.028), TwoSheets(lradius, rradius));
+    for (Eigen::Index v = 0; v < transferred.bones.rows(); ++v) {
+        EXPECT_EQ(transferred.bones(v, 0), lradius);
+        EXPECT_NEAR(transferred.weights(v, 0), 1, 1e-12);
     }
 }
 
-TEST(SkinTransfer, SkinThatReachesTheNextBoneHangsOnIt)
+TEST(SkinTransfer, SkinThatTouchesTheNextBoneGetsIt)
 {
-    const SkinWeights carried = carried_to(skin_with_bump(0, 0.028), TwoSheets(lradius, lhumerus));
-    EXPECT_EQ(carried.bones(k_side * k_side / 2, 0), lhumerus);
-    EXPECT_EQ(carried.bones(0, 0), lradius);
+    const SkinWeights transferred = transfer_to(skin_with_bump(0, 0.028), TwoSheets(lradius, lhumerus));
+    EXPECT_EQ(transferred.bones(k_side * k_side / 2, 0), lhumerus);
+    EXPECT_EQ(transferred.bones(0, 0), lradius);
 }
 
-TEST(SkinTransfer, WeightsOfAVertexAreItsOwnAtItsOwnPlace)
+TEST(SkinTransfer, WeightsAtAProxyVertexAreThatVertexs)
 {
     const TwoSheets from(lfemur, rfemur);
-    const SkinWeights carried = carried_to(from.mesh, from);
-    for (Eigen::Index v = 0; v < carried.bones.rows(); ++v)
-        EXPECT_EQ(carried.bones(v, 0), v < k_side * k_side ? lfemur : rfemur) << v;
+    const SkinWeights transferred = transfer_to(from.mesh, from);
+    for (Eigen::Index v = 0; v < transferred.bones.rows(); ++v)
+        EXPECT_EQ(transferred.bones(v, 0), v < k_side * k_side ? lfemur : rfemur) << v;
 }
 
 TEST(SkinTransfer, APatchOfFarBonesIsStrayAndNamesTheBonesAroundIt)
