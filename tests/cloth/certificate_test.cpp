@@ -78,7 +78,7 @@ TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)
 
 TEST(Certificate, KnowsNoCrossingWhereTheInputOnlyTouched)
 {
-    // the spike's edge passes exactly through the border that two triangles share, and then beside it
+    // the edge of the spike passes exactly through the border that two triangles share, later beside it
     TriangleMesh mesh { Positions(7, 3), Triangles(3, 3) };
     mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0, 0.5, 0, -1, 0.5, 0, 1, 9, 9, 1;
     mesh.triangles << 0, 1, 2, 1, 0, 3, 4, 5, 6;

@@ -42,7 +42,7 @@ TEST(ClothEnergy, ForcesAreMinusItsGradient)
 {
     const GarmentMesh rest = flat_sheet();
     ClothOptions cloth;
-    cloth.bend_stiffness = 1e-2;  // so that bending shows beside stretch
+    cloth.bend_stiffness = 1e-2;  // large enough to matter beside stretch
     const ClothEnergy energy(rest, topology_of(rest), {}, cloth);
     Positions x = shaken(rest.positions, 4e-3);
     const Positions forces = energy.elastic_forces(x);
@@ -60,7 +60,7 @@ TEST(ClothEnergy, ForcesAreMinusItsGradient)
         }
 }
 
-/// How the energy grows along a way, J/m, by central differences.
+/// The derivative of the energy along a direction, J/m, by central differences.
 double slope(const ClothEnergy& energy, const Positions& x, const Positions& way)
 {
     constexpr double h = 1e-7;
@@ -74,9 +74,9 @@ GarmentMesh crumpled_sheet()
     return { mesh.positions, mesh.triangles };
 }
 
-// The forces leave out how the axes of a hinge turn, which change the energy by the work of what a hinge lacks to its
-// fold, turned with it. A fold that has its own shape, larger and turned, lacks something along the fold only; turning
-// changes nothing there, so the forces are the whole gradient.
+// The forces neglect that the axes of a hinge turn. Turning changes the energy by the work of the difference between
+// the hinge's curvature and that at rest. A fold of its own shape, enlarged and turned, differs along the fold only,
+// where turning changes nothing. So there the forces are the whole gradient.
 TEST(ClothEnergy, ForcesAreMinusItsGradientWhereFoldsHaveTheirShape)
 {
     const GarmentMesh rest = crumpled_sheet();
@@ -93,7 +93,7 @@ TEST(ClothEnergy, ForcesAreMinusItsGradientWhereFoldsHaveTheirShape)
         }
 }
 
-// Of a fold with another shape than its own they are the gradient along all ways on which its axes stay: of the corners
+// For a fold of another shape the forces are the gradient along all directions in which the axes stay: of the corners
 // in the planes of their triangles, and of the edge along itself.
 TEST(ClothEnergy, ForcesOfAnOpenedFoldAreMinusItsGradientWhileItsAxesHold)
 {
@@ -234,7 +234,7 @@ double sag_of_hanging_sheet(int n, const ClothOptions& cloth)
     const TriangleMesh mesh = sheet(n, 0.5 / (n - 1), [](double, double) { return 0; });
     const GarmentMesh rest { mesh.positions, mesh.triangles };
     ClothEnergy energy(rest, topology_of(rest), {}, cloth);
-    constexpr double h = 0.2, pin = 4e3;  // s, N/m: neither so far from the cloth's own that the solver crawls
+    constexpr double h = 0.2, pin = 4e3;  // s, N/m: close enough to the cloth's own for the solver to converge fast
     energy.set_time_step(h);
     std::vector<SoftConstraint> pins;
     for (int v = 0; v < n; ++v)
@@ -271,8 +271,8 @@ GarmentMesh even_sheet(int across, int up)
     return { positions, triangles };
 }
 
-// The figures of an isotropic sheet of Poisson's ratio 1/3, which a triangular lattice of springs is: stretched one way
-// and held the other, it has 9/8 of Young's modulus; sheared, 3/8.
+// A triangular lattice of springs is an isotropic sheet with Poisson's ratio 1/3. Stretched in one direction and held
+// in the other, its modulus is 9/8 of Young's modulus; sheared, 3/8.
 TEST(ClothEnergy, StretchesAndShearsAsAnIsotropicSheet)
 {
     const ClothOptions cloth;

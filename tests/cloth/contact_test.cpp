@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The private steps under drape_garment.h and recover_pose.h: what they stand on is tested here.
 #include "contact.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ namespace {
 using namespace garmentfit;
 using namespace garmentfit::fixtures;
 
-// A tube round +y with open ends.
+// A tube around +y with open ends.
 GarmentMesh tube(double radius, int rings = 12, int around = 24)
 {
     GarmentMesh mesh { Positions(rings * around, 3), Triangles(2 * (rings - 1) * around, 3) };
@@ -172,7 +171,7 @@ TEST(Contact, ASearchServesLaterDetectionsAsAFreshOneWould)
 
 TEST(Contact, PairsThatCollideMoveAsOneZoneAndTheOthersOnTheirOwn)
 {
-    // two sheets that all but touch, pushed into each other and along +z; a third far off
+    // two sheets that nearly touch, pushed into each other and along +z, and a third one far away
     const auto sheet = [](double y) {
         Positions p(3, 3);
         p << 0, y, 0, 1, y, 0, 0, y, 1;
@@ -206,7 +205,7 @@ TEST(Contact, AZoneWithAnObstacleThatStandsStillStandsStill)
     ContactDetector contact = detector_of(triangle, cloth_vertices, triangle, 3);
     contact.detect(x, push, { 1e-4, 1e-4 });
     EXPECT_TRUE(merge_impact_zones(contact.pairs(), cloth_vertices, x, push, 1e-4).isZero(0));
-    push.row(5) << 0, 0, 0.01;  // an obstacle on its way is taken along
+    push.row(5) << 0, 0, 0.01;  // an obstacle that moves becomes a part of the zone
     contact.detect(x, push, { 1e-4, 1e-4 });
     EXPECT_FALSE(merge_impact_zones(contact.pairs(), cloth_vertices, x, push, 1e-4).isZero(0));
 }
@@ -263,7 +262,7 @@ TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
     EXPECT_EQ(within, crosswise);
 }
 
-// Springs between the neighbours of a net, n by m knots, each knot held a little.
+// Springs between the neighbours of a net of n by m knots, each knot held by a weak spring.
 Eigen::SparseMatrix<double> net(int n, int m)
 {
     Eigen::SparseMatrix<double> result(n * m, n * m);
@@ -402,7 +401,7 @@ TEST(Collapse, EveryVertexEndsOnTheSkeleton)
     Positions points(2, 3);
     points << 0.14, 1.3, 0, 0, 0.85, 0;
     const Positions core = collapse(points, weights, s);
-    // the armpit goes to the way from spine to arm over the shoulder, the crotch to the root between the hips
+    // the armpit goes to the bone between spine and arm, the crotch to the root between the hips
     EXPECT_GT(core(0, 1), 1.38);
     EXPECT_LT((core.row(1).transpose() - s.root).norm(), 0.02);
 }

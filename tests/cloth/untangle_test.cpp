@@ -14,7 +14,7 @@ using namespace garmentfit::fixtures;
 /// 20 by 20 cm, vertices 1 cm apart.
 TriangleMesh sheet(const std::function<double(double, double)>& height) { return fixtures::sheet(21, 0.01, height); }
 
-/// A flat sheet, and one above it that dips through it by so much in the middle.
+/// A flat sheet, and one above it that passes through it by this depth in the middle.
 TriangleMesh dipping(double depth)
 {
     return joined(sheet([](double, double) { return 0; }), sheet([&](double x, double z) {
@@ -64,7 +64,7 @@ TEST(Untangle, LeavesWhatDoesNotComeApartAsGivenAndPartsTheRest)
         polygonise([](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.1, p.z()) - 0.06; },
                    Vec3::Constant(-0.2), Vec3::Constant(0.2), 0.055),
         polygonise([](const Vec3& p) { return std::hypot(std::hypot(p.x() - 0.03, p.z()) - 0.1, p.y()) - 0.06; },
-                   Vec3::Constant(-0.25), Vec3::Constant(0.25), 0.055));  // linked, and too thick to lie side by side
+                   Vec3::Constant(-0.25), Vec3::Constant(0.25), 0.055));  // linked, too thick to be separated
     TriangleMesh dip = dipping(0.004);
     dip.positions.col(1).array() += 1;
     const TriangleMesh both = joined(rings, dip);
