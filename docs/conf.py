@@ -20,7 +20,6 @@ source_suffix = {".md": "markdown"}
 exclude_patterns = ["meshlab"]
 suppress_warnings = [
     "myst.header",  # the text of CC0 goes from its title to the third level
-    "toc.empty_glob",
     "duplicate_declaration.cpp",  # every header opens the namespace again
 ]
 

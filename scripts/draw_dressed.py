@@ -176,12 +176,16 @@ def light_softly(renderer):
     renderer.SetPass(shade)
 
 
-def aim(renderer, bounds, turn, aspect):
+def box_of(actors):
+    """Lowest and highest corner."""
+    bounds = np.array([actor.GetBounds() for actor in actors])
+    return bounds[:, 0::2].min(axis=0), bounds[:, 1::2].max(axis=0)
+
+
+def aim(renderer, centre, extent, turn, aspect):
     """A long lens, so that front and side are seen at one scale."""
-    centre = np.array([(bounds[2 * i] + bounds[2 * i + 1]) / 2 for i in range(3)])
-    extent = np.array([bounds[2 * i + 1] - bounds[2 * i] for i in range(3)])
     angle = 14
-    half = max(extent[1] / 2, np.hypot(extent[0], extent[2]) / 2 / aspect) * 1.06
+    half = max(extent[1], extent[0] / aspect) / 2 * 1.06
     distance = half / np.tan(np.radians(angle / 2)) + extent[2] / 2
     camera = renderer.GetActiveCamera()
     camera.SetViewAngle(angle)
@@ -253,8 +257,8 @@ def draw(folder, options):
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(0)
     window.SetSize(SUPERSAMPLES * total, SUPERSAMPLES * options.height)
-    bounds = [actor.GetBounds() for actor in panels[-1][0]]
-    box = [f(b[i] for b in bounds) for i, f in enumerate((min, max) * 3)]
+    boxes = [box_of(actors) for actors, _, _ in panels]
+    extent = np.max([high - low for low, high in boxes], axis=0)  # one scale for all
     for k, (actors, text, turn) in enumerate(panels):
         renderer = vtkRenderer()
         renderer.SetViewport(k * width / total, 0, (k + 1) * width / total, 1)
@@ -265,10 +269,8 @@ def draw(folder, options):
             renderer.AddViewProp(caption(text, scale))
         light_softly(renderer)
         window.AddRenderer(renderer)
-        own = [actor.GetBounds() for actor in actors]
-        middle = [f(b[i] for b in own) for i, f in enumerate((min, max) * 3)]
-        shift = [(middle[2 * i] + middle[2 * i + 1] - box[2 * i] - box[2 * i + 1]) / 2 for i in range(3)]
-        aim(renderer, [b + shift[i // 2] for i, b in enumerate(box)], turn, options.aspect)
+        low, high = boxes[k]
+        aim(renderer, (low + high) / 2, extent, turn, options.aspect)
     if shown:
         renderer = vtkRenderer()
         renderer.SetViewport(width * len(panels) / total, 0, 1, 1)
