@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <sstream>
 #include <string>
 
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/stopwatch.h"
 
@@ -19,8 +21,8 @@ void rig(Scene& scene, const Parameters& p, const Progress& progress)
     scene.rig = rig_body(*scene.body, p.rig, progress);
 }
 
-/// "coat.obj: ", or where it has no name, "garment 2: " if there are several.
-std::string called(const Scene& scene, std::size_t garment)
+/// "coat.obj: "; a garment without a name is "garment 2: " where there are several.
+std::string prefix_of(const Scene& scene, std::size_t garment)
 {
     const std::string& name = scene.garments[garment].name;
     if (!name.empty())
@@ -28,16 +30,16 @@ std::string called(const Scene& scene, std::size_t garment)
     return scene.garments.size() > 1 ? "garment " + std::to_string(garment + 1) + ": " : "";
 }
 
-/// What work(i) gives; what is wrong with a garment is told with its name.
+/// What work(i) returns; an error names the garment.
 template <class Work>
 auto for_garment(const Scene& scene, std::size_t i, const Work& work)
 {
     try {
         return work(i);
     } catch (const InvalidInput& error) {
-        throw InvalidInput(called(scene, i) + error.what());
+        throw InvalidInput(error.code(), prefix_of(scene, i) + error.what());
     } catch (const SolverFailure& error) {
-        throw SolverFailure(called(scene, i) + error.what());
+        throw SolverFailure(prefix_of(scene, i) + error.what());
     }
 }
 
@@ -97,8 +99,8 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
     put_in_layers(scene, p.layer_order);
 }
 
-/// Of some of the scene's garments, one after another, as libfit has them.
-Dressing only(const Dressing& all, const std::vector<std::size_t>& which)
+/// The dressing with some of the scene's garments only, in the order of `which`: libfit has them from the inside out.
+Dressing select(const Dressing& all, const std::vector<std::size_t>& which)
 {
     Dressing some = all;
     some.garments.clear();
@@ -108,7 +110,7 @@ Dressing only(const Dressing& all, const std::vector<std::size_t>& which)
 }
 
 template <class OfOne>
-void put_at(std::vector<OfOne>& some, const std::vector<std::size_t>& which, std::size_t count)
+void spread(std::vector<OfOne>& some, const std::vector<std::size_t>& which, std::size_t count)
 {
     std::vector<OfOne> all(count);
     for (std::size_t k = 0; k < some.size(); ++k)
@@ -116,15 +118,15 @@ void put_at(std::vector<OfOne>& some, const std::vector<std::size_t>& which, std
     some = std::move(all);
 }
 
-/// Of all of them again.
+/// The reverse of select: one entry for each of the scene's garments, empty where it is not worn.
 Dressing among_all(Dressing some, const std::vector<std::size_t>& which, std::size_t count)
 {
-    put_at(some.garments, which, count);
-    put_at(some.maps, which, count);
-    put_at(some.girths, which, count);
-    put_at(some.overstretches, which, count);
+    spread(some.garments, which, count);
+    spread(some.maps, which, count);
+    spread(some.girths, which, count);
+    spread(some.overstretches, which, count);
     for (RecoverFrame& frame : some.frames)
-        put_at(frame.garments, which, count);
+        spread(frame.garments, which, count);
     return some;
 }
 
@@ -147,13 +149,12 @@ Dressing dressing_of(const DrapeResult& result)
     return dressing;
 }
 
-/// Moves a dressed body to another pose. Where that ends in a state that is not clean, the start is the answer.
+/// Moves a dressed body to another pose. Returns the start where the end is not free of crossings.
 /// @param worn  which of the scene's garments those of the dressing are; more may follow
-Dressing moved(const Scene& scene, const Dressing& from, const std::vector<std::size_t>& worn, const Pose& to,
-               const RecoverOptions& options, const Progress& progress)
+Dressing move_to_pose(const Scene& scene, const Dressing& from, const std::vector<std::size_t>& worn, const Pose& to,
+                      const RecoverOptions& options, const Progress& progress)
 {
-    const RecoverResult result
-        = recover_pose(*scene.rig, scene.body.value(), from, to, options, progress);
+    const RecoverResult result = recover_pose(*scene.rig, scene.body.value(), from, to, options, progress);
     Dressing next = from;
     next.certified = result.certified;
     next.pose_reached = result.pose_reached;
@@ -195,13 +196,15 @@ std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
     return order;
 }
 
-/// From the inside out. The garments already worn go along to the pose of the next one; ends where one cannot be put on.
+/// Puts the garments on from the inside out. Those already worn move to the pose of the next one. Ends at the first that cannot
+/// be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
     Dressing dressing;
     RecoverOptions between_poses = p.recover;
     between_poses.frames = 0;
-    between_poses.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // judged where it is to be worn
+    between_poses.cloth.largest_stretch
+        = std::numeric_limits<double>::infinity();  // a garment is judged in the pose that it is worn in
     const double n = double(scene.garments.size());
     require_wearable_sizes(scene);
     const std::vector<std::size_t> order = from_inside_out(scene.fits);
@@ -209,7 +212,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
         const Progress slice = progress.part(double(layer) / n, double(layer + 1) / n);
         const Pose& pose = scene.fits[order[layer]].pose;
         if (layer > 0 && !is_same(dressing.pose, pose))
-            dressing = moved(scene, dressing, order, pose, between_poses, slice.part(0, 0.3));
+            dressing = move_to_pose(scene, dressing, order, pose, between_poses, slice.part(0, 0.3));
         if (layer > 0 && !dressing.certified)
             break;
         dressing.pose = pose;
@@ -229,7 +232,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     scene.draped = among_all(dressing, order, order.size());
 }
 
-/// Fits that nobody handed on leave the garments as they were given.
+/// Without fits, the garments are in the order in which they were given.
 std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
 {
     std::vector<std::size_t> worn = scene.draped->worn();
@@ -242,7 +245,7 @@ std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
     const std::vector<std::size_t> worn = worn_from_inside_out(scene);
-    Dressing recovered = moved(scene, only(*scene.draped, worn), worn, Pose(), p.recover, progress);
+    Dressing recovered = move_to_pose(scene, select(*scene.draped, worn), worn, Pose(), p.recover, progress);
     measure(scene, recovered, p.recover.cloth);
     recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
@@ -268,28 +271,80 @@ const StageRow& row(Stage stage) { return k_stages[static_cast<int>(stage)]; }
 void require(bool given, const Filter& filter, const char* what)
 {
     if (!given)
-        throw InvalidInput(std::string(filter.label) + " needs " + what);
+        throw InvalidInput(ErrorCode::missing_input, std::string(filter.label) + ": " + what);
 }
 
 void require_inputs(const Filter& filter, const Scene& scene)
 {
     for (const Data input : filter.inputs)
         switch (input) {
-        case Data::body: require(scene.body.has_value(), filter, "a body"); break;
-        case Data::garments: require(!scene.garments.empty(), filter, "a garment"); break;
-        case Data::rig: require(scene.rig.has_value(), filter, "a rigged body; run Rig Body first"); break;
+        case Data::body: require(scene.body.has_value(), filter, "there is no body; give one"); break;
+        case Data::garments: require(!scene.garments.empty(), filter, "there is no garment; give at least one"); break;
+        case Data::rig: require(scene.rig.has_value(), filter, "the body has no rig; run Rig Body first"); break;
         case Data::fits:
             require(scene.fits.size() == scene.garments.size(), filter,
-                    "a fit for each garment; run Fit Skeleton first");
+                    "the body is not fitted to each of the garments; run Fit Skeleton with these garments first");
             break;
         case Data::draped:
-            require(scene.draped.has_value(), filter, "a draped garment; run Drape Garment first");
+            require(scene.draped.has_value(), filter, "no garment is draped; run Drape Garment first");
             break;
         case Data::recovered: break;  // no filter reads it
         }
 }
 
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
+
+void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    double total = 0, done = 0;
+    for (const Stage stage : filter.stages)
+        total += row(stage).share;
+    for (const Stage stage : filter.stages) {
+        const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
+        const double next = done + row(stage).share / total;
+        const Progress slice = progress.part(done, next, row(stage).progress_name);
+        slice.at(0);
+        row(stage).run(scene, parameters, slice);
+        slice.at(1);
+        done = next;
+        if (ends_here(scene, stage))
+            break;
+    }
+}
+
+std::string at_human_size(const std::string& line, double factor)
+{
+    std::ostringstream text;
+    text << line << " (lengths as on a body of human size, that is times " << factor << ")";
+    return text.str();
+}
+
+/// Runs on a copy of the scene at human size. What was made is scaled back, also by the stages before one that fails.
+void run_scaled(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress, double factor)
+{
+    Scene copy = scale_scene(scene, factor);
+    parameters.rig.joints = scale_joints(parameters.rig.joints, factor);
+    try {
+        run_stages(filter, copy, parameters, progress);
+    } catch (...) {
+        put_back(scene, copy, factor, filter.outputs);
+        throw;
+    }
+    put_back(scene, copy, factor, filter.outputs);
+}
+
+/// An error's lengths are those of the copy, and say so.
+void run_at_human_size(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress,
+                       double factor)
+{
+    try {
+        run_scaled(filter, scene, parameters, progress, factor);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(error.code(), at_human_size(error.what(), factor));
+    } catch (const SolverFailure& error) {
+        throw SolverFailure(at_human_size(error.what(), factor));
+    }
+}
 
 }  // namespace
 
@@ -316,31 +371,32 @@ const std::vector<Filter>& filters()
     static const std::vector<Filter> table {
         { "rig",
           "Rig Body",
-          "Finds the skeleton of a body and how the skin hangs on it",
+          "Finds the skeleton of a body, and how much each bone moves each vertex of the skin",
           { Data::body },
           { Data::rig },
           { Stage::rig } },
         { "fit",
           "Fit Skeleton",
-          "Poses the skeleton so that its bones run through the middle of the garment's parts",
+          "Poses the skeleton of a body so that its bones run through the middle of the garment's sleeves, legs and "
+          "trunk",
           { Data::body, Data::garments, Data::rig },
           { Data::fits },
           { Stage::fit } },
         { "drape",
           "Drape Garment",
-          "Puts the posed body into the garment without letting cloth and body cross",
+          "Puts the garment on the body in the fitted pose, without crossings of cloth and body",
           { Data::body, Data::garments, Data::rig, Data::fits },
           { Data::draped },
           { Stage::drape } },
         { "recover",
           "Recover Pose",
-          "Brings the dressed body back to its own pose, the garment along",
+          "Returns the dressed body to its input pose, together with the garment",
           { Data::body, Data::garments, Data::rig, Data::draped },
           { Data::recovered },
           { Stage::recover } },
         { "dress",
           "Dress Body",
-          "Dresses a body in garments made for somebody else: rig, fit, drape, recover",
+          "Dresses a body in garments made for another body: rig, fit, drape, recover",
           { Data::body, Data::garments },
           { Data::rig, Data::fits, Data::draped, Data::recovered },
           { Stage::rig, Stage::fit, Stage::drape, Stage::recover } },
@@ -356,7 +412,8 @@ const Filter& filter_of(std::string_view name)
             return filter;
         names += (names.empty() ? "" : ", ") + std::string(filter.name);
     }
-    throw InvalidInput("no filter is called \"" + std::string(name) + "\"; there are " + names);
+    throw InvalidInput(ErrorCode::unknown_name,
+                       "no filter is called \"" + std::string(name) + "\"; give one of " + names);
 }
 
 bool Filter::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
@@ -376,21 +433,11 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
     describe(*this, parameters, CheckRanges());
     Parameters p = parameters;
     p.recover.cloth = cloth(parameters);
-
-    double total = 0, done = 0;
-    for (const Stage stage : stages)
-        total += row(stage).share;
-    for (const Stage stage : stages) {
-        const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
-        const double next = done + row(stage).share / total;
-        const Progress slice = progress.part(done, next, row(stage).progress_name);
-        slice.at(0);
-        row(stage).run(scene, p, slice);
-        slice.at(1);
-        done = next;
-        if (ends_here(scene, stage))
-            break;
-    }
+    const double factor = factor_to_human_size(*scene.body);
+    if (factor == 1)
+        run_stages(*this, scene, p, progress);
+    else
+        run_at_human_size(*this, scene, p, progress, factor);
 }
 
 }  // namespace garmentfit

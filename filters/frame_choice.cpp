@@ -4,7 +4,8 @@
 namespace garmentfit {
 namespace {
 
-FrameGuess chosen(FrameGuess guess, const FrameChoice& choice)
+/// The guess, replaced by what the user said.
+FrameGuess apply_choice(FrameGuess guess, const FrameChoice& choice)
 {
     if (choice.unit != "auto") {
         guess.frame.metres_per_unit = metres_per(choice.unit);
@@ -33,13 +34,13 @@ const std::vector<std::string_view>& axis_choices()
 
 FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice)
 {
-    return chosen(guess_body_frame(positions, triangles), choice);
+    return apply_choice(guess_body_frame(positions, triangles), choice);
 }
 
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
                          const FrameChoice& choice)
 {
-    return chosen(guess_garment_frame(positions, triangles, body), choice);
+    return apply_choice(guess_garment_frame(positions, triangles, body), choice);
 }
 
 }  // namespace garmentfit

@@ -6,15 +6,15 @@
 #include <string>
 
 #include "garmentfit/error.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// Files may keep fewer digits than the rig was found with, but people of one size are further apart than that.
-constexpr double k_same_radius = 0.02;  // share of the radius
-constexpr double k_same_place = 5e-4;  // m, for thin bones
-constexpr double k_rounding_of_directions = 1e-3;  // kept with few digits
-constexpr double k_rounding_of_weights = 0.02;  // glTF may keep four of 8 bits each
+// unit: directions may be kept with four digits
+constexpr double k_rounding_of_directions = 1e-3;
+// derived: glTF may keep the four weights with 8 bits each, so their sum is off by up to 4 / (2 * 255) = 0.008; twice that
+constexpr double k_rounding_of_weights = 0.02;
 
 using Radii = std::array<double, bone_count>;
 
@@ -28,8 +28,9 @@ std::string millimetres(double metres) { return std::to_string(std::lround(1000 
 void require_same_count(Eigen::Index rigged, Eigen::Index here, const std::string& called)
 {
     if (rigged != here)
-        throw InvalidInput(called + " belongs to a body of " + std::to_string(rigged) + " vertices, this one has "
-                           + std::to_string(here) + "; rig this body");
+        throw InvalidInput(ErrorCode::rig_mismatch,
+                           called + " belongs to a body of " + std::to_string(rigged) + " vertices, this one has "
+                               + std::to_string(here) + "; rig this body");
 }
 
 void require_directions(const Rig& rig, const std::string& called)
@@ -38,24 +39,27 @@ void require_directions(const Rig& rig, const std::string& called)
         && std::abs(rig.front.norm() - 1) < k_rounding_of_directions
         && std::abs(rig.up.dot(rig.front)) < k_rounding_of_directions;
     if (!right)
-        throw InvalidInput("up and front of " + called + " are no unit directions at right angles; rig this body");
+        throw InvalidInput(ErrorCode::bad_rig,
+                           "up and front of " + called + " are not unit vectors at right angles; rig this body");
 }
 
 void require_whole_weights(const SkinWeights& skin, const std::string& called)
 {
     for (Eigen::Index v = 0; v < skin.weights.rows(); ++v)
         if (const double sum = skin.weights.row(v).sum(); !(std::abs(sum - 1) < k_rounding_of_weights))
-            throw InvalidInput("weights of " + called + " at vertex " + std::to_string(v) + " sum to "
-                               + std::to_string(sum) + " instead of 1; rig this body");
+            throw InvalidInput(ErrorCode::bad_rig,
+                               "weights of " + called + " at vertex " + std::to_string(v) + " sum to "
+                                   + std::to_string(sum) + " instead of 1; rig this body");
 }
 
 void require_same_radii(const Radii& rigged, const Radii& here, const std::string& called)
 {
     for (int b = 0; b < bone_count; ++b)
         if (std::abs(rigged[b] - here[b]) > k_same_radius * rigged[b] + k_same_place)
-            throw InvalidInput(called + " belongs to another body, or this one was moved since: the skin was "
-                               + millimetres(rigged[b]) + " from " + std::string(bone_name(b)) + " and is "
-                               + millimetres(here[b]) + "; rig this body");
+            throw InvalidInput(ErrorCode::rig_mismatch,
+                               called + " belongs to another body, or this one was moved since: the skin was "
+                                   + millimetres(rigged[b]) + " from bone " + std::string(bone_name(b)) + " and is "
+                                   + millimetres(here[b]) + "; rig this body");
 }
 
 }  // namespace

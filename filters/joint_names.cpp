@@ -29,7 +29,8 @@ std::optional<Vec3>& joint_of(GivenJoints& joints, std::string_view name)
         if (name == k_tip_names[e])
             return joints.tips[e];
     if (name != "root")
-        throw InvalidInput("no joint is called \"" + std::string(name) + "\"; there are " + names);
+        throw InvalidInput(ErrorCode::unknown_name,
+                           "no joint is called \"" + std::string(name) + "\"; give one of " + names);
     return joints.root;
 }
 

@@ -13,9 +13,20 @@
 namespace garmentfit {
 namespace {
 
-constexpr std::size_t k_named = 3;  // parts of the body, in one line
+constexpr std::size_t k_named = 3;  // parts of the body that one line names
 
-/// Of the garment that is named first.
+std::string millimetres(double metres)
+{
+    const double value = 1000 * metres;
+    std::ostringstream text;
+    if (value >= 10)
+        text << std::lround(value) << " mm";
+    else
+        text << std::setprecision(2) << value << " mm";  // a doll lacks fractions of one
+    return text.str();
+}
+
+/// Those of the garment that has the tightest part.
 std::vector<TooTight> tight_parts(const Dressing& dressing)
 {
     std::vector<TooTight> parts;
@@ -29,8 +40,8 @@ std::string held_parts(const Dressing& dressing)
 {
     std::ostringstream text;
     for (std::size_t i = 0; i < std::min(k_named, dressing.held_back.size()); ++i)
-        text << (i > 0 ? ", " : "; no room for cloth at ") << dressing.held_back[i].part << " (held back by "
-             << std::setprecision(2) << 1000 * dressing.held_back[i].distance << " mm)";
+        text << (i > 0 ? ", " : "; too little space for the cloth at ") << dressing.held_back[i].part
+             << " (held back by " << millimetres(dressing.held_back[i].distance) << ")";
     return text.str();
 }
 
@@ -39,8 +50,8 @@ std::string entered_parts(const Dressing& dressing)
     std::ostringstream text;
     for (std::size_t i = 0; i < std::min(k_named, dressing.overlaps.size()); ++i) {
         const Overlap& overlap = dressing.overlaps[i];
-        text << (i > 0 ? ", " : "; the body enters itself, and no cloth fits between ") << overlap.part << " and "
-             << overlap.other << " (" << std::lround(1000 * overlap.depth) << " mm deep)";
+        text << (i > 0 ? ", " : "; the body crosses itself, and no cloth fits between ") << overlap.part << " and "
+             << overlap.other << " (" << millimetres(overlap.depth) << " deep)";
     }
     return text.str();
 }
@@ -49,19 +60,18 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
 {
     const std::vector<TooTight> parts = tight_parts(end);
     std::ostringstream text;
-    text << names[parts.empty() ? end.outermost : parts.front().garment] << " is too small";
+    text << names[parts.empty() ? end.outermost : parts.front().garment] << " is too small"
+         << (end.size_reached < 1 ? "" : " for the input pose");
     double enlargement = 0;
     for (const TooTight& part : parts) {
-        text << (enlargement > 0 ? ", " : " at ") << part.part << " by " << std::lround(1000 * part.missing_girth)
-             << " mm";
+        text << (enlargement > 0 ? ", " : ": it lacks ") << millimetres(part.missing_girth) << " of girth at "
+             << part.part;
         enlargement = std::max(enlargement, part.enlargement);
     }
     if (end.size_reached < 1)
-        text << "; the body fits in at " << percent(end.size_reached) << "% of its size";
-    else
-        text << " for the body's own pose";
+        text << "; a body of " << percent(end.size_reached) << "% of the thickness would fit";
     if (!parts.empty())
-        text << "; a garment " << std::ceil(100 * enlargement) << "% larger would lie there unstretched";
+        text << "; a garment " << std::ceil(100 * enlargement) << "% larger would not be stretched there";
     return text.str();
 }
 
@@ -79,9 +89,9 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
         return text.str();
     }
     if (end.pose_reached < 1)
-        text << "stopped at " << percent(end.pose_reached) << "% of the way between two poses";
+        text << "the body stopped at " << percent(end.pose_reached) << "% of the path between two poses";
     else
-        text << "the body is not in its place everywhere";
+        text << "parts of the body are not in their places";
     text << held_parts(end) << entered_parts(end);
     return text.str();
 }
@@ -128,7 +138,7 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
          << " crossings, ";
     if (kept > 0)
         text << kept << " with itself kept as given, ";
-    text << "smallest gap " << 1000 * c.min_distance << " mm, strain " << 100 * c.strain.p95
+    text << "minimum distance " << 1000 * c.min_distance << " mm, strain " << 100 * c.strain.p95
          << "% at the 95th percentile";
     return text.str();
 }
@@ -157,7 +167,8 @@ std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, cons
     std::vector<std::string> lines;
     for (const auto& [garments, bones] : bones_of)
         lines.push_back("no one pose serves " + names[garments.first] + " and " + names[garments.second]
-                        + ", which hold bones apart (degrees: " + bones + "); the body goes from one pose to the next");
+                        + ": each needs some bones in other directions (degrees: " + bones
+                        + "); the body moves from one pose to the next");
     return lines;
 }
 

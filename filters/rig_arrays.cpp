@@ -14,21 +14,24 @@ constexpr int k_tips_from = 1 + int(bone_count);
 void require_shape(const Rows& rows, int count, int columns, const char* what)
 {
     if (rows.rows() != count || rows.cols() != columns)
-        throw InvalidInput(std::string(what) + " is an array of " + std::to_string(rows.rows()) + " x "
-                           + std::to_string(rows.cols()) + " instead of " + std::to_string(count) + " x "
-                           + std::to_string(columns) + "; give what a filter made");
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           std::string(what) + " is an array of " + std::to_string(rows.rows()) + " x "
+                               + std::to_string(rows.cols()) + " instead of " + std::to_string(count) + " x "
+                               + std::to_string(columns) + "; give what a filter made");
     if (!rows.allFinite())
-        throw InvalidInput(std::string(what) + " is not finite; give what a filter made");
+        throw InvalidInput(ErrorCode::not_finite,
+                           std::string(what) + " has numbers that are not finite; give what a filter made");
 }
 
 Eigen::RowVector4d row_of(const Eigen::Quaterniond& q) { return { q.w(), q.x(), q.y(), q.z() }; }
 
-/// Not normalised: a pose comes back with the very bits it was handed out with.
-Eigen::Quaterniond turn_of(const Eigen::RowVector4d& row)
+/// Not normalised: a pose that is written and read keeps its bits.
+Eigen::Quaterniond rotation_of(const Eigen::RowVector4d& row)
 {
-    constexpr double k_rounding = 1e-6;  // numbers may have been through a text file
+    constexpr double k_rounding = 1e-6;  // unit: text files keep six digits at least
     if (std::abs(row.norm() - 1) > k_rounding)
-        throw InvalidInput("a turn of the pose is no unit quaternion; give what a filter made");
+        throw InvalidInput(ErrorCode::bad_rig,
+                           "a rotation of the pose is not a unit quaternion; give what a filter made");
     return { row[0], row[1], row[2], row[3] };
 }
 
@@ -72,23 +75,25 @@ Pose pose_of(const Rows& row)
     require_shape(row, 1, k_pose_columns, "the pose");
     Pose pose;
     pose.root_translation = row.leftCols<3>().transpose();
-    pose.root_rotation = turn_of(row.middleCols<4>(3));
+    pose.root_rotation = rotation_of(row.middleCols<4>(3));
     for (int b = 0; b < bone_count; ++b)
-        pose.rotations[b] = turn_of(row.middleCols<4>(7 + 4 * b));
+        pose.rotations[b] = rotation_of(row.middleCols<4>(7 + 4 * b));
     return pose;
 }
 
 SkinWeights weights_of(const Rows& bones, const Rows& weights)
 {
     if (bones.cols() != 4 || weights.cols() != 4 || bones.rows() != weights.rows())
-        throw InvalidInput("the rig has " + std::to_string(bones.rows()) + " x " + std::to_string(bones.cols())
-                           + " bones for " + std::to_string(weights.rows()) + " x " + std::to_string(weights.cols())
-                           + " weights; both are 4 for each vertex");
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           "the rig has " + std::to_string(bones.rows()) + " x " + std::to_string(bones.cols())
+                               + " bones for " + std::to_string(weights.rows()) + " x " + std::to_string(weights.cols())
+                               + " weights; give four of each for each vertex");
     for (Eigen::Index v = 0; v < bones.rows(); ++v)
         if (!((bones.row(v).array() >= 0).all() && (bones.row(v).array() < int(bone_count)).all()
               && (weights.row(v).array() >= 0).all() && (weights.row(v).array() <= 1).all()))
-            throw InvalidInput("vertex " + std::to_string(v)
-                               + " has a bone or weight out of range; rig the body again");
+            throw InvalidInput(ErrorCode::bad_rig,
+                               "the rig's vertex " + std::to_string(v)
+                                   + " has a bone or a weight out of range; rig the body again");
     return { bones.cast<int>(), weights };
 }
 

@@ -44,21 +44,21 @@ Vec3 direction(const Frame& frame, const Json& json) { return frame.rotation() *
 Json displacement(const Frame& frame, const Vec3& d) { return direction(frame, Vec3(d / frame.metres_per_unit)); }
 Vec3 displacement(const Frame& frame, const Json& json) { return direction(frame, json) * frame.metres_per_unit; }
 
-/// (w, x, y, z): a turn about an axis in the file's axes.
-Json turn(const Frame& frame, const Eigen::Quaterniond& q)
+/// (w, x, y, z), about an axis in the file's axes.
+Json quaternion(const Frame& frame, const Eigen::Quaterniond& q)
 {
     const Vec3 axis = frame.rotation().transpose() * q.vec();
     return Json { q.w(), axis.x(), axis.y(), axis.z() };
 }
 
-Eigen::Quaterniond turn(const Frame& frame, const Json& json)
+Eigen::Quaterniond quaternion(const Frame& frame, const Json& json)
 {
     const Vec3 axis
         = frame.rotation() * Vec3(json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>());
     const Eigen::Quaterniond q(json.at(0).get<double>(), axis.x(), axis.y(), axis.z());
-    if (!(std::abs(q.norm() - 1)
-          < 1e-6))  // not normalised here: a pose comes back with the very bits it was written with
-        throw InvalidInput("a rotation is no unit quaternion");
+    constexpr double k_rounding = 1e-6;  // unit: text files keep six digits at least
+    if (!(std::abs(q.norm() - 1) < k_rounding))  // not normalised: a pose that is written and read keeps its bits
+        throw InvalidInput(ErrorCode::bad_rig, "a rotation is not a unit quaternion");
     return q;
 }
 
@@ -72,10 +72,10 @@ Frame frame_of(const Json& json)
 {
     const Frame frame { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) };
     if (!(frame.metres_per_unit > 0))
-        throw InvalidInput("metres_per_unit is not positive");
+        throw InvalidInput(ErrorCode::out_of_range, "metres_per_unit is not positive");
     if (frame.up.cwiseAbs() != Vec3::UnitX() && frame.up.cwiseAbs() != Vec3::UnitY()
         && frame.up.cwiseAbs() != Vec3::UnitZ())
-        throw InvalidInput("up is not one of the six axis directions");
+        throw InvalidInput(ErrorCode::out_of_range, "up is not one of the six axis directions");
     return frame;
 }
 
@@ -117,13 +117,13 @@ Json fitted_joints(const Frame& frame, const Skeleton& skeleton)
 Json pose_of(const Frame& frame, const Pose& pose)
 {
     Json json { { "root_translation", displacement(frame, pose.root_translation) },
-                { "root_rotation", turn(frame, pose.root_rotation) } };
+                { "root_rotation", quaternion(frame, pose.root_rotation) } };
     for (int b = 0; b < bone_count; ++b)
-        json["rotations"][std::string(bone_name(b))] = turn(frame, pose.rotations[b]);
+        json["rotations"][std::string(bone_name(b))] = quaternion(frame, pose.rotations[b]);
     return json;
 }
 
-/// For people, and not read back: how far each bone turns from the body's own pose, degrees.
+/// For people, not read back: the angle of each bone from the input pose, degrees.
 Json angles_of(const Pose& pose)
 {
     const auto angle = [](const Eigen::Quaterniond& q) {
@@ -139,9 +139,9 @@ Pose pose_of(const Frame& frame, const Json& json)
 {
     Pose pose;
     pose.root_translation = displacement(frame, json.at("root_translation"));
-    pose.root_rotation = turn(frame, json.at("root_rotation"));
+    pose.root_rotation = quaternion(frame, json.at("root_rotation"));
     for (int b = 0; b < bone_count; ++b)
-        pose.rotations[b] = turn(frame, json.at("rotations").at(std::string(bone_name(b))));
+        pose.rotations[b] = quaternion(frame, json.at("rotations").at(std::string(bone_name(b))));
     return pose;
 }
 
@@ -161,7 +161,7 @@ Json garment_of(const Frame& body_frame, const Skeleton& own, const FittedGarmen
     return json;
 }
 
-/// @param place  among the garments; older files have no layers, but name them from the inside out
+/// @param place  among the garments. Older files have no layers and list the garments from the inside out.
 FittedGarment garment_of(const Frame& body_frame, const Json& json, int place)
 {
     FittedGarment garment { json.at("file").get<std::string>(), frame_of(json), {} };
@@ -182,11 +182,12 @@ Skeleton skeleton_of(const Frame& frame, const Json& json)
     for (const Json& bone : json.at("bones")) {
         const auto name = bone.at("name").get<std::string>();
         if (bone_of(name) < 0)
-            throw InvalidInput("unknown bone \"" + name + "\"");
+            throw InvalidInput(ErrorCode::unknown_name, "unknown bone \"" + name + "\"");
         skeleton.tails[bone_of(name)] = point(frame, bone.at("tail"));
     }
     if (json.at("bones").size() != bone_count)
-        throw InvalidInput(std::to_string(json.at("bones").size()) + " bones instead of " + std::to_string(bone_count));
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           std::to_string(json.at("bones").size()) + " bones instead of " + std::to_string(bone_count));
     for (int e = 0; e < extremity_count; ++e)
         skeleton.tips[e] = point(frame, json.at("tips").at(std::string(joint_name(Extremity(e)))));
     return skeleton;
@@ -199,7 +200,7 @@ Json weights_of(const SkinWeights& skin)
              { "values", std::vector<double>(skin.weights.data(), skin.weights.data() + skin.weights.size()) } };
 }
 
-/// 0, which is unknown, in files of programs that do not measure them.
+/// 0, which means unknown, in files that have no radii.
 std::array<double, bone_count> radii_of(const Frame& frame, const Json& json)
 {
     std::array<double, bone_count> radii {};
@@ -213,14 +214,16 @@ SkinWeights weights_of(const Json& json)
     const auto bones = json.at("bones").get<std::vector<int>>();
     const auto values = json.at("values").get<std::vector<double>>();
     if (bones.size() != values.size() || bones.size() % 4 != 0)
-        throw InvalidInput(std::to_string(bones.size()) + " bones for " + std::to_string(values.size())
-                           + " weights, four of each belong to a vertex");
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           std::to_string(bones.size()) + " bones for " + std::to_string(values.size())
+                               + " weights, four of each belong to a vertex");
     SkinWeights skin;
     skin.bones.resize(Eigen::Index(bones.size() / 4), 4);
     skin.weights.resize(skin.bones.rows(), 4);
     for (std::size_t i = 0; i < bones.size(); ++i) {
         if (!(bones[i] >= 0 && bones[i] < bone_count && values[i] >= 0 && values[i] <= 1))
-            throw InvalidInput("vertex " + std::to_string(i / 4) + " has a bone or weight out of range");
+            throw InvalidInput(ErrorCode::bad_rig,
+                               "vertex " + std::to_string(i / 4) + " has a bone or a weight out of range");
         skin.bones.data()[i] = bones[i];
         skin.weights.data()[i] = values[i];
     }
@@ -230,7 +233,8 @@ SkinWeights weights_of(const Json& json)
 RigFile rig_file_of(const Json& json)
 {
     if (json.at("format") != k_format || json.at("version") != k_version)
-        throw InvalidInput("not a " + std::string(k_format) + " of version " + std::to_string(k_version));
+        throw InvalidInput(ErrorCode::unreadable_file,
+                           "not a " + std::string(k_format) + " of version " + std::to_string(k_version));
     RigFile contents;
     contents.frame = frame_of(json);
     contents.rig.skeleton = skeleton_of(contents.frame, json);
@@ -277,13 +281,13 @@ auto read_json(const std::filesystem::path& path, const char* remedy, const Read
 {
     std::ifstream file(path);
     if (!file)
-        throw InvalidInput("cannot read " + path.string() + "; " + remedy);
+        throw InvalidInput(ErrorCode::unreadable_file, path.string() + ": cannot be read; " + remedy);
     try {
         return read(Json::parse(file));
     } catch (const Json::exception& error) {
-        throw InvalidInput(path.string() + ": " + error.what() + "; " + remedy);
+        throw InvalidInput(ErrorCode::unreadable_file, path.string() + ": " + error.what() + "; " + remedy);
     } catch (const InvalidInput& error) {
-        throw InvalidInput(path.string() + ": " + error.what() + "; " + remedy);
+        throw InvalidInput(error.code(), path.string() + ": " + error.what() + "; " + remedy);
     }
 }
 
@@ -294,8 +298,8 @@ SkinWeights read_weights(const std::filesystem::path& rigged)
         for (const VertexProperty& property : properties)
             if (property.name == name)
                 return property.values;
-        throw InvalidInput(rigged.string() + " has no vertex property " + name
-                           + "; write it again with garmentfit rig");
+        throw InvalidInput(ErrorCode::bad_rig,
+                           rigged.string() + ": no vertex property " + name + "; write it again with garmentfit rig");
     };
     const std::size_t n = column("weight0").size();
     SkinWeights weights;
@@ -306,8 +310,9 @@ SkinWeights read_weights(const std::filesystem::path& rigged)
         const auto& weight = column("weight" + std::to_string(k));
         for (std::size_t v = 0; v < n; ++v) {
             if (!(bone[v] >= 0 && bone[v] < int(bone_count) && weight[v] >= 0 && weight[v] <= 1))
-                throw InvalidInput(rigged.string() + ": vertex " + std::to_string(v)
-                                   + " has a bone or weight out of range; write it again with garmentfit rig");
+                throw InvalidInput(ErrorCode::bad_rig,
+                                   rigged.string() + ": vertex " + std::to_string(v)
+                                       + " has a bone or a weight out of range; write it again with garmentfit rig");
             weights.bones(v, k) = static_cast<int>(bone[v]);
             weights.weights(v, k) = weight[v];
         }
@@ -334,7 +339,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
         json["garments"].push_back(garment_of(contents.frame, skeleton, garment));
     if (contents.has_weights())
         json["weights"] = weights_of(contents.rig.weights);
-    const int indent = contents.has_weights() ? -1 : 1;  // ten thousands of numbers, each in a line, help nobody
+    const int indent = contents.has_weights() ? -1 : 1;  // weights are tens of thousands of numbers: on one line
     write_file(path, json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
@@ -346,7 +351,7 @@ GivenJoints read_joints(const std::filesystem::path& path, const Frame& frame)
 
 RigFile read_rig_file(const std::filesystem::path& path)
 {
-    return read_json(path, "give what garmentfit wrote", rig_file_of);
+    return read_json(path, "give a rig.json that garmentfit wrote", rig_file_of);
 }
 
 RigFile read_whole_rig(const std::filesystem::path& path)

@@ -82,12 +82,13 @@ Rows required(const FindArray& find, const char* name, Eigen::Index rows, Eigen:
 {
     const std::optional<Rows> found = find(name);
     if (!found)
-        throw InvalidInput(std::string("the input has no array ") + name + "; " + remedy);
+        throw InvalidInput(ErrorCode::missing_input, std::string("the input has no array ") + name + "; " + remedy);
     const bool right_size = found->cols() == columns && (rows < 0 ? found->rows() > 0 : found->rows() == rows);
     if (!right_size || !found->allFinite())
-        throw InvalidInput(std::string("array ") + name + " of " + std::to_string(found->rows()) + " x "
-                           + std::to_string(found->cols()) + (right_size ? " is not finite; " : " has a wrong size; ")
-                           + remedy);
+        throw InvalidInput(right_size ? ErrorCode::not_finite : ErrorCode::count_mismatch,
+                           std::string("array ") + name + " of " + std::to_string(found->rows()) + " x "
+                               + std::to_string(found->cols())
+                               + (right_size ? " has numbers that are not finite; " : " has a wrong size; ") + remedy);
     return *found;
 }
 
@@ -95,8 +96,9 @@ Frame frame_from(const Rows& row, const char* name)
 {
     const Frame frame { row(0, 0), row.block<1, 3>(0, 1).transpose() };
     if (!(frame.metres_per_unit > 0) || frame.up.cwiseAbs().sum() != 1 || frame.up.cwiseAbs().maxCoeff() != 1)
-        throw InvalidInput(std::string("array ") + name
-                           + " is no unit and up axis; connect what the filter before made");
+        throw InvalidInput(ErrorCode::out_of_range,
+                           std::string("array ") + name
+                               + " is not a unit and an up axis; connect what the filter before made");
     return frame;
 }
 
@@ -260,7 +262,7 @@ std::vector<FitResult> fits_from(const FindArray& find)
 {
     constexpr const char* k_fit_first = "connect the body that Fit Skeleton made";
     const Rows poses = required(find, "FitPoses", -1, k_pose_columns, k_fit_first);
-    Rows layers = Rows::Zero(poses.rows(), 1);  // files of programs that know none: from the inside out
+    Rows layers = Rows::Zero(poses.rows(), 1);  // older files have none and list garments from the inside out
     if (find("FitLayers"))
         layers = required(find, "FitLayers", poses.rows(), 1, k_fit_first);
     std::vector<FitResult> fits(poses.rows());

@@ -5,19 +5,20 @@
 #include <cmath>
 
 #include "garmentfit/error.h"
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_rounding = 1e-6;  // of the body's diagonal
+constexpr double k_rounding = 1e-6;  // unit: files keep six digits; share of the body's diagonal
 
 Positions skinned(const Scene& scene, const Pose& pose)
 {
     return skin(scene.body->surface.positions, scene.rig->weights, bone_transforms(scene.rig->skeleton, pose));
 }
 
-Snapshot moment_before_dressing(const Scene& scene)
+Snapshot snapshot_before_dressing(const Scene& scene)
 {
     if (scene.fits.empty())
         return { {}, scene.body->surface.positions, {}, {} };
@@ -27,10 +28,10 @@ Snapshot moment_before_dressing(const Scene& scene)
 
 Snapshot end_of(const Dressing& dressing)
 {
-    Snapshot moment { dressing.pose, dressing.body, {}, dressing.maps };
+    Snapshot snapshot { dressing.pose, dressing.body, {}, dressing.maps };
     for (const WornGarment& garment : dressing.garments)
-        moment.garments.push_back(garment.positions);
-    return moment;
+        snapshot.garments.push_back(garment.positions);
+    return snapshot;
 }
 
 const RecoverFrame& nearest_frame(const std::vector<RecoverFrame>& frames, double share)
@@ -42,26 +43,27 @@ const RecoverFrame& nearest_frame(const std::vector<RecoverFrame>& frames, doubl
 
 Snapshot snapshot_of(const Scene& scene, const Dressing& dressing, const RecoverFrame& frame, const ClothOptions& cloth)
 {
-    Snapshot moment { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments,
-                      std::vector<FitMap>(frame.garments.size()) };
+    Snapshot snapshot { slerp(scene.draped->pose, Pose(), frame.share), frame.body, frame.garments,
+                        std::vector<FitMap>(frame.garments.size()) };
     const TriangleMesh body { frame.body, scene.body->surface.triangles };
     for (const std::size_t i : dressing.worn()) {
         WornGarment worn = dressing.garments[i];
         worn.positions = frame.garments[i];
-        moment.maps[i] = fit_map(body, worn, cloth);
+        snapshot.maps[i] = fit_map_on(*scene.body, body, worn, cloth);
     }
-    return moment;
+    return snapshot;
 }
 
 void require_same_count(const Positions& given, const Positions& left, const std::string& name)
 {
     if (left.rows() != given.rows())
-        throw InvalidInput(name + " was left with " + std::to_string(left.rows()) + " vertices, as given it has "
-                           + std::to_string(given.rows()) + "; give what draping made");
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           name + " has " + std::to_string(left.rows()) + " vertices after draping, and "
+                               + std::to_string(given.rows()) + " as given; give what draping made");
 }
 
-/// The posed body, but for the vertices that were left elsewhere: files round.
-Positions as_left(Positions posed, const Positions& left)
+/// The vertices of the posed body, replaced where those that were left differ by more than a file rounds.
+Positions keep_left(Positions posed, const Positions& left)
 {
     const double rounding = k_rounding * (posed.colwise().maxCoeff() - posed.colwise().minCoeff()).norm();
     for (Eigen::Index v = 0; v < posed.rows(); ++v)
@@ -76,7 +78,7 @@ Snapshot snapshot_of(const Scene& scene, double share, const ClothOptions& cloth
 {
     const Dressing* end = final_dressing(scene);
     if (!end)
-        return moment_before_dressing(scene);
+        return snapshot_before_dressing(scene);
     if (share >= 1 || end->frames.empty())
         return end_of(*end);
     return snapshot_of(scene, *end, nearest_frame(end->frames, share), cloth);
@@ -88,8 +90,9 @@ Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& le
     require_same_count(scene.body->surface.positions, left, "the body");
     Dressing dressing;
     dressing.pose = pose;
+    dressing.to_human_size = factor_to_human_size(*scene.body);
     dressing.outermost = scene.fits.size() == worn.size() ? outermost(scene.fits) : worn.size() - 1;
-    dressing.body = as_left(skinned(scene, pose), left);
+    dressing.body = keep_left(skinned(scene, pose), left);
     for (std::size_t i = 0; i < worn.size(); ++i) {
         const GarmentMesh& rest = scene.garments[i].mesh;
         require_same_count(rest.positions, worn[i], names[i]);

@@ -5,34 +5,33 @@
 #include <sstream>
 
 #include "garmentfit/filters/outcome.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr double k_doubt = 0.2;  // guesses with a smaller margin (0 a toss-up, 1 sure) are worth a line
-
-constexpr double k_slipped = 0.15;  // m; cloth that settles sinks by some centimetres, a wide coat by nine
-
-constexpr const char* k_guess = " hardly more than a guess";
+constexpr const char* k_guess = " is guessed with low confidence";
 
 void warn_of_type(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit,
                   const HowToSet& set)
 {
-    if (fit.type_margin < k_doubt)
-        warnings.push_back("the type of " + name + " is" + k_guess + ", " + std::string(name_of(fit.type)) + "; "
-                           + set("type"));
+    if (fit.type_margin < k_low_confidence)
+        warnings.push_back("the type of " + name + k_guess + ": " + std::string(name_of(fit.type))
+                           + "; if it is wrong, " + set("type"));
 }
 
-void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment)
+void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment,
+                     double to_human_size)
 {
     if (garment.size > 1)
         warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
     if (const std::size_t kept = garment.certificate.kept_self_crossings.size(); kept > 0)
-        warnings.push_back(name + " was given with crossings of itself that did not come apart: " + std::to_string(kept)
-                           + " of " + std::to_string(garment.certificate.input_self_crossings) + " are still there");
-    if (garment.slipped > k_slipped)
-        warnings.push_back(name + " slipped " + std::to_string(std::lround(100 * garment.slipped))
-                           + " cm down: it is too wide for this body to stay where it is worn");
+        warnings.push_back(name + " crossed itself as it was given, and could not be parted everywhere: "
+                           + std::to_string(kept) + " of " + std::to_string(garment.certificate.input_self_crossings)
+                           + " crossings are left");
+    if (garment.slipped * to_human_size > k_slipped)
+        warnings.push_back(name + " slipped down by " + std::to_string(std::lround(100 * garment.slipped))
+                           + " cm: it is too wide for this body to stay where it is worn");
 }
 
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
@@ -50,10 +49,12 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
                                               const std::string& prefix, const HowToSet& set)
 {
     std::vector<std::string> warnings;
-    if (guess.unit_margin < k_doubt)
-        warnings.push_back("the unit of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "unit"));
-    if (guess.up_margin < k_doubt)
-        warnings.push_back("the up axis of " + mesh + " is" + k_guess + " (" + guess.why + "); " + set(prefix + "up"));
+    if (guess.unit_margin < k_low_confidence)
+        warnings.push_back("the unit of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
+                           + set(prefix + "unit"));
+    if (guess.up_margin < k_low_confidence)
+        warnings.push_back("the up axis of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
+                           + set(prefix + "up"));
     return warnings;
 }
 
@@ -71,8 +72,8 @@ std::vector<std::string> warnings_about_layers(const Scene& scene, const std::ve
     std::string order;
     for (const std::string& name : in_order)
         order += (order.empty() ? "" : ", ") + name;
-    return { "the garments' types and widths say another order from the inside out: " + order
-             + "; give them in that, or " + set("layer_order") + " found" };
+    return { "by type and width, the garments would go over each other in this order, from the inside out: " + order
+             + "; give them in it, or " + set("layer_order") + " auto" };
 }
 
 std::vector<std::string> warnings_about_dressing(const Dressing& end, const std::vector<std::string>& names)
@@ -88,17 +89,18 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
     };
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
-            warn_of_garment(warnings, names[i], end.garments[i]);
+            warn_of_garment(warnings, names[i], end.garments[i], end.to_human_size);
         else if (is_too_small(i))
-            warnings.push_back(names[i] + " is left out of the result: it does not go over what is under it");
+            warnings.push_back(names[i]
+                               + " is left out of the result: it is too small to go over body and garments under it");
         else
-            warnings.push_back(names[i] + " was not put on, for what is under it was not certified");
+            warnings.push_back(names[i] + " was not put on, because the garments under it were not certified");
     for (std::size_t i = 0; i < end.overstretches.size(); ++i)
         if (end.overstretches[i].edges > 0)
             warnings.push_back(overstretched_edges(names[i], end.overstretches[i]));
     if (int(end.frames.size()) < end.frames_asked)
         warnings.push_back("of " + std::to_string(end.frames_asked) + " frames there are "
-                           + std::to_string(end.frames.size()) + ": those that cannot be certified are left out");
+                           + std::to_string(end.frames.size()) + ": frames that cannot be certified are left out");
     return warnings;
 }
 
@@ -106,8 +108,8 @@ std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vec
                                               const HowToSet& set)
 {
     std::vector<std::string> warnings = explain(scene.conflicts, names);
-    if (scene.rig && scene.rig->side_margin < k_doubt)
-        warnings.push_back(std::string("left and right of the body are") + k_guess + "; look, and "
+    if (scene.rig && scene.rig->side_margin < k_low_confidence)
+        warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         warn_of_type(warnings, names[i], scene.fits[i], set);

@@ -81,11 +81,14 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
     command.add_option("--up", call.body_frame.up, "Up axis of the body's file: auto, +x, -x, +y, -y, +z, -z")
         ->default_str("auto");
     command
-        .add_option("--front", call.front, "Where the chest faces, roughly: +x, -x, +y, -y, +z, -z of the body's file")
+        .add_option("--front", call.front,
+                    "Where the chest faces, roughly: auto, +x, -x, +y, -y, +z, -z of the body's file")
         ->default_str("auto");
     command.add_flag("--reconstruct", call.reconstruct,
-                     "Lay a surface through the body's points where it has no faces");
-    command.add_option("--joints", call.joints, "Joints given or corrected, all or some: JSON, see docs/rig.md");
+                     "Build a surface from the body's points where its file has no faces");
+    command.add_option(
+        "--joints", call.joints,
+        "File with the places of some or all joints, as JSON (docs/rig.md), where the program finds wrong ones");
     if (!filter.has(Stage::fit))
         return;
     command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out (see --layer-order)")->required();
@@ -98,10 +101,9 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
         ->default_str("auto");
     command.add_option("--garment-unit", call.garment_frame.unit, "Unit of the garments' files")->default_str("auto");
     command.add_option("--garment-up", call.garment_frame.up, "Up axis of the garments' files")->default_str("auto");
-    command.add_option(
-        "--rig", call.rig,
-        "Take the skeleton from this rig.json (weights from rigged.ply beside it, where it stands there) or "
-        "from this skinned GLB of the same vertices");
+    command.add_option("--rig", call.rig,
+                       "Take the rig from this rig.json (weights from rigged.ply beside it, where there is one) or "
+                       "from this skinned glTF or GLB of the same vertices");
 }
 
 void add_command(CLI::App& app, const CommandText& text, Call& call)
@@ -114,14 +116,14 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
     else
         command
             .add_option("DIR_IN", call.from,
-                        "What garmentfit " + std::string(filter.name == "drape" ? "fit" : "drape") + " wrote")
+                        "Folder that garmentfit " + std::string(filter.name == "drape" ? "fit" : "drape") + " wrote")
             ->required();
     command.add_option("-o,--output", call.out, "Folder for the results")->required();
     command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
         ->check(CLI::Range(0, 1024))
         ->default_str("0");
-    command.add_flag("--quiet", call.quiet, "Say nothing but errors");
-    command.add_flag("--json", call.json, "Print report.json on standard output");
+    command.add_flag("--quiet", call.quiet, "Print errors only");
+    command.add_flag("--json", call.json, "Print report.json on standard output; after an error, its code and line");
     if (takes_a_rig(filter))
         describe(filter_of("rig"), call.parameters, AddFlags(command));
     describe(filter, call.parameters, AddFlags(command));
@@ -137,8 +139,9 @@ std::string one_line(std::string text)
 void require_types(const Call& call)
 {
     if (call.types.size() > call.garments.size())
-        throw InvalidInput(std::to_string(call.types.size()) + " types for " + std::to_string(call.garments.size())
-                           + " garments; give --type once for each garment at most");
+        throw InvalidInput(ErrorCode::wrong_call,
+                           std::to_string(call.types.size()) + " types for " + std::to_string(call.garments.size())
+                               + " garments; give --type at most once for each garment");
     for (const std::string& type : call.types)
         garment_type_of(type);
 }
@@ -148,7 +151,7 @@ void require_types(const Call& call)
 std::optional<Call> parse(int argc, char** argv)
 {
     auto call = std::make_unique<Call>();  // flags point into it
-    CLI::App app("Dresses a 3D body of any shape and pose in garments made for somebody else", "garmentfit");
+    CLI::App app("Dresses a 3D body of any shape and pose in garments made for another body", "garmentfit");
     app.set_version_flag("--version", "garmentfit " GARMENTFIT_VERSION);
     app.require_subcommand(1);
     app.footer("Each command has its own help: garmentfit dress --help\n"
@@ -162,7 +165,7 @@ std::optional<Call> parse(int argc, char** argv)
         app.exit(asked);
         return {};
     } catch (const CLI::Error& error) {
-        throw InvalidInput(one_line(error.what()) + "; see garmentfit --help");
+        throw InvalidInput(ErrorCode::wrong_call, one_line(error.what()) + "; see garmentfit --help");
     }
     require_types(*call);
     return *call;

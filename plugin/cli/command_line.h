@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the user typed.
+// What the user typed, as values.
 
 #include <filesystem>
 #include <optional>
@@ -19,14 +19,14 @@ struct Call {
     std::vector<std::filesystem::path> garments;
     std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
     FrameChoice body_frame, garment_frame;
-    std::string front;  ///< an axis of the body's file; empty: found
+    std::string front;  ///< an axis of the body's file; empty: to be found
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
     bool reconstruct = false;  ///< the body may be a point cloud
     bool quiet = false, json = false;
 };
 
-/// Nothing when the call only asked for help or the version, which are printed.
+/// Nothing when the call asked for help or the version only, which are printed.
 /// @throws InvalidInput.
 std::optional<Call> parse(int argc, char** argv);
 

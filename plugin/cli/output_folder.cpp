@@ -30,12 +30,14 @@ void require_writable(const fs::path& place)
 {
     const fs::path ground = nearest_existing(place);
     if (!fs::is_directory(ground))
-        throw InvalidInput(ground.string() + " is a file, not a folder; give another place with -o");
-    // the draft is made beside the place, so its parent must be writable too
+        throw InvalidInput(ErrorCode::unwritable_file,
+                           ground.string() + ": a file, not a folder; give another folder with -o");
+    // the draft is a folder beside the final one, so the parent must be writable, too
     for (const fs::path& folder : { ground, nearest_existing(place.parent_path()) })
         if (access(folder.c_str(), W_OK | X_OK) != 0)
-            throw InvalidInput("cannot write into " + folder.string() + " (" + std::strerror(errno)
-                               + "); give another place with -o");
+            throw InvalidInput(ErrorCode::unwritable_file,
+                               folder.string() + ": cannot be written to (" + std::strerror(errno)
+                                   + "); give another folder with -o");
 }
 
 std::vector<fs::path> make_parents(const fs::path& folder)

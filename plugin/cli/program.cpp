@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,8 +31,8 @@ namespace {
 
 constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
 
-/// What the user knows about the body's bones.
-void read_bones(Call& call, Session& session)
+/// What the user says about the body's front, joints and rig.
+void read_rig_hints(Call& call, Session& session)
 {
     const Frame& frame = session.body.frame.frame;
     if (!call.front.empty() && call.front != "auto")
@@ -50,7 +52,7 @@ Session read(Call& call)
         read_draped(session, call.from);
     } else {
         read_body(session, call.body, call.body_frame, call.reconstruct);
-        read_bones(call, session);
+        read_rig_hints(call, session);
         for (std::size_t i = 0; i < call.garments.size(); ++i)
             add_garment(session, call.garments[i],
                         i < call.types.size() ? garment_type_of(call.types[i]) : GarmentType::automatic,
@@ -59,7 +61,7 @@ Session read(Call& call)
     return session;
 }
 
-/// Which filters to run: each finds what it needs, or it stands in the scene already.
+/// Which filters to run: a rig that was read is not computed again.
 std::vector<std::string_view> filters_for(const Call& call, const Session& session)
 {
     if (call.filter->name == "fit" && !session.scene.rig)
@@ -84,7 +86,7 @@ void compute(const Call& call, Session& session)
     }
 }
 
-/// A folder that is continued where it is keeps what it held.
+/// A run that writes into the folder that it reads keeps what is there.
 std::vector<std::string> outdated(const Call& call, const Session& session, const OutputFolder& folder)
 {
     std::error_code none;
@@ -97,12 +99,14 @@ void write(const Call& call, Session& session, OutputFolder& folder)
 {
     const auto start = std::chrono::steady_clock::now();
     write_results(session, call.filter->name, folder.draft());
-    add_doubts(session);  // now that what was written is certified
+    add_warnings(session);  // after write_results, which certifies what it wrote
     session.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::string report = report_json(call, session);
     std::ofstream file(folder.draft() / "report.json");
     if (!(file << report << std::flush))
-        throw InvalidInput("cannot write report.json into " + folder.place().string() + "; is the disk full?");
+        throw InvalidInput(ErrorCode::unwritable_file,
+                           (folder.place() / "report.json").string()
+                               + ": cannot be written; check the space left on the disk");
     file.close();
     stop_if_interrupted();
     folder.publish(outdated(call, session, folder));
@@ -132,10 +136,19 @@ int run(int argc, char** argv)
     return static_cast<int>(outcome_of(*end));
 }
 
-int fail(int code, const std::string& message)
+/// Also where the call could not be understood.
+bool asks_for_json(int argc, char** argv)
+{
+    return std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
+/// One line for people; for programs, its code too.
+int fail(int exit_code, std::string_view code, const std::string& message, bool json)
 {
     std::cerr << "garmentfit: " << message << '\n';
-    return code;
+    if (json)
+        std::cout << error_json(code, message);
+    return exit_code;
 }
 
 }  // namespace
@@ -143,18 +156,21 @@ int fail(int code, const std::string& message)
 int run_program(int argc, char** argv)
 {
     watch_interruption();
+    const bool json = asks_for_json(argc, argv);
     try {
         return run(argc, argv);
     } catch (const Cancelled& stopped) {
-        return fail(k_stopped, stopped.what());
+        return fail(k_stopped, "cancelled", stopped.what(), json);
     } catch (const InvalidInput& error) {
-        return fail(k_wrong_input, error.what());
+        return fail(k_wrong_input, name_of(error.code()), error.what(), json);
     } catch (const std::filesystem::filesystem_error& error) {
-        return fail(k_wrong_input, error.what());
+        return fail(k_wrong_input, name_of(ErrorCode::unwritable_file), error.what(), json);
+    } catch (const SolverFailure& error) {
+        return fail(k_not_certified, "solver_failure", error.what(), json);
     } catch (const std::bad_alloc&) {
-        return fail(k_not_certified, "out of memory; give a mesh with fewer vertices");
+        return fail(k_not_certified, "out_of_memory", "out of memory; give meshes with fewer vertices", json);
     } catch (const std::exception& error) {
-        return fail(k_not_certified, error.what());
+        return fail(k_not_certified, "internal_error", error.what(), json);
     }
 }
 

@@ -3,7 +3,7 @@
 
 namespace garmentfit::cli {
 
-/// What `garmentfit` does with its words, for a process that does nothing else: SIGINT and SIGTERM are watched from here on.
+/// The program garmentfit, for a process that does nothing else: it watches SIGINT and SIGTERM from here on.
 /// Exit codes and files are described in docs/command-line.md.
 int run_program(int argc, char** argv);
 

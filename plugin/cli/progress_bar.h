@@ -24,7 +24,7 @@ private:
     void draw(double fraction, std::string_view stage);
 
     bool visible_;
-    std::string drawn_;  ///< what stands on the terminal now
+    std::string drawn_;  ///< the line on the terminal now
 };
 
 }  // namespace garmentfit::cli

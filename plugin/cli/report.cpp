@@ -114,7 +114,7 @@ Json overstretched_of(const Overstretch& stretch)
     return { { "edges", stretch.edges }, { "largest", stretch.largest }, { "part", stretch.part } };
 }
 
-/// What the garments were taken to be made of, SI units.
+/// What the garments are made of, SI units.
 Json cloth_of(const Call& call)
 {
     const ClothOptions& cloth = call.filter->cloth(call.parameters);
@@ -142,7 +142,7 @@ Json overlaps_of(const Dressing& dressing, double metres_per_unit)
     return pairs;
 }
 
-/// E_B of each covered bone at the start and at the end, how central it runs there, and how sure the fit is of how the garment is held.
+/// E_B of each covered bone before and after, its clearance, and the margins of the garment's up and front.
 void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
 {
     json["up"] = vector_of(file_from_metres * fit.up);
@@ -243,8 +243,14 @@ Json json_of(const Call& call, const Session& session)
 
 std::string report_json(const Call& call, const Session& session)
 {
-    // a file's name need not be UTF-8
+    // a file name need not be UTF-8
     return json_of(call, session).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string error_json(std::string_view code, const std::string& message)
+{
+    const Json json { { "error", { { "code", code }, { "message", message } } } };
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string summary(const Call& call, const Session& session)

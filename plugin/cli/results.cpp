@@ -81,7 +81,7 @@ void write_body(const Session& session, const Dressing& dressing, const fs::path
               comments_of(dressing));
 }
 
-/// A file may hold fewer digits than we computed with, so what stands in it is what is judged.
+/// A file may hold fewer digits than the computation had, so the file is judged.
 void certify_as_written(const Session& session, Dressing& dressing, const fs::path& folder)
 {
     std::vector<Positions> written(session.garments.size());
@@ -119,7 +119,7 @@ std::string numbered(const std::string& stem, std::size_t frame)
 /// A series of PLY files for each mesh, and all of them as one animation.
 void write_frames(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
-    constexpr double k_seconds = 3;  // that the way takes in the animation
+    constexpr double k_seconds = 3;  // length of the animation; a matter of taste
     if (dressing.frames.empty())
         return;
     fs::create_directories(folder);
@@ -208,7 +208,7 @@ std::string give_flag(std::string_view parameter)
 
 }  // namespace
 
-void add_doubts(Session& session)
+void add_warnings(Session& session)
 {
     const auto add = [&](const std::vector<std::string>& warnings) {
         session.warnings.insert(session.warnings.end(), warnings.begin(), warnings.end());
@@ -222,7 +222,7 @@ void add_doubts(Session& session)
 std::vector<std::string> outdated_results(const Session& session, std::string_view command, const fs::path& folder)
 {
     if (command == "rig" || command == "fit" || !is_result(folder))
-        return {};  // those two write all they can, or nothing
+        return {};  // those two write all their results, or nothing
     std::vector<std::string> names { "body.ply", "maps" };
     if (command != "drape")
         names.emplace_back("frames");

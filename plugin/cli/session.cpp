@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double k_same_place = 1e-3;  // of the diagonal: floats of a body in millimetres are far better
+constexpr double k_same_place = 1e-3;  // unit: share of the diagonal; far more than the rounding of a file of floats
 
 // ---- reading ---------------------------------------------------------------------------------------------------
 
@@ -30,19 +30,21 @@ void make_scene_body(Session& session)
     session.scene.body = make_body(session.body.frame.frame.to_metres(file.positions()), session.body.triangles);
     if (session.scene.body->repaired)
         session.warnings.push_back(session.body.path.filename().string()
-                                   + " is not one closed surface; its geometry was read from a repaired copy");
+                                   + " is not one closed surface; the skeleton is found on a repaired copy");
 }
 
-/// A dressed garment, body.ply and the like stand in one folder.
+/// Dressed garments are written beside body.ply and the other results.
 void require_own_name(const Session& session, const std::string& name)
 {
     for (const char* taken :
          { "body.ply", "rigged.ply", "rigged.glb", "rig.json", "report.json", "fitted", "frames", "maps", "rest" })
         if (name == taken)
-            throw InvalidInput("a garment may not be called " + name + ", as a result file is; rename it");
+            throw InvalidInput(ErrorCode::wrong_call,
+                               name + ": a garment may not have the name of a result file; rename it");
     for (const GarmentFile& garment : session.garments)
         if (garment.name() == name)
-            throw InvalidInput("two garments are called " + name + "; rename one, results are named after them");
+            throw InvalidInput(ErrorCode::wrong_call,
+                               name + ": two garments have this name, and results are named after them; rename one");
 }
 
 void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
@@ -51,9 +53,9 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
     session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name() });
     if (!same(garment.frame.frame, session.body.frame.frame))
-        session.warnings.push_back(garment.name()
-                                   + " has other units or axes than the body; it is written in the body's ("
-                                   + garment.frame.why + ")");
+        session.warnings.push_back(
+            garment.name() + " has other units or axes than the body; the dressed garment is written in the body's ("
+            + garment.frame.why + ")");
     session.garments.push_back(std::move(garment));
 }
 
@@ -65,9 +67,10 @@ Frame frame_on_body(const Session& session, const fs::path& glb)
     for (const Frame& frame : { session.body.frame.frame, Frame() })
         if (mesh.rows() == body.rows() && (frame.to_metres(mesh) - body).rowwise().norm().maxCoeff() < close)
             return frame;
-    throw InvalidInput(glb.string() + " has " + std::to_string(mesh.rows()) + " vertices that do not lie where the "
-                       + std::to_string(body.rows()) + " of " + session.body.path.string()
-                       + " do; give the rig of this very mesh in its bind pose");
+    throw InvalidInput(ErrorCode::rig_mismatch,
+                       glb.string() + ": its " + std::to_string(mesh.rows()) + " vertices do not lie where the "
+                           + std::to_string(body.rows()) + " of " + session.body.path.string()
+                           + " do; give the rig of this very mesh in its bind pose");
 }
 
 void read_skinned(Session& session, const fs::path& glb)
@@ -85,7 +88,7 @@ void read_skinned(Session& session, const fs::path& glb)
     session.scene.rig = rig_on(std::move(rig), session.scene.body->surface.positions, glb.string());
 }
 
-/// Body, rig and fits as `fit` and `drape` leave them; the garments as given lie in `rest`.
+/// Body, rig and fits as `fit` and `drape` write them; the garments as given are in `rest`.
 void read_continued(Session& session, const fs::path& folder, const fs::path& rest)
 {
     const RigFile contents = read_whole_rig(folder / "rig.json");
@@ -96,8 +99,8 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
     session.body.frame = known(contents.frame);
     make_scene_body(session);
     if (contents.garments.empty())
-        throw InvalidInput((folder / "rig.json").string()
-                           + " names no garment; give a folder that garmentfit fit wrote");
+        throw InvalidInput(ErrorCode::missing_input,
+                           (folder / "rig.json").string() + ": no garment; give a folder that garmentfit fit wrote");
     for (const FittedGarment& garment : contents.garments) {
         const fs::path path = rest / fs::path(garment.file).filename();
         add_garment_file(session, { path, MeshFile::read(path), known(garment.frame) }, garment.fit.type);
@@ -105,12 +108,13 @@ void read_continued(Session& session, const fs::path& folder, const fs::path& re
     }
 }
 
-/// Metres, of a mesh that draping leaves where it comes to a certified state.
+/// Metres, of a mesh that draping writes where it reaches a certified state.
 Positions read_left(const Session& session, const fs::path& path)
 {
     if (!fs::exists(path))
-        throw InvalidInput(path.string() + " is missing: draping left it out, and report.json beside it says why; "
-                           + "mend that and drape again");
+        throw InvalidInput(ErrorCode::missing_input,
+                           path.string() + ": missing, as draping ended without it; report.json beside it says why. "
+                               + "Change garment or options, and drape again");
     return session.body.frame.frame.to_metres(MeshFile::read(path).positions());
 }
 
@@ -131,7 +135,7 @@ void read_body(Session& session, const fs::path& path, const FrameChoice& choice
     body.triangles = body.file.triangles();
     if (body.triangles.rows() == 0) {
         body.triangles = reconstruct_surface(body.file.positions());
-        session.warnings.push_back(path.filename().string() + " is a point cloud; a surface was laid through "
+        session.warnings.push_back(path.filename().string() + " is a point cloud; a surface was built from its "
                                    + std::to_string(body.file.positions().rows()) + " points");
     }
     body.frame = body_frame(body.file.positions(), body.triangles, choice);
@@ -158,8 +162,9 @@ bool read_rig(Session& session, const fs::path& rig)
         return false;
     const RigFile contents = read_whole_rig(rig);
     if (!same(contents.frame, session.body.frame.frame))
-        throw InvalidInput(rig.string() + " has other units or axes than were found for " + session.body.path.string()
-                           + "; give the same --unit and --up as to garmentfit rig");
+        throw InvalidInput(ErrorCode::rig_mismatch,
+                           rig.string() + ": other units or axes than those of " + session.body.path.string()
+                               + "; give the same --unit and --up as to garmentfit rig");
     session.scene.rig = rig_on(contents.rig, session.scene.body->surface.positions, rig.string());
     return true;
 }
@@ -174,7 +179,8 @@ void read_draped(Session& session, const fs::path& folder)
 {
     const Stopwatch watch(session.read_seconds);
     if (!fs::is_directory(folder / "rest"))
-        throw InvalidInput(folder.string() + " has no folder rest; give a folder that garmentfit drape wrote");
+        throw InvalidInput(ErrorCode::missing_input,
+                           folder.string() + ": no folder rest in it; give a folder that garmentfit drape wrote");
     read_continued(session, folder, folder / "rest");
 
     std::vector<Positions> worn;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The files of one run and the scene made of them. Here, at the door, everything becomes metres with +y up.
+// The files of one run, and the scene made of them: in metres, +y up.
 
 #include <filesystem>
 #include <string>
@@ -39,12 +39,12 @@ struct Session {
     std::vector<std::string> garment_names() const;
 };
 
-/// @param reconstruct  lays a surface through a file's points where it has no faces
+/// @param reconstruct  builds a surface from a file's points where it has no faces
 void read_body(Session& session, const std::filesystem::path& path, const FrameChoice& choice, bool reconstruct);
 void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const FrameChoice& choice);
 
 /// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.
-/// False: only joints stand there, weights are still to be found.
+/// @return false where the file has joints only, and the weights are still to be found
 bool read_rig(Session& session, const std::filesystem::path& rig);
 /// All that `fit` wrote, for draping.
 void read_fitted(Session& session, const std::filesystem::path& folder);

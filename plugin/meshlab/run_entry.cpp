@@ -5,6 +5,7 @@
 
 #include "choice.h"
 #include "garmentfit/certificate.h"
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/fit_map.h"
@@ -97,7 +98,7 @@ Report measure(const MenuEntry& entry, Choice& choice, MeshDocument& document)
     const TriangleMesh& body = fitting.scene.body->surface;
     const Rig& rig = *fitting.scene.rig;
     const WornGarment worn = worn_garment(choice, fitting, body);
-    const FitMap map = fit_map(body, worn, choice.parameters.drape.cloth);
+    const FitMap map = fit_map_on(*fitting.scene.body, body, worn, choice.parameters.drape.cloth);
     report_girths(report, girths(rig.skeleton, rig.weights, body, worn), fitting.body_frame.metres_per_unit);
     if (!worn.certificate.clean())
         report.warnings.push_back(name_of(*choice.worn) + " crosses the body or itself in "

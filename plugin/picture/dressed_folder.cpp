@@ -70,7 +70,7 @@ std::string verdict_of(const Json& report, const Frame& frame)
         strain = std::max(strain, garment.at("strain").at("p95").get<double>());
     }
     std::ostringstream text;
-    text << std::setprecision(2) << "certified: no crossing, smallest gap " << 1000 * gap << " mm, strain "
+    text << std::setprecision(2) << "certified: no crossing, minimum distance " << 1000 * gap << " mm, strain "
          << 100 * strain << "% at the 95th percentile";
     return text.str();
 }

@@ -64,6 +64,27 @@ TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)
     }
 }
 
+TEST(Schema, PublishedMethodsAreForResearch)
+{
+    std::set<std::string> research;
+    const Parameters parameters;
+    describe(filter_of("dress"), parameters, [&](const auto&, const About& about) {
+        if (about.group == Group::research)
+            research.insert(std::string(about.name));
+    });
+    EXPECT_EQ(research, (std::set<std::string> { "iterations", "method", "nearest" }));
+}
+
+TEST(Schema, EmptyValuesSayWhatHoldsInstead)
+{
+    const Parameters parameters;
+    describe(filter_of("dress"), parameters, [](const auto& value, const About& about) {
+        EXPECT_EQ(about.otherwise.empty(), !is_optional<decltype(value)>) << about.name;
+        if (is_optional<decltype(value)>)
+            EXPECT_EQ(text_of(value, about), about.otherwise) << about.name;
+    });
+}
+
 TEST(Schema, DefaultsLieInTheirRanges)
 {
     const Parameters defaults;
@@ -106,6 +127,19 @@ TEST(SetByName, SetsOneParameterFromText)
     SetByName set_type { "type", "coat" };
     describe(filter_of("fit"), parameters, set_type);
     EXPECT_EQ(parameters.fit.type, GarmentType::coat);
+}
+
+TEST(SetByName, EmptiesWhatTheFabricDecides)
+{
+    Parameters parameters;
+    const auto set = [&](const char* text) { describe(filter_of("drape"), parameters, SetByName { "density", text }); };
+    EXPECT_FALSE(parameters.drape.cloth.density);
+    set("0.2");
+    EXPECT_EQ(parameters.drape.cloth.density, 0.2);
+    set("of the fabric");
+    EXPECT_FALSE(parameters.drape.cloth.density);
+    EXPECT_THROW(set("7"), InvalidInput) << "out of range";
+    EXPECT_THROW(set(""), InvalidInput);
 }
 
 TEST(SetByName, RefusesTextThatIsNoValue)
@@ -159,6 +193,7 @@ TEST(Filter, ChecksRangesBeforeItWorks)
         filter_of("rig").run(scene, parameters);
         FAIL() << "one proxy vertex passed";
     } catch (const InvalidInput& error) {
+        EXPECT_EQ(error.code(), ErrorCode::out_of_range);
         EXPECT_NE(std::string(error.what()).find("proxy_vertices"), std::string::npos) << error.what();
     }
 }

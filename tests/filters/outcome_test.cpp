@@ -25,9 +25,10 @@ TEST(DressingOutcome, NamesThePartsAtWhichAGarmentIsTooSmall)
     scene.draped->size_reached = 0.876;
     scene.draped->too_tight = { { 0, "chest", 0.031, 0.034 } };
     EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::too_small);
-    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
-              "coat is too small at chest by 31 mm; the body fits in at 87% of its size; a garment 4% larger would lie "
-              "there unstretched");
+    EXPECT_EQ(
+        explain(*final_dressing(scene), { "coat" }),
+        "coat is too small: it lacks 31 mm of girth at chest; a body of 87% of the thickness would fit; a garment 4% "
+        "larger would not be stretched there");
 }
 
 TEST(DressingOutcome, NamesTheGarmentThatIsTightestAndItsOwnParts)
@@ -35,10 +36,10 @@ TEST(DressingOutcome, NamesTheGarmentThatIsTightestAndItsOwnParts)
     Scene scene = draped_scene();
     scene.draped->certified = false;
     scene.draped->too_tight = { { 1, "chest", 0.031, 0.034 }, { 0, "waist", 0.02, 0.5 }, { 1, "waist", 0.01, 0.04 } };
-    EXPECT_EQ(
-        explain(*final_dressing(scene), { "coat", "shirt" }),
-        "shirt is too small at chest by 31 mm, waist by 10 mm for the body's own pose; a garment 4% larger would lie "
-        "there unstretched");
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat", "shirt" }),
+              "shirt is too small for the input pose: it lacks 31 mm of girth at chest, 10 mm of girth at waist; a "
+              "garment 4% "
+              "larger would not be stretched there");
 }
 
 TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)
@@ -58,20 +59,21 @@ TEST(DressingOutcome, ComesFromThePoseReachedLast)
     scene.recovered->certified = false;
     scene.recovered->pose_reached = 0.999;
     EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
-              "coat could not be certified: stopped at 99% of the way between two poses");
+              "coat could not be certified: the body stopped at 99% of the path between two poses");
 }
 
-TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoRoom)
+TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoSpace)
 {
     Scene scene = draped_scene();
     scene.draped->certified = false;
     scene.draped->held_back = { { "chest", 0.028 } };
     scene.draped->overlaps = { { "chest", "left upper arm", 0.027 }, { "chest", "right upper arm", 0.026 } };
-    EXPECT_EQ(
-        explain(*final_dressing(scene), { "coat" }),
-        "coat could not be certified: the body is not in its place everywhere; no room for cloth at chest (held "
-        "back by 28 mm); the body enters itself, and no cloth fits between chest and left upper arm (27 mm deep), "
-        "chest and right upper arm (26 mm deep)");
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              "coat could not be certified: parts of the body are not in their places; too little space for the cloth "
+              "at chest "
+              "(held back by 28 mm); the body crosses itself, and no cloth fits between chest and left upper arm (27 "
+              "mm deep), "
+              "chest and right upper arm (26 mm deep)");
 }
 
 TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)
@@ -79,10 +81,10 @@ TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)
     WornGarment garment = clean_garment();
     garment.certificate.min_distance = 1e-3;
     EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
-              "coat (coat): 0 crossings, smallest gap 1 mm, strain 0% at the 95th percentile");
+              "coat (coat): 0 crossings, minimum distance 1 mm, strain 0% at the 95th percentile");
     garment.certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
     EXPECT_EQ(in_one_line("coat", GarmentType::coat, garment),
-              "coat (coat): 0 new crossings, 2 with itself kept as given, smallest gap 1 mm, strain 0% at the 95th "
+              "coat (coat): 0 new crossings, 2 with itself kept as given, minimum distance 1 mm, strain 0% at the 95th "
               "percentile");
 }
 

@@ -24,11 +24,11 @@ Scene worn_scene()
     return scene;
 }
 
-Lines doubts_about(const Scene& scene) { return warnings_about_scene(scene, { "skirt", "coat" }, set); }
+Lines warnings_of(const Scene& scene) { return warnings_about_scene(scene, { "skirt", "coat" }, set); }
 
 TEST(Warnings, AreNoneWhereEverythingIsSure)
 {
-    EXPECT_EQ(doubts_about(worn_scene()), Lines());
+    EXPECT_EQ(warnings_of(worn_scene()), Lines());
     EXPECT_EQ(warnings_about_frame("man", { {}, 1, 1, "" }, "", set), Lines());
 }
 
@@ -38,12 +38,12 @@ TEST(Warnings, SayWhichParameterSettlesThem)
     scene.rig->side_margin = 0.1;
     scene.fits[1].type = GarmentType::coat;
     scene.fits[1].type_margin = 0.1;
-    EXPECT_EQ(doubts_about(scene),
-              (Lines { "left and right of the body are hardly more than a guess; look, and set swap_sides",
-                       "the type of coat is hardly more than a guess, coat; set type" }));
+    EXPECT_EQ(warnings_of(scene),
+              (Lines { "which side of the body is left is guessed with low confidence; if it is wrong, set swap_sides",
+                       "the type of coat is guessed with low confidence: coat; if it is wrong, set type" }));
     EXPECT_EQ(warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
-              (Lines { "the unit of coat is hardly more than a guess (it is wide); set garment_unit",
-                       "the up axis of coat is hardly more than a guess (it is wide); set garment_up" }));
+              (Lines { "the unit of coat is guessed with low confidence (it is wide); if it is wrong, set garment_unit",
+                       "the up axis of coat is guessed with low confidence (it is wide); if it is wrong, set garment_up" }));
 }
 
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
@@ -53,10 +53,10 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
     scene.draped->garments.pop_back();
     scene.draped->garments[0].size = 1.08;
     scene.draped->garments[0].slipped = 0.214;
-    EXPECT_EQ(doubts_about(scene),
+    EXPECT_EQ(warnings_of(scene),
               (Lines { "the cloth is not at rest yet (1500 mm/s); give more settling steps", "skirt was made 8% larger",
-                       "skirt slipped 21 cm down: it is too wide for this body to stay where it is worn",
-                       "coat was not put on, for what is under it was not certified" }));
+                       "skirt slipped down by 21 cm: it is too wide for this body to stay where it is worn",
+                       "coat was not put on, because the garments under it were not certified" }));
 }
 
 TEST(Warnings, SayThatAGarmentTooSmallIsLeftOut)
@@ -64,14 +64,14 @@ TEST(Warnings, SayThatAGarmentTooSmallIsLeftOut)
     Scene scene = worn_scene();
     scene.draped->garments.pop_back();
     scene.draped->too_tight = { { 1, "hips", 0.1, 0.2 } };
-    EXPECT_EQ(doubts_about(scene), (Lines { "coat is left out of the result: it does not go over what is under it" }));
+    EXPECT_EQ(warnings_of(scene), (Lines { "coat is left out of the result: it is too small to go over body and garments under it" }));
 }
 
 TEST(Warnings, SayWhereClothIsOverstretched)
 {
     Scene scene = worn_scene();
     scene.draped->overstretches = { { 0, 0.49, "" }, { 3, 17.6, "left forearm" } };
-    EXPECT_EQ(doubts_about(scene),
+    EXPECT_EQ(warnings_of(scene),
               (Lines { "coat is overstretched: 3 edges by more than 50%, the most by 1760%, at left forearm" }));
 }
 
@@ -80,19 +80,19 @@ TEST(Warnings, SayThatFramesAreMissing)
     Scene scene = worn_scene();
     scene.draped->frames_asked = 3;
     scene.draped->frames.resize(3);
-    EXPECT_EQ(doubts_about(scene), Lines());
+    EXPECT_EQ(warnings_of(scene), Lines());
     scene.draped->frames.pop_back();
-    EXPECT_EQ(doubts_about(scene), (Lines { "of 3 frames there are 2: those that cannot be certified are left out" }));
+    EXPECT_EQ(warnings_of(scene), (Lines { "of 3 frames there are 2: frames that cannot be certified are left out" }));
 }
 
 TEST(Warnings, SayThatCrossingsAsGivenAreStillThere)
 {
     Scene scene = worn_scene();
     scene.draped->garments[1].certificate.input_self_crossings = 9;
-    EXPECT_EQ(doubts_about(scene), Lines()) << "all of them came apart";
+    EXPECT_EQ(warnings_of(scene), Lines()) << "all of them came apart";
     scene.draped->garments[1].certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
-    EXPECT_EQ(doubts_about(scene),
-              (Lines { "coat was given with crossings of itself that did not come apart: 2 of 9 are still there" }));
+    EXPECT_EQ(warnings_of(scene),
+              (Lines { "coat crossed itself as it was given, and could not be parted everywhere: 2 of 9 crossings are left" }));
 }
 
 }  // namespace

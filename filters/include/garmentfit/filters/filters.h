@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The table of filters that every host shows: command line, and whatever else wants to be one.
+// The table of filters that every host shows.
 //
-// A filter reads parts of a Scene and fills others. A host puts its meshes into the scene, its widgets into Parameters,
-// calls run, and takes out what `outputs` names. Metres, +y up, as everywhere in libfit.
+// A filter reads parts of a Scene and fills others. A host puts its meshes into the scene and the values of its widgets into
+// Parameters, calls run, and takes out what `outputs` names. Metres, +y up, as everywhere in libfit. Bodies outside of human
+// size are scaled to it while a filter works (body_scale.h).
 
 #include <array>
 #include <optional>
@@ -26,41 +27,44 @@ std::string_view name_of(Stage stage);
 /// The options of all stages; a filter shows those of the stages it runs.
 struct Parameters {
     RigOptions rig;
-    FitOptions fit;  ///< its type holds for garments that bring none
+    FitOptions fit;  ///< its type is used for garments whose own is automatic
     LayerOrder layer_order = LayerOrder::given;
     DrapeOptions drape;
-    RecoverOptions recover;  ///< its cloth counts only where draping is not part of the filter
+    RecoverOptions recover;  ///< its cloth is used only where draping is not part of the filter
 };
 
 struct GarmentInput {
     GarmentMesh mesh;
     GarmentType type = GarmentType::automatic;
-    std::string name = {};  ///< to tell it from others in messages, or empty
+    std::string name = {};  ///< for messages; may be empty
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.
 struct Dressing : DressedBody {
     std::size_t outermost = 0;  ///< which garment was put on last, or was to be
     double size_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
-    double pose_reached = 1;  ///< of the last way between two poses
+    double pose_reached = 1;  ///< share of the last pose path that was covered
     std::vector<TooTight> too_tight;
-    std::vector<HeldBack> held_back;  ///< where cloth had no room, in the last pose that was tried
-    std::vector<Overlap> overlaps;  ///< where the body leaves it none, in that pose
+    std::vector<HeldBack> held_back;  ///< where cloth keeps the body from its place, in the last pose that was tried
+    std::vector<Overlap> overlaps;  ///< where the body crosses itself in that pose, so that no cloth fits between
     std::optional<double>
         speed;  ///< m/s, of the fastest vertex of the cloth at the end; none where it was not let settle
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
-    std::vector<RecoverFrame> frames;  ///< on the last way between two poses, where asked for
-    int frames_asked = 0;  ///< how many those would be if all were certified and the whole way was gone
-    std::vector<FitMap> maps;  ///< of each garment that is worn, as the next two
+    std::vector<RecoverFrame> frames;  ///< states on the last pose path, where asked for
+    int frames_asked = 0;  ///< how many those would be if all were certified and the whole path was covered
+    std::vector<FitMap> maps;  ///< one for each garment that is worn, like the next two
     std::vector<std::vector<Girth>> girths;  ///< of garment and body under it
     std::vector<Overstretch> overstretches;
+    /// What lengths of this body are multiplied by to be those at human size (body_scale.h). Speeds and pressures are those at
+    /// human size.
+    double to_human_size = 1;
 
     bool is_worn(std::size_t garment) const
     {
         return garment < garments.size() && garments[garment].positions.rows() > 0;
     }
-    /// Which garments are.
+    /// Indices of the garments that are.
     std::vector<std::size_t> worn() const;
 };
 
@@ -73,14 +77,14 @@ struct Scene {
     std::optional<bool> one_pose;  ///< of several garments: whether all fits turn the bones alike; by the fast method
     std::vector<FitConflict> conflicts;  ///< why they do not
     std::optional<Dressing> draped;  ///< in the pose of the outermost garment's fit
-    std::optional<Dressing> recovered;  ///< in the body's own pose
+    std::optional<Dressing> recovered;  ///< in the input pose
     std::array<double, k_stage_count> seconds {};  ///< wall clock spent in each stage
 };
 
 /// Which garment goes over all others.
 std::size_t outermost(const std::vector<FitResult>& fits);
 
-/// What a filter reads and makes; a host's ports.
+/// What a filter reads and makes: the ports of a host.
 enum class Data { body, garments, rig, fits, draped, recovered };
 
 struct Filter {
@@ -94,11 +98,10 @@ struct Filter {
     bool has(Stage stage) const;
     bool reads(Data data) const;
     bool makes(Data data) const;
-    /// The same while a garment is put on and while its wearer moves, where the filter does both.
+    /// The options of the cloth: one set for putting on and for moving, where the filter does both.
     const ClothOptions& cloth(const Parameters& parameters) const;
 
-    /// Checks inputs and ranges, then fills the outputs of each stage. Draping is the last one when not all
-    /// could be put on.
+    /// Checks inputs and ranges, then fills the outputs of each stage. Ends after draping where a garment could not be put on.
     /// @throws InvalidInput, SolverFailure, Cancelled; outputs of the stages before it stay in the scene.
     void run(Scene& scene, const Parameters& parameters, const Progress& progress = {}) const;
 };
@@ -120,7 +123,7 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
     }
     if (filter.has(Stage::drape)) {
         describe(p.drape, visit);
-        describe_pose_path(p.recover, visit);  // garments already worn move on to the pose of the next one
+        describe_pose_path(p.recover, visit);  // worn garments move to the pose of the next one
         if (filter.has(Stage::recover))
             describe_frames(p.recover, visit);
     } else if (filter.has(Stage::recover)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The door of every host: the user's word, or a guess, on a mesh's units and axes.
+// Units and axes of a mesh: what the user says, or else a guess.
 
 #include <string>
 #include <string_view>
@@ -16,11 +16,11 @@ struct FrameChoice {
     std::string unit = "auto", up = "auto";
 };
 
-/// All that may be said, for hosts that show a list; "auto" comes first.
+/// Possible values, for hosts that show a list; "auto" comes first.
 const std::vector<std::string_view>& unit_choices();
 const std::vector<std::string_view>& axis_choices();
 
-/// The guess, with the user's word put before it; margins are 1 where the user said it. @throws InvalidInput.
+/// What the user says, and a guess of the rest; margins are 1 where the user said it. @throws InvalidInput.
 FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice = {});
 /// The same for a garment, given the body's frame. @throws InvalidInput.
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Whose a rig is that was read from arrays or files.
+// Checks that a rig read from arrays or files belongs to a body.
 
 #include <string>
 
@@ -9,11 +9,11 @@
 
 namespace garmentfit {
 
-/// The rig of this body, with the radii measured on it. @throws InvalidInput where it is another body's, or the body was
-///         moved since: there are more or fewer vertices, or the skin lies elsewhere about the bones; and where it is no rig
-///         at all: weights that do not sum to 1, directions that are none.
-/// @param own  the body's positions in its own pose, metres
-/// @param called  what the user knows the rig by
+/// The rig with the radii measured on this body.
+/// @throws InvalidInput rig_mismatch: the rig is another body's, or the body was moved since; the numbers of vertices differ, or
+///         the distances of the skin to the bones. bad_rig: weights do not sum to 1, or directions are not unit vectors.
+/// @param own  the body's positions in its input pose, metres
+/// @param called  the rig's name in messages
 Rig rig_on(Rig rig, const Positions& own, const std::string& called = "the rig");
 
 }  // namespace garmentfit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How fitting and dressing ended, in a word and in a sentence.
+// How fitting and dressing ended: a code and a sentence.
 
 #include <string>
 #include <vector>
@@ -13,24 +13,24 @@ namespace garmentfit {
 /// The values are the command line's exit codes.
 enum class Outcome { done = 0, too_small = 3, not_certified = 4 };
 
-/// How the garments are worn at the end, or null when none was put on (yet).
+/// The last dressing of a scene; null where no garment was put on.
 const Dressing* final_dressing(const Scene& scene);
 bool all_clean(const std::vector<WornGarment>& garments);
-/// All garments are draped over the full-sized body and nothing crosses. Parts of the body may still lag behind their places,
-/// fingers in a long sleeve, say: on the way to another pose they may come free.
+/// All garments are draped over the full-sized body and nothing crosses. Cloth may still hold parts of the body back, such as
+/// fingers in a long sleeve: they may come free on the path to another pose.
 bool all_put_on(const Scene& scene);
 Outcome outcome_of(const Dressing& dressing);
-/// One line on how it went wrong; only for what is not done. Garments are called by their `names`.
+/// One line on what went wrong; only where the outcome is not `done`. `names` are those of the garments.
 std::string explain(const Dressing& dressing, const std::vector<std::string>& names);
-/// "coat.ply (coat): 0 crossings, smallest gap 0.9 mm, strain 4.1% at the 95th percentile". Where the garment
+/// "coat.ply (coat): 0 crossings, minimum distance 0.9 mm, strain 4.1% at the 95th percentile". Where the garment
 /// was given with crossings that did not come apart: "0 new crossings, 656 with itself kept as given, ...".
 std::string in_one_line(const std::string& name, GarmentType type, const WornGarment& garment);
-/// Judges the garments as a host keeps them, maybe with fewer digits than they were computed with.
+/// Certifies the garments as a host keeps them, which may be with fewer digits than they were computed with.
 /// @param kept  positions of each garment of the dressing, metres; where it is worn, they become the dressing's
 void certify_as_kept(Dressing& dressing, const Triangles& body, const std::vector<Positions>& kept);
 /// Why no one pose serves the garments, one line for each two of them.
 std::vector<std::string> explain(const std::vector<FitConflict>& conflicts, const std::vector<std::string>& names);
-/// Rounded down: what stopped on its way never says 100%.
+/// Rounded down: 100 means all of it.
 int percent(double share);
 
 }  // namespace garmentfit

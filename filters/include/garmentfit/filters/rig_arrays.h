@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Skeletons and poses as plain rows of numbers, metres, +y up: how hosts hand them on, from filter to filter and into files.
+// Skeletons and poses as rows of numbers, metres, +y up: how hosts pass them from filter to filter and into files.
 
 #include "garmentfit/skeleton.h"
 
@@ -11,7 +11,7 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 
 constexpr int k_joint_rows = 1 + int(bone_count) + int(extremity_count);  ///< the root, the bones' tails, the tips
 constexpr int k_pose_columns
-    = 3 + 4 + 4 * int(bone_count);  ///< root's translation and turn, turns of the bones; w, x, y, z
+    = 3 + 4 + 4 * int(bone_count);  ///< root's translation and rotation, rotations of the bones; w, x, y, z
 
 /// k_joint_rows x 3.
 Rows rows_of(const Skeleton& skeleton);
@@ -20,7 +20,7 @@ Rows row_of(const Pose& pose);
 
 /// @throws InvalidInput where rows or columns are too few or too many, or numbers are not finite.
 Skeleton skeleton_of(const Rows& joints);
-/// @throws InvalidInput likewise, and where a turn is no unit quaternion.
+/// @throws InvalidInput likewise, and where a rotation is not a unit quaternion.
 Pose pose_of(const Rows& row);
 /// @throws InvalidInput where shapes differ, or a bone or weight is out of range, naming the vertex.
 SkinWeights weights_of(const Rows& bones, const Rows& weights);

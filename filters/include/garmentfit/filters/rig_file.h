@@ -17,7 +17,7 @@ namespace garmentfit {
 struct FittedGarment {
     std::string file;
     Frame frame;  ///< of the garment as given
-    FitResult fit;  ///< without scores
+    FitResult fit;  ///< without its scores
 };
 
 struct RigFile {
@@ -28,7 +28,7 @@ struct RigFile {
     bool has_weights() const { return rig.weights.weights.rows() > 0; }
 };
 
-/// One file for all where the rig has weights, else for the skeleton alone.
+/// Skeleton and fits, and the weights where the rig has them.
 void write_rig_file(const std::filesystem::path& path, const RigFile& contents);
 /// Joints given by hand, {"joints": {"lelbow": [x, y, z], ...}}, or those of a whole rig.json; in metres.
 /// @throws InvalidInput naming the file and what is wrong in it, or all names of joints.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Parts of a scene as named arrays: what hosts that know nothing but arrays hand from filter to filter, keep in files and
-// show. Names are the same in all of them. Rigs, poses and frames are in metres with +y up, so that a rig read back is the
-// one written; what users look at is in the body's unit.
+// Parts of a scene as named arrays, for hosts that pass arrays from filter to filter, keep them in files and show them. The names are
+// the same in all hosts. Rigs, poses and frames are in metres with +y up, so that a rig that is written and read keeps its bits;
+// arrays for users are in the body's unit.
 
 #include <functional>
 #include <optional>
@@ -48,7 +48,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
 MeshArrays arrays_of(const Frame& garment);
 /// Of a garment: FoundType, FoundTypeMargin.
 MeshArrays arrays_of(const FitResult& fit);
-/// Of a garment: Worn; if it is: the certificate, girths, where it is too tight.
+/// Of a garment: Worn; and if it is, the certificate, girths and where it is too tight.
 MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const Frame& body);
 /// Of a garment: Ease, Strain, Pressure.
 MeshArrays arrays_of(const FitMap& map, const Frame& body);
@@ -63,14 +63,14 @@ std::vector<std::pair<int, int>> skeleton_lines();
 /// The array of that name, if there is one, as numbers.
 using FindArray = std::function<std::optional<Rows>(const char* name)>;
 
-/// @throws InvalidInput naming the array that is missing or mangled and the filter that makes it, or both numbers of
-///         vertices where the rig is another body's. So do the others.
-/// @param own  the body's positions in its own pose, metres
+/// @throws InvalidInput naming the array that is missing or wrong and the filter that makes it, or both numbers of
+///         vertices where the rig is another body's. The other functions likewise.
+/// @param own  the body's positions in its input pose, metres
 Rig rig_from(const FindArray& find, const Positions& own);
 Frame body_frame_from(const FindArray& find);
 std::vector<FitResult> fits_from(const FindArray& find);
 Pose dressed_pose_from(const FindArray& find);
-/// Nothing where no filter has seen the garment.
+/// Empty where no filter has read the garment.
 std::optional<Frame> garment_frame_from(const FindArray& find);
 
 }  // namespace garmentfit

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Fitted numbers of the filters. "Body metres" are metres on a body of human size: any other body is scaled to it first
+// (body_scale.h).
+
+namespace garmentfit {
+
+/// Dimensionless, 0 undecided to 1 certain. Guesses with a smaller margin get a warning.
+/// fitted: guess, on the twelve pairs of the house data
+inline constexpr double k_low_confidence = 0.2;
+
+/// Body metres. A garment that slipped down by more gets a warning.
+/// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a wide coat by nine
+inline constexpr double k_slipped = 0.15;
+
+/// Share of a radius, and for thin bones body metres. A rig whose radii differ from the body's by more is another body's: files keep
+/// fewer digits than the rig was found with, and two people differ by more.
+/// fitted: guess, on tests/bodies
+inline constexpr double k_same_radius = 0.02, k_same_place = 5e-4;
+
+}  // namespace garmentfit
