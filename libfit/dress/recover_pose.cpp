@@ -43,7 +43,7 @@ void require_no_crossings(const TriangleMesh& cloth, const TriangleMesh& body)
 {
     if (const int crossing = crossing_count(cloth, body); crossing > 0)
         throw InvalidInput(ErrorCode::crossing_start,
-                           "recover: garment and body cross at " + std::to_string(crossing)
+                           "garment and body cross at " + std::to_string(crossing)
                                + " places at the start; drape the garment first");
 }
 

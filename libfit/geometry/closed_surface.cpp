@@ -294,9 +294,11 @@ CgalMesh wrapped_body(const TriangleMesh& surface)
 {
     Body body = main_body(to_cgal(wrapped_surface(surface)));
     if (body.rival > 0)
-        throw InvalidInput("body: it is in pieces that lie apart, the second " + std::to_string(std::lround(100 * body.rival))
-                           + "% the size of the first (an island has at most " + std::to_string(std::lround(100 * k_rival))
-                           + "%); give one human body");
+        throw InvalidInput(ErrorCode::separate_pieces,
+                           "body: it is in pieces that lie apart, the second "
+                               + std::to_string(std::lround(100 * body.rival))
+                               + "% the size of the first (an island has at most "
+                               + std::to_string(std::lround(100 * k_rival)) + "%); give one human body");
     return std::move(body.mesh);
 }
 
@@ -319,8 +321,9 @@ TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
     repaired = true;
     const double size = diagonal(surface.positions);
     if (welded(surface, k_welds[0] * size).triangles.empty())
-        throw InvalidInput("body: all " + std::to_string(surface.triangles.rows())
-                           + " faces are degenerate; give a surface with area");
+        throw InvalidInput(ErrorCode::degenerate_mesh,
+                           "body: all " + std::to_string(surface.triangles.rows())
+                               + " faces have no area; give another surface");
     try {
         for (const double weld : k_welds)
             if (const CgalMesh mesh = closed_soup(welded(surface, weld * size)); is_solid(mesh))
@@ -330,8 +333,9 @@ TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
     } catch (const CGAL::Failure_exception&) {
         // told below, in the user's words
     }
-    throw InvalidInput("body: its " + std::to_string(surface.triangles.rows())
-                       + " faces cannot be closed to a solid; close the mesh or remesh it as one surface");
+    throw InvalidInput(ErrorCode::degenerate_mesh,
+                       "body: its " + std::to_string(surface.triangles.rows())
+                           + " faces cannot be closed to a solid; close the mesh or remesh it as one surface");
 }
 
 }  // namespace garmentfit

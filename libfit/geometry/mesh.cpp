@@ -16,10 +16,11 @@ void check(const char* what, const Positions& positions, const Triangles& triang
 {
     const std::string name(what);
     if (triangles.rows() == 0)
-        throw InvalidInput(name + " has no faces; give a surface mesh");
+        throw InvalidInput(ErrorCode::no_faces, name + ": no faces; give a surface mesh");
     for (Eigen::Index v = 0; v < positions.rows(); ++v)
         if (!positions.row(v).allFinite())
-            throw InvalidInput(name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
+            throw InvalidInput(ErrorCode::not_finite,
+                               name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
     require_named_vertices(name, positions.rows(), triangles);
 }
 
@@ -41,7 +42,9 @@ GarmentMesh make_garment(const Positions& positions, const Triangles& triangles)
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         area += area_vector(positions, triangles, f).norm();
     if (!(area > 0))
-        throw InvalidInput("garment: all " + std::to_string(triangles.rows()) + " faces are degenerate; give a surface with area");
+        throw InvalidInput(ErrorCode::degenerate_mesh,
+                           "garment: all " + std::to_string(triangles.rows())
+                               + " faces have no area; give another surface");
     return { positions, triangles };
 }
 

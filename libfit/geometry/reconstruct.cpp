@@ -76,8 +76,9 @@ Triangles reconstruct_surface(const Positions& points, const Progress& progress)
         thin_out(kept);
     }
     if (kept.size() < std::size_t(k_fewest_points))
-        throw InvalidInput("body: " + std::to_string(kept.size()) + " points are too few for a surface (at least "
-                           + std::to_string(k_fewest_points) + "); give a denser scan");
+        throw InvalidInput(ErrorCode::no_faces,
+                           "body: " + std::to_string(kept.size()) + " points are too few for a surface (at least "
+                               + std::to_string(k_fewest_points) + "); give a denser scan");
     progress.at(0.3);
 
     CGAL::Scale_space_surface_reconstruction_3<CgalKernel> scales;

@@ -4,24 +4,19 @@
 #include <algorithm>
 #include <fstream>
 
-#include "garmentfit/error.h"
-
 namespace garmentfit {
 
-void FileBytes::fail(const std::string& what) const
-{
-    throw InvalidInput(name + ": " + what);
-}
+void FileBytes::fail(const std::string& what, ErrorCode code) const { throw InvalidInput(code, name + ": " + what); }
 
-void FileBytes::fail_at_line_of(std::size_t offset, const std::string& what) const
+void FileBytes::fail_at_line_of(std::size_t offset, const std::string& what, ErrorCode code) const
 {
     const auto end = bytes.begin() + std::min(offset, bytes.size());
-    fail("line " + std::to_string(1 + std::count(bytes.begin(), end, '\n')) + ": " + what);
+    fail("line " + std::to_string(1 + std::count(bytes.begin(), end, '\n')) + ": " + what, code);
 }
 
-void FileBytes::fail_at_byte(std::size_t offset, const std::string& what) const
+void FileBytes::fail_at_byte(std::size_t offset, const std::string& what, ErrorCode code) const
 {
-    fail("byte " + std::to_string(offset) + ": " + what);
+    fail("byte " + std::to_string(offset) + ": " + what, code);
 }
 
 FileBytes read_file(const std::filesystem::path& path)

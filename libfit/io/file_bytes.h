@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "garmentfit/error.h"
+
 namespace garmentfit {
 
 /// Bytes [begin, end) of a file.
@@ -21,9 +23,11 @@ struct FileBytes {
 
     std::string_view text(Span span) const { return std::string_view(bytes).substr(span.begin, span.end - span.begin); }
 
-    [[noreturn]] void fail(const std::string& what) const;
-    [[noreturn]] void fail_at_line_of(std::size_t offset, const std::string& what) const;
-    [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& what) const;
+    [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_file) const;
+    [[noreturn]] void fail_at_line_of(std::size_t offset, const std::string& what,
+                                      ErrorCode code = ErrorCode::unreadable_file) const;
+    [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& what,
+                                   ErrorCode code = ErrorCode::unreadable_file) const;
 };
 
 /// @throws InvalidInput when there is no such regular, readable, non-empty file.

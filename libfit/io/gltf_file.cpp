@@ -180,8 +180,10 @@ private:
             std::uint32_t index = 0;
             std::memcpy(&index, model_.buffers[column.buffer].data.data() + column.offset(i), bytes);
             if (index >= block.positions.count)
-                file_.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i) + ", names vertex "
-                           + std::to_string(index) + " of " + std::to_string(block.positions.count));
+                file_.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i)
+                               + ", names vertex " + std::to_string(index) + " of "
+                               + std::to_string(block.positions.count),
+                           ErrorCode::bad_index);
             indices.push_back(static_cast<int>(index));
         }
         return indices;
@@ -316,8 +318,9 @@ void read_values(const FileBytes& file, GltfContent& content, Eigen::Index rows)
             const Eigen::Index row = block.first_row + static_cast<Eigen::Index>(i);
             content.positions.row(row) = block.world_from_local * value_at(content.buffers, block.positions, i);
             if (!content.positions.row(row).allFinite())
-                file.fail("POSITION (accessor " + std::to_string(block.positions.accessor) + "), vertex " + std::to_string(i)
-                          + ", is not finite; repair the file");
+                file.fail("POSITION (accessor " + std::to_string(block.positions.accessor) + "), vertex "
+                              + std::to_string(i) + ", is not finite; repair the file",
+                          ErrorCode::not_finite);
             if (block.normals)
                 content.normals.row(row) = world_from_local_normal * value_at(content.buffers, *block.normals, i);
         }

@@ -39,7 +39,9 @@ MeshFile MeshFile::read(const std::filesystem::path& path)
 {
     MeshFile mesh = read_points(path);
     if (mesh.triangles().rows() == 0)
-        throw InvalidInput(path.string() + ": has no faces; give a surface mesh, or --reconstruct the points of a body");
+        throw InvalidInput(ErrorCode::no_faces,
+                           path.string()
+                               + ": has no faces; give a surface mesh, or --reconstruct the points of a body");
     return mesh;
 }
 
@@ -57,8 +59,10 @@ const std::string& MeshFile::format() const { return content_->format; }
 void MeshFile::write(const std::filesystem::path& path, const Positions& positions) const
 {
     if (positions.rows() != content_->positions.rows())
-        throw InvalidInput(path.string() + ": cannot write " + std::to_string(positions.rows()) + " positions into a mesh of "
-                           + std::to_string(content_->positions.rows()) + " vertices");
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           path.string() + ": cannot write " + std::to_string(positions.rows())
+                               + " positions into a mesh of " + std::to_string(content_->positions.rows())
+                               + " vertices");
     write_file(path, content_->bytes_with(positions));
 }
 

@@ -105,7 +105,9 @@ std::vector<int> corners_in(const FileBytes& file, Words& words, int vertices)
     for (int k = 0; k < count; ++k) {
         const long long index = words.next_integer();
         if (index < 0 || index >= vertices)
-            file.fail_at_line_of(words.at(), "the face names vertex " + std::to_string(index) + " of " + std::to_string(vertices));
+            file.fail_at_line_of(words.at(),
+                                 "the face names vertex " + std::to_string(index) + " of " + std::to_string(vertices),
+                                 ErrorCode::bad_index);
         corners.push_back(static_cast<int>(index));
     }
     return corners;

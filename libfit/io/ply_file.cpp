@@ -158,11 +158,11 @@ public:
     /// The least that a value takes in this file.
     std::size_t least_bytes(Scalar type) const { return encoding_ == Encoding::ascii ? 1 : size_of(type); }
 
-    [[noreturn]] void fail(const std::string& what) const
+    [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_file) const
     {
         if (encoding_ == Encoding::ascii)
-            file_.fail_at_line_of(place_.begin, what);
-        file_.fail_at_byte(place_.begin, what);
+            file_.fail_at_line_of(place_.begin, what, code);
+        file_.fail_at_byte(place_.begin, what, code);
     }
 
 private:
@@ -288,7 +288,7 @@ Table read_vertices(Body& body, const Element& element, const std::vector<int>& 
         if (columns[p] < 0)
             return;
         if (columns[p] < 3 && !std::isfinite(value))
-            body.fail("vertex " + std::to_string(row) + " is not finite; repair the file");
+            body.fail("vertex " + std::to_string(row) + " is not finite; repair the file", ErrorCode::not_finite);
         table(row, columns[p]) = value;
     };
     walk(body, element, on_scalar, [](auto&&...) { });
@@ -303,7 +303,8 @@ std::vector<int> corners_of(const Body& body, std::size_t face, const std::vecto
     for (const double index : list) {
         if (!(index >= 0 && index < static_cast<double>(vertices)) || index != std::floor(index))
             body.fail("face " + std::to_string(face) + " names vertex " + text_of(index) + " of "
-                      + std::to_string(vertices));
+                          + std::to_string(vertices),
+                      ErrorCode::bad_index);
         corners.push_back(static_cast<int>(index));
     }
     return corners;

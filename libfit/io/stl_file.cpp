@@ -174,7 +174,8 @@ ContentPtr read_binary(FileBytes file)
             const std::size_t offset = facet + (1 + k) * k_triple_bytes;
             const Vec3 vertex = triple_at(file, offset);
             if (!vertex.allFinite())
-                file.fail_at_byte(offset, "facet " + std::to_string(f) + " is not finite; repair the file");
+                file.fail_at_byte(offset, "facet " + std::to_string(f) + " is not finite; repair the file",
+                                  ErrorCode::not_finite);
             content->triangles(f, k) = weld.row_of(vertex);
         }
     }

@@ -37,7 +37,8 @@ double metres_per(std::string_view unit)
     for (const KnownUnit& known : k_known_units)
         if (known.name == unit)
             return known.metres;
-    throw InvalidInput("unknown unit '" + std::string(unit) + "'; known are m, dm, cm, mm, in, ft");
+    throw InvalidInput(ErrorCode::unknown_name,
+                       "unknown unit '" + std::string(unit) + "'; known are m, dm, cm, mm, in, ft");
 }
 
 Vec3 axis_of(std::string_view name)
@@ -45,7 +46,8 @@ Vec3 axis_of(std::string_view name)
     const bool is_signed = !name.empty() && (name[0] == '+' || name[0] == '-');
     const std::string_view letter = name.substr(is_signed ? 1 : 0);
     if (letter.size() != 1 || letter[0] < 'x' || letter[0] > 'z')
-        throw InvalidInput("unknown axis '" + std::string(name) + "'; known are +x, -x, +y, -y, +z, -z");
+        throw InvalidInput(ErrorCode::unknown_name,
+                           "unknown axis '" + std::string(name) + "'; known are +x, -x, +y, -y, +z, -z");
     return (name[0] == '-' ? -1.0 : 1.0) * Vec3::Unit(letter[0] - 'x');
 }
 

@@ -107,7 +107,8 @@ Triple next_finite_triple(Words& words, const FileBytes& file)
 {
     const Triple triple = next_triple(words, file);
     if (!triple.values.allFinite())
-        file.fail_at_line_of(triple.span.begin, quoted(file.text(triple.span)) + " is not finite; repair the file");
+        file.fail_at_line_of(triple.span.begin, quoted(file.text(triple.span)) + " is not finite; repair the file",
+                             ErrorCode::not_finite);
     return triple;
 }
 

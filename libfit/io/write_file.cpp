@@ -31,7 +31,9 @@ void write_file(const std::filesystem::path& path, std::string_view bytes)
     if (!written || error) {
         std::error_code ignored;
         std::filesystem::remove(part, ignored);
-        throw InvalidInput(path.string() + ": cannot be written; check that the folder exists, its permissions and the space left");
+        throw InvalidInput(
+            ErrorCode::unwritable_file,
+            path.string() + ": cannot be written; check that the folder exists, its permissions and the space left");
     }
 }
 
