@@ -57,7 +57,7 @@ std::vector<GarmentMesh> meshes_of(const std::vector<GarmentInput>& garments)
     return meshes;
 }
 
-/// One pose for all garments where there is one, else each keeps its own.
+/// Finds one pose for all garments; where there is none, each keeps the pose of its fit.
 void fit_together(Scene& scene, const Progress& progress)
 {
     const CommonFit common = fit_common_pose(*scene.rig, meshes_of(scene.garments), scene.fits, progress);

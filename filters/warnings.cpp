@@ -72,8 +72,8 @@ std::vector<std::string> warnings_about_layers(const Scene& scene, const std::ve
     std::string order;
     for (const std::string& name : in_order)
         order += (order.empty() ? "" : ", ") + name;
-    return { "by type and width, the garments would go over each other in this order, from the inside out: " + order
-             + "; give them in it, or " + set("layer_order") + " auto" };
+    return { "types and widths of the garments suggest another order, from the inside out: " + order
+             + "; give them in this order, or " + set("layer_order") + " auto" };
 }
 
 std::vector<std::string> warnings_about_dressing(const Dressing& end, const std::vector<std::string>& names)

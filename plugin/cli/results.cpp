@@ -60,7 +60,7 @@ std::vector<std::string> comments_of(const Dressing& dressing)
     return { text.str() };
 }
 
-/// The user's own numbers where the body is where it was.
+/// The numbers of the input file where the body is in its input pose.
 Positions body_in_file(const Session& session, const Positions& in_metres)
 {
     return in_metres == session.scene.body->surface.positions ? session.body.file.positions()
@@ -91,7 +91,7 @@ void certify_as_written(const Session& session, Dressing& dressing, const fs::pa
     certify_as_kept(dressing, session.scene.body->surface.triangles, written);
 }
 
-/// Ease in the file's own unit, strain, and pressure in pascal at each vertex of a dressed garment.
+/// Ease in the unit of the file, strain, and pressure in pascal at each vertex of a dressed garment.
 void write_maps(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
     fs::create_directories(folder);

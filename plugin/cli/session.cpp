@@ -59,7 +59,7 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     session.garments.push_back(std::move(garment));
 }
 
-/// The units and axes in which a rig's own mesh lies on the body: the body's, or glTF's own.
+/// The units and axes in which the mesh of a rig coincides with the body: those of the body, or those of glTF.
 Frame frame_on_body(const Session& session, const fs::path& glb)
 {
     const Positions body = session.scene.body->surface.positions, mesh = MeshFile::read(glb).positions();

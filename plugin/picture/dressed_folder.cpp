@@ -25,7 +25,8 @@ Json read_json(const fs::path& path)
 {
     std::ifstream file(path);
     if (!file)
-        throw InvalidInput("cannot read " + path.string() + "; give a folder that garmentfit dress, fit or rig wrote");
+        throw InvalidInput(ErrorCode::unreadable_file,
+                           path.string() + ": cannot be read; give a folder that garmentfit dress, fit or rig wrote");
     return Json::parse(file);
 }
 
@@ -51,7 +52,7 @@ State read_state(const fs::path& folder, const Frame& frame, const Json& rig, co
     return state;
 }
 
-/// Where the chest faces once a garment's pose is taken.
+/// Where the chest faces in the pose of a garment.
 Vec3 fitted_front(const Json& rig, const Json& garment, const Frame& frame)
 {
     const Json q = garment.at("pose").at("root_rotation");
@@ -132,7 +133,8 @@ std::vector<double> column_of(const fs::path& path, const std::string& name)
     for (VertexProperty& property : read_ply_properties(path))
         if (property.name == name)
             return std::move(property.values);
-    throw InvalidInput(path.string() + " has no property \"" + name + "\"; there are ease, strain and pressure");
+    throw InvalidInput(ErrorCode::missing_input,
+                       path.string() + ": no property \"" + name + "\"; there are ease, strain and pressure");
 }
 
 struct Shown {
@@ -150,7 +152,7 @@ Shown shown_as(const std::string& map, double metres_per_unit)
     return { map + ", Pa", 1, false };
 }
 
-/// Up to what all but a twentieth of the values stay below, so that a few do not wash out the rest.
+/// Ends at the 95th percentile of the values, so that a few large ones do not take all the colours.
 Scale scale_of(const std::vector<Eigen::VectorXd>& values, const Shown& shown)
 {
     std::vector<double> all;
@@ -199,7 +201,7 @@ bool is_fit_folder(const fs::path& folder)
     return !is_rig_folder(folder) && read_json(folder / "report.json").at("command") == "fit";
 }
 
-/// @param garments  of rig.json; without layers they stand there from the inside out
+/// @param garments  of rig.json; without layers they are in order from the inside out
 const Json& outermost(const Json& garments)
 {
     const Json* result = &garments.at(0);
@@ -219,7 +221,7 @@ std::vector<FittedGarment> read_fit_folder(const fs::path& folder)
         const std::string name = garment.at("file").get<std::string>();
         State state { {}, { read_mesh(folder / name, frame_of(garment)) }, fitted_front(rig, garment, frame) };
         state.bones = fitted_bones(garment.at("fitted"), score.at("bones"), frame);
-        state.scale = { "room, %", 0, 100, true };
+        state.scale = { "clearance, %", 0, 100, true };
         fitted.push_back({ name, state, frame.metres_per_unit * score.at("before").get<double>(),
                            frame.metres_per_unit * score.at("after").get<double>() });
     }
@@ -233,7 +235,7 @@ DressedFolder read_dressed_folder(const fs::path& folder)
     const Vec3 front = frame.rotation() * vector_of(rig.at("front"));
 
     DressedFolder read;
-    read.own = { read_mesh(folder / "rigged.ply", frame), {}, front };
+    read.input = { read_mesh(folder / "rigged.ply", frame), {}, front };
     read.given.front = fitted_front(rig, outermost(rig.at("garments")), frame);
     for (const Json& garment : rig.at("garments"))
         read.given.garments.push_back(

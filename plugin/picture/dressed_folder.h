@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What `garmentfit rig`, `fit` or `dress` wrote, read for looking at.
+// Reads what `garmentfit rig`, `fit` or `dress` wrote, to draw it.
 
 #include <filesystem>
 #include <optional>
@@ -15,7 +15,7 @@ namespace garmentfit::picture {
 struct ShownBone {
     Vec3 head, tail;
     int side = 0;  ///< 0 the middle, 1 left, 2 right
-    std::optional<double> value {};  ///< shown by colour instead, by the state's scale
+    std::optional<double> value {};  ///< drawn as a colour of the state's scale, instead of the side's
 };
 
 /// How numbers become colours.
@@ -25,28 +25,28 @@ struct Scale {
     bool red_is_low = false;
 };
 
-/// One moment of dressing, in metres with +y up.
+/// Body and garments in one state of dressing, in metres with +y up.
 struct State {
-    TriangleMesh body;  ///< no faces: none shown
+    TriangleMesh body;  ///< no faces: none is drawn
     std::vector<TriangleMesh> garments;  ///< from the inside out
     Vec3 front = Vec3::UnitZ();  ///< where the body's chest faces
-    std::vector<ShownBone> bones {};  ///< where there are some, body and garments are shown transparent
+    std::vector<ShownBone> bones {};  ///< with bones, body and garments are drawn transparent
     Positions colours {};  ///< of the body's vertices, red, green, blue from 0 to 1; none: skin
-    std::vector<Eigen::VectorXd> values {};  ///< of each garment's vertices, shown by colour; none: plain cloth
+    std::vector<Eigen::VectorXd> values {};  ///< of each garment's vertices, drawn as colours; none: plain cloth
     Scale scale {};
 };
 
 struct DressedFolder {
-    State own;  ///< the body alone
+    State input;  ///< the body alone, in its input pose
     State given;  ///< the garments alone, as given
-    State fitted;  ///< garments and body in the fitted pose; empty when dressing ended before
+    State fitted;  ///< garments and body in the fitted pose; empty where dressing ended before it
     State dressed;  ///< as dressed
     std::string verdict;  ///< "certified: ..." or why not
 };
 
 /// Whether a folder holds a rig and no garments: what `garmentfit rig` wrote. @throws InvalidInput.
 bool is_rig_folder(const std::filesystem::path& folder);
-/// The body with its bones, each vertex in the colours of the bones that it hangs on. @throws InvalidInput.
+/// The body with its bones, each vertex in the colours of the bones that move it. @throws InvalidInput.
 State read_rig_folder(const std::filesystem::path& folder);
 
 /// A garment and the bones fitted to it.
@@ -58,7 +58,7 @@ struct FittedGarment {
 
 /// Whether `garmentfit fit` wrote it. @throws InvalidInput.
 bool is_fit_folder(const std::filesystem::path& folder);
-/// Each garment with its bones, coloured by how central they run; grey where the garment does not cover them. @throws InvalidInput.
+/// Each garment with its bones, coloured by clearance; grey where the garment does not cover them. @throws InvalidInput.
 std::vector<FittedGarment> read_fit_folder(const std::filesystem::path& folder);
 
 /// The dressed body, its garments coloured by "ease", "strain" or "pressure". @throws InvalidInput.

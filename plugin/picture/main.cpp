@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// garmentfit-picture: what `garmentfit dress`, `fit` or `rig` wrote, side by side.
+// garmentfit-picture: the results of `garmentfit dress`, `fit` or `rig`, side by side.
 
 #include <cstdlib>
 #include <iomanip>
@@ -18,12 +18,12 @@ namespace {
 
 using namespace garmentfit::picture;
 
-constexpr double k_half_turn = 3.14159;
+constexpr double k_half_turn = 3.14159;  // radians
 constexpr double k_part_turn = 0.7;  // radians; shows a sleeve and the front at once
 
 std::vector<Panel> panels_of(const DressedFolder& folder)
 {
-    std::vector<Panel> panels { { &folder.own, "body", 0 }, { &folder.given, "garment as given", 0 } };
+    std::vector<Panel> panels { { &folder.input, "body", 0 }, { &folder.given, "garment as given", 0 } };
     if (folder.fitted.body.triangles.rows() > 0)
         panels.push_back({ &folder.fitted, "fitted: body in the garment", 0 });
     panels.push_back({ &folder.dressed, "dressed", 0 });
@@ -51,7 +51,7 @@ std::vector<Panel> panels_of(const std::vector<FittedGarment>& fitted)
 std::string headline_of(const std::vector<FittedGarment>& fitted)
 {
     std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << "bones by the room they have; E";
+    text << std::fixed << std::setprecision(2) << "bones coloured by clearance; E";
     for (const FittedGarment& garment : fitted)
         text << (&garment == &fitted.front() ? " " : "; ") << garment.score_before << " -> " << garment.score_after
              << " m";
@@ -62,7 +62,7 @@ void draw_folder(const std::string& folder, const std::string& map, int height, 
 {
     if (!map.empty()) {
         const State coloured = read_map(folder, map);
-        draw(panels_of(coloured), "how it sits: " + coloured.scale.title, height, output);
+        draw(panels_of(coloured), "fit map: " + coloured.scale.title, height, output);
     } else if (is_rig_folder(folder)) {
         const State rigged = read_rig_folder(folder);
         draw(panels_of(rigged), "bones: left blue, right red; skin in the colours of its bones", height, output);
@@ -82,7 +82,7 @@ int main(int argc, char** argv)
     std::string folder, output, map;
     int height = 800;
     CLI::App app("Draws what garmentfit dress wrote: body, garment, fitted state and dressed result; what "
-                 "garmentfit fit wrote: bones in the garment, coloured by how central they run; or what "
+                 "garmentfit fit wrote: bones in the garment, coloured by their clearance in it; or what "
                  "garmentfit rig wrote: bones and weights",
                  "garmentfit-picture");
     app.set_version_flag("--version", "garmentfit-picture " GARMENTFIT_VERSION);
@@ -98,8 +98,8 @@ int main(int argc, char** argv)
                "  xvfb-run -a garmentfit-picture dressed --map ease -o ease.png\n");
     CLI11_PARSE(app, argc, argv);
     try {
-        if (!std::getenv("DISPLAY"))  // VTK would end the process without a word on what to do
-            throw garmentfit::InvalidInput("no display; run it under xvfb-run -a");
+        if (!std::getenv("DISPLAY"))  // VTK would end the process without saying what to do
+            throw garmentfit::InvalidInput("no display for the picture; run the command under xvfb-run -a");
         draw_folder(folder, map, height, output);
     } catch (const std::exception& error) {
         std::cerr << "garmentfit-picture: " << error.what() << '\n';

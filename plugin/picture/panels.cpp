@@ -40,13 +40,13 @@ constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15,
 constexpr Colour k_cloth[]
     = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
 constexpr Colour k_bones[] = { { 0.25, 0.25, 0.3 }, { 0.1, 0.35, 0.85 }, { 0.85, 0.15, 0.1 } };  // middle, left, right
-constexpr Colour k_bare_bone { 0.6, 0.6, 0.6 };  // not covered
+constexpr Colour k_uncovered_bone { 0.6, 0.6, 0.6 };  // not covered
 constexpr double k_see_through_cloth = 0.3;  // opacity; of each of two or more sheets in front of a bone
 constexpr double k_see_through = 0.45, k_bone_thickness = 0.012;  // opacity; of half the picture's height
 constexpr Colour k_lining { 0.80, 0.30, 0.30 };  // back faces of all cloth
-constexpr double k_narrowest = 0.42, k_widest = 1;  // width / height of a panel; a caption has to stand under it
+constexpr double k_narrowest = 0.42, k_widest = 1;  // width / height of a panel; a caption must fit under it
 constexpr double k_legend_aspect = 0.22;  // width / height of the strip at the right
-constexpr double k_margin = 1.06;  // room around the largest figure
+constexpr double k_margin = 1.06;  // space around the largest body
 constexpr double k_text_height = 0.075;  // of the picture, above and below the figures
 
 vtkNew<vtkPolyDataNormals> shaded(const TriangleMesh& mesh)
@@ -135,7 +135,7 @@ vtkNew<vtkScalarBarActor> legend_of(const Scale& scale, int font)
     return bar;
 }
 
-/// See-through, in the colours of the bones that each vertex hangs on.
+/// Transparent, in the colours of the bones that move each vertex.
 vtkNew<vtkActor> transparent_body(const State& state)
 {
     vtkNew<vtkActor> actor = actor_of(state.body, k_skin);
@@ -187,7 +187,7 @@ vtkNew<vtkActor2D> text_of(const std::string& words, int size, double x, double 
 Colour colour_of(const ShownBone& bone, const State& state)
 {
     if (!bone.value)
-        return state.scale.title.empty() ? k_bones[bone.side] : k_bare_bone;
+        return state.scale.title.empty() ? k_bones[bone.side] : k_uncovered_bone;
     Colour colour;
     colours_of(state.scale)->GetColor(*bone.value, colour.data());
     return colour;
@@ -257,7 +257,7 @@ double common_scale(const std::vector<Panel>& panels)
     return k_margin * scale;
 }
 
-/// Width / height of each panel: wide figures get more room.
+/// Width / height of each panel, wider for a wide body.
 std::vector<double> aspects_of(const std::vector<Panel>& panels, double scale)
 {
     std::vector<double> aspects;
@@ -304,7 +304,7 @@ vtkNew<vtkRenderer> renderer_of(const Panel& panel, double scale)
     return renderer;
 }
 
-/// What stands behind the panels: paper and words.
+/// The background of the panels, and the texts.
 vtkNew<vtkRenderer> page_of(const std::string& headline, int font)
 {
     vtkNew<vtkRenderer> page;

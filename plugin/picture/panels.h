@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// States side by side, at one scale, with captions. Needs a display; xvfb-run will do.
+// States side by side, at one scale, with captions. Needs a display, such as that of xvfb-run.
 
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@ namespace garmentfit::picture {
 struct Panel {
     const State* state = nullptr;
     std::string caption;
-    double turn = 0;  ///< radians; the viewer walks round the front, towards the body's own left
+    double turn = 0;  ///< radians, of the viewer round the body, from its front towards its left side
 };
 
 void draw(const std::vector<Panel>& panels, const std::string& headline, int height, const std::filesystem::path& png);

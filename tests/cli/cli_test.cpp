@@ -318,7 +318,8 @@ TEST_F(CommandLine, TakesTheUsersRigFromRigJsonOrFromASkinnedGlb)
     const auto given = joints_in(folder / "rigged/rig.json");
     for (const char* rig : { "rig.json", "rigged.glb" }) {
         const fs::path fitted = folder / rig / "fitted";
-        ASSERT_EQ(run({ "fit", k_body, k_skirt, "--type", "skirt", "--rig", folder / "rigged" / rig, "-o", fitted }).code, 0);
+        ASSERT_EQ(
+            run({ "fit", k_body, k_skirt, "--type", "skirt", "--rig", folder / "rigged" / rig, "-o", fitted }).code, 0);
         const auto taken = joints_in(fitted / "rig.json");
         for (const auto& [name, p] : given)
             EXPECT_LT((taken.at(name) - p).norm(), 1e-5) << rig << ": " << name;  // a GLB has floats
@@ -367,12 +368,12 @@ TEST_F(CommandLine, SaysWhyWhatIsNoGarmentCannotBeWorn)
     };
     expect(write("square.obj", grid_obj(20, 20, [](double u, double v) { return Eigen::Vector3d(u, v, 0); })),
            "only one opening");
-    expect(write("sock.obj", grid_obj(24, 20,
-                                      [](double u, double v) {
-                                          const double radius = 0.05 * std::min(1.0, 4 * v), turn = 6.283185307179586 * u;
-                                          return Eigen::Vector3d(radius * std::cos(turn), 0.3 * v,
-                                                                 radius * std::sin(turn));
-                                      })),
+    expect(write("sock.obj",
+                 grid_obj(24, 20,
+                          [](double u, double v) {
+                              const double radius = 0.05 * std::min(1.0, 4 * v), turn = 6.283185307179586 * u;
+                              return Eigen::Vector3d(radius * std::cos(turn), 0.3 * v, radius * std::sin(turn));
+                          })),
            "opening");
     expect(write("ten.obj", scattered_obj(10, 1)), "10 triangles");
     expect(write("buttons.obj", scattered_obj(1000, 0.01)), "1000 loose pieces");
@@ -382,13 +383,15 @@ TEST_F(CommandLine, SaysWhyWhatIsNoGarmentCannotBeWorn)
 
 TEST_F(CommandLine, FitsSkirtAndCoatInOnePose)
 {
-    const Ended ended = run({ "fit", k_body, k_skirt, GARMENTFIT_SAMPLES "/coat.ply", "--json", "-o", folder / "fitted" });
+    const Ended ended
+        = run({ "fit", k_body, k_skirt, GARMENTFIT_SAMPLES "/coat.ply", "--json", "-o", folder / "fitted" });
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_TRUE(report.at("one_pose").get<bool>());
     EXPECT_TRUE(report.at("conflicts").empty());
-    const auto room = report.at("garments").at(1).at("score").at("bones").at("lhumerus").at("clearance").get<double>();
-    EXPECT_TRUE(room > 0.5 && room <= 1) << room;
+    const auto clearance
+        = report.at("garments").at(1).at("score").at("bones").at("lhumerus").at("clearance").get<double>();
+    EXPECT_TRUE(clearance > 0.5 && clearance <= 1) << clearance;
     const auto garments = nlohmann::json::parse(read_text(folder / "fitted/rig.json")).at("garments");
     EXPECT_EQ(garments.at(0).at("pose").at("rotations"), garments.at(1).at("pose").at("rotations"));
     EXPECT_EQ(garments.at(1).at("fitted").size(), 17u);
@@ -400,7 +403,8 @@ class Slow : public CommandLine { };
 TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
 {
     const fs::path fitted = folder / "fitted", draped = folder / "draped";
-    ASSERT_EQ(run({ "fit", k_body, GARMENTFIT_SAMPLES "/coat.ply", k_skirt, "--layer-order", "found", "-o", fitted }).code, 0);
+    ASSERT_EQ(
+        run({ "fit", k_body, GARMENTFIT_SAMPLES "/coat.ply", k_skirt, "--layer-order", "auto", "-o", fitted }).code, 0);
     const auto rig = nlohmann::json::parse(read_text(fitted / "rig.json"));
     EXPECT_EQ(rig.at("garments").at(0).at("layer"), 1);
     EXPECT_EQ(rig.at("garments").at(1).at("layer"), 0);
@@ -493,14 +497,14 @@ TEST_F(Slow, ChangesAllOrNothingWhereverItIsStopped)
     for (int i = 0; i < k_stops; ++i) {
         const bool is_new = i % 2 == 0;
         const int signal = i % 4 < 2 ? SIGINT : SIGTERM;
-        const double moment
+        const double share
             = (i + random() / double(std::mt19937::max())) / k_stops;  // of the run: one in each part of it
         fs::remove_all(result);
         if (!is_new)
             fs::copy(earlier, result, fs::copy_options::recursive);
         const pid_t pid = start(arguments("0.3"));
         wait_until_caught(pid, signal);
-        std::this_thread::sleep_for(moment * whole);
+        std::this_thread::sleep_for(share * whole);
         kill(pid, signal);
         const Ended ended = wait_for(pid);
         const auto after = contents_of(result);
@@ -508,7 +512,7 @@ TEST_F(Slow, ChangesAllOrNothingWhereverItIsStopped)
             ++stopped;
             EXPECT_EQ(ended.error_lines(), 1) << ended.err;
             EXPECT_EQ(fs::exists(result), !is_new);
-            EXPECT_TRUE(is_new || after == before) << "stopped after " << moment << " of the run";
+            EXPECT_TRUE(is_new || after == before) << "stopped after " << share << " of the run";
         } else {  // it was about done
             EXPECT_EQ(ended.code, 0) << ended.err;
             EXPECT_EQ(after.size(), before.size() - (is_new ? 1 : 0));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "garmentfit/filters/warnings.h"
+#include "fixtures.h"
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/filters/outcome.h"
-#include "fixtures.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/layer_order.h"
 
 namespace garmentfit {
@@ -21,7 +21,7 @@ GarmentInput trousers(double ease)
     return { make_garment(mesh.positions, mesh.triangles), GarmentType::trousers };
 }
 
-/// A person whose own pose is that of all the garments.
+/// A person whose input pose is that of all the garments.
 Scene scene_with(const std::vector<GarmentInput>& garments)
 {
     fixtures::PersonOptions options;
@@ -90,8 +90,8 @@ TEST(LayerOrder, FittingFindsItWhereAskedToAndElseOnlyWarns)
     const HowToSet set = [](std::string_view parameter) { return "set " + std::string(parameter); };
     const auto warns = [&] {
         const std::vector<std::string> warnings = warnings_about_scene(scene, k_names, set);
-        return std::any_of(warnings.begin(), warnings.end(), [](const std::string& doubt) {
-            return doubt.find("from the inside out: second, first; give them in that, or set layer_order auto")
+        return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+            return warning.find("from the inside out: second, first; give them in this order, or set layer_order auto")
                 != std::string::npos;
         });
     };

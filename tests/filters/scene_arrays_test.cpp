@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/filters/given_rig.h"
 #include "fixtures.h"
+#include "garmentfit/filters/given_rig.h"
 
 namespace garmentfit {
 namespace {

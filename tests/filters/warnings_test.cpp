@@ -41,9 +41,10 @@ TEST(Warnings, SayWhichParameterSettlesThem)
     EXPECT_EQ(warnings_of(scene),
               (Lines { "which side of the body is left is guessed with low confidence; if it is wrong, set swap_sides",
                        "the type of coat is guessed with low confidence: coat; if it is wrong, set type" }));
-    EXPECT_EQ(warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
-              (Lines { "the unit of coat is guessed with low confidence (it is wide); if it is wrong, set garment_unit",
-                       "the up axis of coat is guessed with low confidence (it is wide); if it is wrong, set garment_up" }));
+    EXPECT_EQ(
+        warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
+        (Lines { "the unit of coat is guessed with low confidence (it is wide); if it is wrong, set garment_unit",
+                 "the up axis of coat is guessed with low confidence (it is wide); if it is wrong, set garment_up" }));
 }
 
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
@@ -64,7 +65,8 @@ TEST(Warnings, SayThatAGarmentTooSmallIsLeftOut)
     Scene scene = worn_scene();
     scene.draped->garments.pop_back();
     scene.draped->too_tight = { { 1, "hips", 0.1, 0.2 } };
-    EXPECT_EQ(warnings_of(scene), (Lines { "coat is left out of the result: it is too small to go over body and garments under it" }));
+    EXPECT_EQ(warnings_of(scene),
+              (Lines { "coat is left out of the result: it is too small to go over body and garments under it" }));
 }
 
 TEST(Warnings, SayWhereClothIsOverstretched)
@@ -91,8 +93,10 @@ TEST(Warnings, SayThatCrossingsAsGivenAreStillThere)
     scene.draped->garments[1].certificate.input_self_crossings = 9;
     EXPECT_EQ(warnings_of(scene), Lines()) << "all of them came apart";
     scene.draped->garments[1].certificate.kept_self_crossings = { { 0, 5 }, { 1, 7 } };
-    EXPECT_EQ(warnings_of(scene),
-              (Lines { "coat crossed itself as it was given, and could not be parted everywhere: 2 of 9 crossings are left" }));
+    EXPECT_EQ(
+        warnings_of(scene),
+        (Lines {
+            "coat crossed itself as it was given, and could not be parted everywhere: 2 of 9 crossings are left" }));
 }
 
 }  // namespace
