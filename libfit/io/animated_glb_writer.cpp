@@ -11,12 +11,13 @@ namespace {
 std::size_t frames_of(const std::vector<MovingMesh>& meshes)
 {
     if (meshes.empty() || meshes.front().frames.empty())
-        throw InvalidInput("animated GLB: no frames to write; give a mesh with at least one frame");
+        throw InvalidInput(ErrorCode::missing_input, "animated GLB: no frames to write; give a mesh with at least one frame");
     for (const MovingMesh& mesh : meshes)
         if (mesh.frames.size() != meshes.front().frames.size())
-            throw InvalidInput("animated GLB: " + mesh.name + " has " + std::to_string(mesh.frames.size()) + " frames, "
-                               + meshes.front().name + " has " + std::to_string(meshes.front().frames.size())
-                               + "; give all meshes the same number");
+            throw InvalidInput(ErrorCode::count_mismatch,
+                               "animated GLB: " + mesh.name + " has " + std::to_string(mesh.frames.size()) + " frames, "
+                                   + meshes.front().name + " has " + std::to_string(meshes.front().frames.size())
+                                   + "; give all meshes the same number");
     return meshes.front().frames.size();
 }
 

@@ -35,8 +35,9 @@ int row_named(const FileBytes& file, Span word, Eigen::Index so_far, Eigen::Inde
     const long long index = integer_in(file, word);
     const long long row = index < 0 ? so_far + index : index - 1;
     if (row < 0 || row >= all)
-        file.fail_at_line_of(word.begin, "the face names " + std::string(what) + " " + std::to_string(index) + " of "
-                                             + std::to_string(all),
+        file.fail_at_line_of(word.begin,
+                             "the face names " + std::string(what) + " " + std::to_string(index) + " of "
+                                 + std::to_string(all),
                              ErrorCode::bad_index);
     return static_cast<int>(row);
 }

@@ -80,8 +80,9 @@ TEST(Schema, EmptyValuesSayWhatHoldsInstead)
     const Parameters parameters;
     describe(filter_of("dress"), parameters, [](const auto& value, const About& about) {
         EXPECT_EQ(about.otherwise.empty(), !is_optional<decltype(value)>) << about.name;
-        if (is_optional<decltype(value)>)
+        if (is_optional<decltype(value)>) {
             EXPECT_EQ(text_of(value, about), about.otherwise) << about.name;
+        }
     });
 }
 
