@@ -23,6 +23,11 @@ bool is_known(const Radii& radii)
     return std::any_of(radii.begin(), radii.end(), [](double radius) { return radius > 0; });
 }
 
+double diagonal_of(const Positions& positions)
+{
+    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
 std::string millimetres(double metres) { return std::to_string(std::lround(1000 * metres)) + " mm"; }
 
 void require_same_count(Eigen::Index rigged, Eigen::Index here, const std::string& called)
@@ -52,10 +57,11 @@ void require_whole_weights(const SkinWeights& skin, const std::string& called)
                                    + std::to_string(sum) + " instead of 1; rig this body");
 }
 
-void require_same_radii(const Radii& rigged, const Radii& here, const std::string& called)
+/// @param same_place  m
+void require_same_radii(const Radii& rigged, const Radii& here, double same_place, const std::string& called)
 {
     for (int b = 0; b < bone_count; ++b)
-        if (std::abs(rigged[b] - here[b]) > k_same_radius * rigged[b] + k_same_place)
+        if (std::abs(rigged[b] - here[b]) > k_same_radius * rigged[b] + same_place)
             throw InvalidInput(ErrorCode::rig_mismatch,
                                called + " belongs to another body, or this one was moved since: the skin was "
                                    + millimetres(rigged[b]) + " from bone " + std::string(bone_name(b)) + " and is "
@@ -71,7 +77,7 @@ Rig rig_on(Rig rig, const Positions& own, const std::string& called)
     require_whole_weights(rig.weights, called);
     const Radii here = bone_radii(rig.skeleton, rig.weights, own);
     if (is_known(rig.radii))
-        require_same_radii(rig.radii, here, called);
+        require_same_radii(rig.radii, here, k_same_place * std::min(1.0, diagonal_of(own)), called);
     rig.radii = here;
     return rig;
 }
