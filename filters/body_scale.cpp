@@ -7,13 +7,14 @@
 namespace garmentfit {
 namespace {
 
-// derived: a human of height h, m, and body mass index 24 weighs 24 h^2 kg and displaces a litre a kilogram. At 1.7 m that is
-// 0.069 m^3, whose cube root goes 4.1 times into the height; 4.7 times at an index of 16, 3.6 times at one of 36.
+// derived: a human of height h, m, and body mass index 24 weighs 24 h^2 kg and displaces a litre a kilogram. At 1.7 m
+// that is 0.069 m^3, whose cube root goes 4.1 times into the height; 4.7 times at an index of 16, 3.6 times at one of
+// 36.
 constexpr double k_height_by_volume = 4.1;
 // derived: 0.5 m and 2.5 m tall, with the spread above and rounded outwards, so that no body between them is scaled. m
 constexpr double k_smallest = 0.4, k_largest = 3;
-// unit: where a power of ten makes an adult of the body it is taken, and a body at a tenth of its size gets the result of the
-// whole one; else the body becomes one of k_middle. m
+// unit: where a power of ten makes an adult of the body it is taken, and a body at a tenth of its size gets the result
+// of the whole one; else the body becomes one of k_middle. m
 constexpr double k_shortest_adult = 1, k_tallest_adult = 2.5, k_middle = 1.7;
 
 /// Enclosed by a closed surface, m^3.

@@ -196,8 +196,8 @@ std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
     return order;
 }
 
-/// Puts the garments on from the inside out. Those already worn move to the pose of the next one. Ends at the first that cannot
-/// be put on.
+/// Puts the garments on from the inside out. Those already worn move to the pose of the next one. Ends at the first
+/// that cannot be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
     Dressing dressing;

@@ -13,7 +13,8 @@ namespace {
 
 // unit: directions may be kept with four digits
 constexpr double k_rounding_of_directions = 1e-3;
-// derived: glTF may keep the four weights with 8 bits each, so their sum is off by up to 4 / (2 * 255) = 0.008; twice that
+// derived: glTF may keep the four weights with 8 bits each, so their sum is off by up to 4 / (2 * 255) = 0.008; twice
+// that
 constexpr double k_rounding_of_weights = 0.02;
 
 using Radii = std::array<double, bone_count>;

@@ -13,7 +13,7 @@
 namespace garmentfit {
 namespace {
 
-// ---- writing ---------------------------------------------------------------------------------------------------------
+// ---- writing --------------------------------------------------------------------------------------------------------
 
 NamedArray numbers(const char* name, const std::vector<double>& values)
 {
@@ -73,7 +73,7 @@ std::vector<NamedArray> certificate_arrays(const Certificate& c, double metres_p
 
 int joint_row(Extremity tip) { return 1 + int(bone_count) + int(tip); }
 
-// ---- reading ---------------------------------------------------------------------------------------------------------
+// ---- reading --------------------------------------------------------------------------------------------------------
 
 constexpr const char* k_rig_first = "connect the body that Rig Body made";
 

@@ -11,12 +11,12 @@ namespace garmentfit {
 inline constexpr double k_low_confidence = 0.2;
 
 /// Body metres. A garment that slipped down by more gets a warning.
-/// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a wide coat by nine
+/// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a coat by nine
 inline constexpr double k_slipped = 0.15;
 
-/// Share of a radius; and for thin bones metres, or on a body less than a metre across, a share of its diagonal. A rig whose
-/// radii differ from the body's by more is another body's: files keep fewer digits than the rig was found with, and two people
-/// differ by more.
+/// Share of a radius; and for thin bones metres, or on a body less than a metre across, a share of its diagonal. A rig
+/// whose radii differ from the body's by more is another body's: files keep fewer digits than the rig was found with,
+/// and two people differ by more.
 /// fitted: guess, on tests/bodies
 inline constexpr double k_same_radius = 0.02, k_same_place = 5e-4;
 

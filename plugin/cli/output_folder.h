@@ -20,8 +20,8 @@ public:
 
     /// Where to write: a folder beside the final one, on the same disk. Made at the first call.
     const std::filesystem::path& draft();
-    /// Moves what was written to the final folder. Other files there stay, except those that are `outdated` (names of files and
-    /// folders) and were not written again.
+    /// Moves what was written to the final folder. Other files there stay, except those that are `outdated` (names of
+    /// files and folders) and were not written again.
     void publish(const std::vector<std::string>& outdated);
 
     const std::filesystem::path& place() const { return place_; }

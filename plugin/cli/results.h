@@ -18,8 +18,9 @@ void add_warnings(Session& session);
 /// Writes all results of a command but the report. The certificates become those of the files as written.
 void write_results(Session& session, std::string_view command, const std::filesystem::path& folder);
 
-/// Names of files and folders that an earlier run may have written into `folder` under the names of this command's results: beside the
-/// new report they would look like its results. Empty where no earlier run wrote there; never a file that was read.
+/// Names of files and folders that an earlier run may have written into `folder` under the names of this command's
+/// results: beside the new report they would look like its results. Empty where no earlier run wrote there; never a
+/// file that was read.
 std::vector<std::string> outdated_results(const Session& session, std::string_view command,
                                           const std::filesystem::path& folder);
 

@@ -58,7 +58,8 @@ struct FittedGarment {
 
 /// Whether `garmentfit fit` wrote it. @throws InvalidInput.
 bool is_fit_folder(const std::filesystem::path& folder);
-/// Each garment with its bones, coloured by clearance; grey where the garment does not cover them. @throws InvalidInput.
+/// Each garment with its bones, coloured by clearance; grey where the garment does not cover them. @throws
+/// InvalidInput.
 std::vector<FittedGarment> read_fit_folder(const std::filesystem::path& folder);
 
 /// The dressed body, its garments coloured by "ease", "strain" or "pressure". @throws InvalidInput.

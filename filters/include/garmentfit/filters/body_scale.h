@@ -3,15 +3,15 @@
 
 // Bodies outside of human size: a doll, a giant.
 //
-// Lengths in libfit's methods are metres on a body of human size. Filters scale a scene whose body is smaller or larger to
-// that size before they work on it, and scale back what they made (docs/decisions/0017-body-scale.md).
+// Lengths in libfit's methods are metres on a body of human size. Filters scale a scene whose body is smaller or larger
+// to that size before they work on it, and scale back what they made (docs/decisions/0017-body-scale.md).
 
 #include "garmentfit/filters/filters.h"
 
 namespace garmentfit {
 
-/// What lengths of this body are multiplied by to be those of a body of human size: 1 for bodies between about 0.5 m and
-/// 2.5 m tall, whatever their posture. O(n).
+/// What lengths of this body are multiplied by to be those of a body of human size: 1 for bodies between about 0.5 m
+/// and 2.5 m tall, whatever their posture. O(n).
 double factor_to_human_size(const BodyMesh& body);
 
 /// The scene with all lengths multiplied by `factor`. Speeds and pressures stay: they are those at human size.
@@ -19,8 +19,8 @@ Scene scale_scene(Scene scene, double factor);
 /// Joints given by hand, in the same way.
 GivenJoints scale_joints(GivenJoints joints, double factor);
 
-/// Brings what a filter made of scale_scene(scene, factor) back into `scene`. What it left where it was given, vertices of
-/// the body, say, is bit for bit what was given.
+/// Brings what a filter made of scale_scene(scene, factor) back into `scene`. What it left where it was given, vertices
+/// of the body, say, is bit for bit what was given.
 /// @param outputs  of the filter
 void put_back(Scene& scene, const Scene& at_human_size, double factor, const std::vector<Data>& outputs);
 

@@ -3,9 +3,9 @@
 
 // The table of filters that every host shows.
 //
-// A filter reads parts of a Scene and fills others. A host puts its meshes into the scene and the values of its widgets into
-// Parameters, calls run, and takes out what `outputs` names. Metres, +y up, as everywhere in libfit. Bodies outside of human
-// size are scaled to it while a filter works (body_scale.h).
+// A filter reads parts of a Scene and fills others. A host puts its meshes into the scene and the values of its widgets
+// into Parameters, calls run, and takes out what `outputs` names. Metres, +y up, as everywhere in libfit. Bodies
+// outside of human size are scaled to it while a filter works (body_scale.h).
 
 #include <array>
 #include <optional>
@@ -56,8 +56,8 @@ struct Dressing : DressedBody {
     std::vector<FitMap> maps;  ///< one for each garment that is worn, like the next two
     std::vector<std::vector<Girth>> girths;  ///< of garment and body under it
     std::vector<Overstretch> overstretches;
-    /// What lengths of this body are multiplied by to be those at human size (body_scale.h). Speeds and pressures are those at
-    /// human size.
+    /// What lengths of this body are multiplied by to be those at human size (body_scale.h). Speeds and pressures are
+    /// those at human size.
     double to_human_size = 1;
 
     bool is_worn(std::size_t garment) const
@@ -101,7 +101,8 @@ struct Filter {
     /// The options of the cloth: one set for putting on and for moving, where the filter does both.
     const ClothOptions& cloth(const Parameters& parameters) const;
 
-    /// Checks inputs and ranges, then fills the outputs of each stage. Ends after draping where a garment could not be put on.
+    /// Checks inputs and ranges, then fills the outputs of each stage. Ends after draping where a garment could not be
+    /// put on.
     /// @throws InvalidInput, SolverFailure, Cancelled; outputs of the stages before it stay in the scene.
     void run(Scene& scene, const Parameters& parameters, const Progress& progress = {}) const;
 };

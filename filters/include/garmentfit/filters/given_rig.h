@@ -10,8 +10,9 @@
 namespace garmentfit {
 
 /// The rig with the radii measured on this body.
-/// @throws InvalidInput rig_mismatch: the rig is another body's, or the body was moved since; the numbers of vertices differ, or
-///         the distances of the skin to the bones. bad_rig: weights do not sum to 1, or directions are not unit vectors.
+/// @throws InvalidInput rig_mismatch: the rig is another body's, or the body was moved since; the numbers of vertices
+///         differ, or the distances of the skin to the bones. bad_rig: weights do not sum to 1, or directions are not
+///         unit vectors.
 /// @param own  the body's positions in its input pose, metres
 /// @param called  the rig's name in messages
 Rig rig_on(Rig rig, const Positions& own, const std::string& called = "the rig");

@@ -3,9 +3,9 @@
 
 // What hosts know about a parameter, and the visitors that all of them share.
 //
-// A visitor is called once for each parameter: visit(value, about). The value is a double, an int, a bool, an enum whose
-// names are about.choices, in order, or an optional of one of these. Its default is what the options struct holds before
-// anybody changes it; an optional is empty then, and about.otherwise says what holds instead.
+// A visitor is called once for each parameter: visit(value, about). The value is a double, an int, a bool, an enum
+// whose names are about.choices, in order, or an optional of one of these. Its default is what the options struct holds
+// before anybody changes it; an optional is empty then, and about.otherwise says what holds instead.
 
 #include <limits>
 #include <optional>

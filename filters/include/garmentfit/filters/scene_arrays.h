@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Parts of a scene as named arrays, for hosts that pass arrays from filter to filter, keep them in files and show them. The names are
-// the same in all hosts. Rigs, poses and frames are in metres with +y up, so that a rig that is written and read keeps its bits;
-// arrays for users are in the body's unit.
+// Parts of a scene as named arrays, for hosts that pass arrays from filter to filter, keep them in files and show them.
+// The names are the same in all hosts. Rigs, poses and frames are in metres with +y up, so that a rig that is written
+// and read keeps its bits; arrays for users are in the body's unit.
 
 #include <functional>
 #include <optional>
@@ -34,12 +34,12 @@ struct MeshArrays {
     std::vector<NamedArray> points, cells, field;
 };
 
-// ---- written ---------------------------------------------------------------------------------------------------------
+// ---- written --------------------------------------------------------------------------------------------------------
 
 /// Of the body: JointIndices, JointWeights; RigJoints, RigAxes, RigRadii, RigSideMargin, BodyFrame.
 MeshArrays arrays_of(const Rig& rig, const Frame& body);
-/// Of the body: FitPoses, FitLayers, and where several garments were asked for one pose: OnePose, ConflictBone, ConflictGarments,
-/// ConflictAngle (degrees).
+/// Of the body: FitPoses, FitLayers, and where several garments were asked for one pose: OnePose, ConflictBone,
+/// ConflictGarments, ConflictAngle (degrees).
 MeshArrays arrays_of_fits(const Scene& scene);
 /// Of the body: DressedPose, Certified, SizeReached, PoseReached, Speed, Note, HeldBackPart, HeldBackDistance.
 MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& names, const Frame& body);
@@ -58,7 +58,7 @@ MeshArrays arrays_of_skeleton();
 /// Bones and tips as lines between the rows that rows_of(skeleton) has for its joints; in the order of the cell arrays.
 std::vector<std::pair<int, int>> skeleton_lines();
 
-// ---- read back -------------------------------------------------------------------------------------------------------
+// ---- read back ------------------------------------------------------------------------------------------------------
 
 /// The array of that name, if there is one, as numbers.
 using FindArray = std::function<std::optional<Rows>(const char* name)>;

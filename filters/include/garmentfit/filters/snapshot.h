@@ -17,7 +17,8 @@ struct Snapshot {
     std::vector<FitMap> maps;  ///< of the garments
 };
 
-/// @param share  of the return to the input pose: the nearest of the dressing's frames is taken. 1, or no frames: the end
+/// @param share  of the return to the input pose: the nearest of the dressing's frames is taken. 1, or no frames: the
+///         end
 /// @param cloth  as in the run that moved the garments; needed for the maps of frames
 Snapshot snapshot_of(const Scene& scene, double share, const ClothOptions& cloth);
 
