@@ -134,7 +134,7 @@ void refuse(const GrowingBody& inside, const TriangleMesh& cloth, const SkinWeig
     const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
                                                            : std::string("a garment worn under it");
     throw InvalidInput(ErrorCode::crossing_start,
-                       "drape: the garment passes through the body's skeleton, " + what + " at "
+                       "garment: in the fitted pose it crosses the bones of the body, " + what + " at "
                            + place_text(inside.core.row(vertex))
                            + "; fit the skeleton to this garment first, or give its type");
 }
