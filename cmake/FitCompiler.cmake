@@ -25,18 +25,22 @@ function(fit_target name)
     endif()
 endfunction()
 
-# fit_precompiled(NAME LIBRARIES TARGET... [HEADERS <HEADER>...])
-# Precompiles what most sources include, for targets that are compiled with the flags of these libraries.
+# fit_precompiled(NAME [EXECUTABLES] LIBRARIES TARGET... [HEADERS <HEADER>...])
+# Precompiles what most sources include, for libraries (or executables) that are compiled with the flags of these libraries.
 function(fit_precompiled name)
     if(NOT GARMENTFIT_PCH)
         return()
     endif()
-    cmake_parse_arguments(PARSE_ARGV 1 pch "" "" "LIBRARIES;HEADERS")
+    cmake_parse_arguments(PARSE_ARGV 1 pch "EXECUTABLES" "" "LIBRARIES;HEADERS")
     set(empty ${CMAKE_CURRENT_BINARY_DIR}/precompiled_${name}.cpp)  # a target has a source
     file(CONFIGURE OUTPUT ${empty} CONTENT "")
     add_library(garmentfit_precompiled_${name} OBJECT ${empty})
     fit_target(garmentfit_precompiled_${name})
     target_link_libraries(garmentfit_precompiled_${name} PRIVATE ${pch_LIBRARIES})
+    if(pch_EXECUTABLES)  # of objects, which CMake would compile with -fPIC, for sources that it compiles with -fPIE
+        set_target_properties(garmentfit_precompiled_${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+        target_compile_options(garmentfit_precompiled_${name} PRIVATE -fPIE)
+    endif()
     target_precompile_headers(garmentfit_precompiled_${name} PRIVATE
         <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <numeric> <optional> <string> <string_view>
         <utility> <vector> <Eigen/Core> <Eigen/Geometry> ${pch_HEADERS})
