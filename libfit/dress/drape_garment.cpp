@@ -9,12 +9,12 @@
 #include "growing_body.h"
 #include "held_back.h"
 #include "layers.h"
+#include "prepared_cloth.h"
 #include "skin_weights.h"
 #include "sleeve_retraction.h"
 #include "tightness.h"
 #include "tuning.h"
 #include "untangle.h"
-#include "weld.h"
 
 namespace garmentfit {
 namespace {
@@ -23,40 +23,50 @@ namespace {
 
 /// What draping begins with, prepared once.
 struct DrapeStart {
-    Positions cloth;  ///< of the garment's own vertices
+    PreparedCloth cloth;
     GrowingBody inside;
     double scale;  ///< of what is inside
 };
 
-/// The garment with retracted sleeves, untangled; nothing where pairs cross then that did not cross as given. What lies
-/// in narrow folds may cross, because triangles stay flat, and mostly comes apart.
-std::optional<Positions> untangle_retracted(const SleeveRetraction& retraction, const GarmentMesh& garment)
+/// The cloth with retracted sleeves, untangled. None where pairs cross then that did not cross as given: cloth in narrow
+/// folds may cross, because triangles stay flat, and mostly comes apart.
+std::optional<PreparedCloth> retract_sleeves(const SleeveRetraction& retraction, const PreparedCloth& given)
 {
-    const Weld weld(garment);
-    const GarmentMesh given = weld.gathered(garment);
-    const UntangleResult retracted = untangle({ weld.gathered(retraction.positions()), given.triangles });
+    const Triangles& triangles = given.rest.triangles;
+    UntangleResult retracted
+        = untangle({ given.weld.gathered(retraction.positions()), triangles }, given.topology.edges());
     if (!retracted.left.empty())
-        if (const std::vector<Crossing> crossed = self_crossings({ given.positions, given.triangles });
+        if (const std::vector<Crossing> crossed = self_crossings({ given.rest.positions, triangles });
             !std::includes(crossed.begin(), crossed.end(), retracted.left.begin(), retracted.left.end()))
             return {};
-    return weld.placed(retracted.positions);
+    PreparedCloth result = given;
+    result.positions = std::move(retracted.positions);
+    result.crossings = std::move(retracted.left);
+    return result;
+}
+
+DrapeStart make_start(PreparedCloth cloth, GrowingBody inside, double scale)
+{
+    untangle_clear_of(cloth, { inside.at(scale), inside.full.triangles });
+    return { std::move(cloth), std::move(inside), scale };
 }
 
 /// Sleeves and legs are retracted where that leaves the body free of the cloth, else they stay as given.
 /// @throws InvalidInput where cloth and bones cross
 DrapeStart choose_start(const Wearer& wearer, const GarmentMesh& garment)
 {
+    const PreparedCloth given = prepare_cloth(garment, garment.positions);
     if (const SleeveRetraction retraction(wearer.joints, garment); retraction.is_any())
-        if (auto positions = untangle_retracted(retraction, garment)) {
-            const GarmentMesh retracted { std::move(*positions), garment.triangles };
-            GrowingBody inside = make_growing_body(wearer, retracted, &retraction);
-            if (const auto scale = find_initial_scale(inside, { retracted.positions, retracted.triangles }))
-                return { retracted.positions, std::move(inside), *scale };
+        if (const auto retracted = retract_sleeves(retraction, given)) {
+            const TriangleMesh cloth { given.weld.placed(retracted->positions), garment.triangles };
+            GrowingBody inside = make_growing_body(wearer, { cloth.positions, cloth.triangles }, &retraction);
+            if (const auto scale = find_initial_scale(inside, cloth))
+                return make_start(*retracted, std::move(inside), *scale);
         }
     GrowingBody inside = make_growing_body(wearer, garment, nullptr);
     const TriangleMesh cloth { garment.positions, garment.triangles };
     if (const auto scale = find_initial_scale(inside, cloth))
-        return { cloth.positions, std::move(inside), *scale };
+        return make_start(given, std::move(inside), *scale);
     refuse(inside, cloth, wearer.rig.weights);
 }
 
@@ -171,7 +181,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
     require_wearable_size(rig, garment);
     const Wearer wearer { rig, body, dressed, HandStretch(rig, body.surface.positions),
                           pose_skeleton(rig.skeleton, dressed.pose) };
-    const DrapeStart start = choose_start(wearer, garment);
+    DrapeStart start = choose_start(wearer, garment);
     const GrowingBody& inside = start.inside;
 
     const Edges edges = edges_of(garment.triangles);
@@ -179,7 +189,8 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
         = weights_of_nearest(garment.positions, inside.body_of(inside.full.positions), rig.weights);
     Grading grading(garment, Tightness(garment.positions, edges, weights, wearer.joints, int(dressed.garments.size())),
                     options.cloth);
-    ClothMotion motion(garment, start.cloth, { inside.at(start.scale), inside.full.triangles }, options.cloth);
+    ClothMotion motion(std::move(start.cloth),
+                       { { inside.at(start.scale), inside.full.triangles }, int(inside.body_vertices) }, options.cloth);
 
     DrapeResult result;
     result.scale_reached = grow_body(motion, start, grading, options.inflation_steps, progress.part(0, 0.7));

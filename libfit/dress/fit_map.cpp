@@ -8,21 +8,22 @@
 #include "cloth_motion.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "prepared_cloth.h"
 #include "skin_weights.h"
 #include "tuning.h"
-#include "weld.h"
 
 namespace garmentfit {
 namespace {
 
 /// At each vertex the mean of l / l0 - 1 over its edges.
-Eigen::VectorXd mean_stretches(const GarmentMesh& rest, const Positions& positions)
+Eigen::VectorXd mean_stretches(const PreparedCloth& cloth)
 {
+    const Positions &rest = cloth.rest.positions, &positions = cloth.positions;
+    const Edges& edges = cloth.topology.edges();
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(positions.rows()), count = sum;
-    const auto edges = edges_of(rest.triangles);
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1);
-        const double before = (rest.positions.row(i) - rest.positions.row(j)).norm();
+        const double before = (rest.row(i) - rest.row(j)).norm();
         if (before == 0)
             continue;
         for (const int v : { i, j }) {
@@ -37,26 +38,25 @@ Eigen::VectorXd mean_stretches(const GarmentMesh& rest, const Positions& positio
 
 FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& options)
 {
-    const Weld weld(worn.rest);
-    const GarmentMesh rest = weld.gathered(worn.rest);
-    const Positions x = weld.gathered(worn.positions);
+    const PreparedCloth cloth = prepare_cloth(worn.rest, worn.positions);
+    const Positions& x = cloth.positions;
     const double density = material_of(options).density;
-    const ClothEnergy energy(rest, MeshTopology(rest.triangles, int(rest.positions.rows())), {}, options);
+    const ClothEnergy energy(cloth.rest, cloth.topology, {}, options);
     const Positions forces = energy.elastic_forces(x);
     const TriangleTree skin(body);
 
-    Positions cloth(x.rows(), 3);  // ease, strain, pressure
-    cloth.col(1) = mean_stretches(rest, x);
+    Positions map(x.rows(), 3);  // ease, strain, pressure
+    map.col(1) = mean_stretches(cloth);
     parallel_for(x.rows(), [&](Eigen::Index v) {
         const Vec3 out = x.row(v).transpose() - skin.nearest(x.row(v));
         const double ease = out.norm(), mass = energy.masses()[v];
         const Vec3 force = forces.row(v).transpose() - mass * k_gravity * Vec3::UnitY();
         const double inwards = ease > 0 ? -force.dot(out) / ease : 0;
-        cloth(v, 0) = ease;
-        cloth(v, 2)
+        map(v, 0) = ease;
+        map(v, 2)
             = ease < k_pressing_distance * options.contact_distance ? std::max(inwards, 0.0) / (mass / density) : 0;
     });
-    const Positions result = weld.spread(cloth);
+    const Positions result = cloth.weld.spread(map);
     return { result.col(0), result.col(1), result.col(2) };
 }
 
