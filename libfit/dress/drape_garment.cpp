@@ -28,8 +28,8 @@ struct DrapeStart {
     double scale;  ///< of what is inside
 };
 
-/// The cloth with retracted sleeves, untangled. None where pairs cross then that did not cross as given: cloth in narrow
-/// folds may cross, because triangles stay flat, and mostly comes apart.
+/// The cloth with retracted sleeves, untangled. None where pairs cross then that did not cross as given: cloth in
+/// narrow folds may cross, because triangles stay flat, and mostly comes apart.
 std::optional<PreparedCloth> retract_sleeves(const SleeveRetraction& retraction, const PreparedCloth& given)
 {
     const Triangles& triangles = given.rest.triangles;
