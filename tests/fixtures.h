@@ -165,18 +165,18 @@ inline TriangleMesh sheet(int n, double spacing, const std::function<double(doub
 }
 
 struct PersonOptions {
-    double arm_angle = 45;   ///< degrees below the horizontal: 0 = T-pose, 70 = arms down, -70 = arms up
-    double elbow_angle = 15; ///< degrees that the elbows flex, forearms forward
+    double arm_angle = 45;  ///< degrees below the horizontal: 0 = T-pose, 70 = arms down, -70 = arms up
+    double elbow_angle = 15;  ///< degrees that the elbows flex, forearms forward
     double wrist_angle = 0;  ///< degrees that the hands hang down from the forearms
-    double knee_angle = 0;   ///< degrees that the knees flex, shins back
-    double hip_angle = 0;    ///< degrees that the thighs are raised forward
-    double scale = 1;        ///< 1: 1.75 m tall in the A-pose
-    double spacing = 0.05;   ///< m, at scale 1: of the grid that it is polygonised on
+    double knee_angle = 0;  ///< degrees that the knees flex, shins back
+    double hip_angle = 0;  ///< degrees that the thighs are raised forward
+    double scale = 1;  ///< 1: 1.75 m tall in the A-pose
+    double spacing = 0.05;  ///< m, at scale 1: of the grid that it is polygonised on
 };
 
 struct Person {
-    TriangleMesh mesh;       ///< closed, one piece, genus 0; left is +x, up is +y, front is +z
-    Skeleton skeleton;       ///< that the capsules were built round
+    TriangleMesh mesh;  ///< closed, one piece, genus 0; left is +x, up is +y, front is +z
+    Skeleton skeleton;  ///< that the capsules were built round
 };
 
 /// The skeleton that capsule_person is built round, at scale 1.
@@ -200,7 +200,8 @@ inline Skeleton person_skeleton(const PersonOptions& options)
         const Vec3 hip(side * 0.095, 0.93, 0);
         const Vec3 knee = place(hip, 0.43, Vec3(0.12, -std::cos(thigh), std::sin(thigh)).normalized());
         const Vec3 ankle = place(knee, 0.42, Vec3(0.06, -std::cos(shin), std::sin(shin)).normalized());
-        const Vec3 toe = place(ankle, 0.19, Vec3(0.1, -0.25 * std::cos(shin) + std::sin(shin), std::cos(shin)).normalized());
+        const Vec3 toe
+            = place(ankle, 0.19, Vec3(0.1, -0.25 * std::cos(shin) + std::sin(shin), std::cos(shin)).normalized());
         const double arm = options.arm_angle * degree, elbow_flex = options.elbow_angle * degree;
         const Vec3 along(std::cos(arm), -std::sin(arm), 0);
         const Vec3 shoulder(side * 0.18, 1.40, -0.01), elbow = place(shoulder, 0.28, along);
@@ -277,8 +278,8 @@ inline Person capsule_person(const PersonOptions& options = {})
     std::for_each(person.skeleton.tails.begin(), person.skeleton.tails.end(), take_in);
     std::for_each(person.skeleton.tips.begin(), person.skeleton.tips.end(), take_in);
     const Vec3 margin = Vec3::Constant(0.2);
-    person.mesh = polygonise([&](const Vec3& p) { return person_distance(person.skeleton, p); }, low - margin, high + margin,
-                             options.spacing);
+    person.mesh = polygonise([&](const Vec3& p) { return person_distance(person.skeleton, p); }, low - margin,
+                             high + margin, options.spacing);
     person.mesh.positions *= options.scale;
     person.skeleton.root *= options.scale;
     for (Vec3& joint : person.skeleton.tails)
@@ -330,7 +331,8 @@ inline TriangleMesh garment_round(const Skeleton& skeleton, double ease, const s
                                   double spacing = 0.03)
 {
     const Vec3 low(-1, -0.2, -0.9), high(1, 2, 0.9);
-    TriangleMesh whole = polygonise([&](const Vec3& p) { return person_distance(skeleton, p) - ease; }, low, high, spacing);
+    TriangleMesh whole
+        = polygonise([&](const Vec3& p) { return person_distance(skeleton, p) - ease; }, low, high, spacing);
     std::vector<Eigen::Index> rows;
     for (Eigen::Index f = 0; f < whole.triangles.rows(); ++f)
         if (keep(whole.positions(whole.triangles.row(f), Eigen::all).colwise().mean().transpose()))

@@ -32,7 +32,8 @@ inline std::string ascii_ply()
     return "ply\nformat ascii 1.0\ncomment by hand\nobj_info old\nelement material 1\nproperty list uchar int ids\n"
            "property float shine\nelement vertex 4\nproperty uchar red\nproperty double x\nproperty double y\n"
            "property list uchar short tags\nproperty float z\nelement face 1\nproperty list uchar int vertex_index\n"
-           "property int flag\nend_header\n2 5 6 0.50\n255 0 0.10 0 1e-3\n9 1 0.1 2 3 4 0\n7 1.0 1 0 0.25\n8 0 1 1 -5 0\n"
+           "property int flag\nend_header\n2 5 6 0.50\n255 0 0.10 0 1e-3\n9 1 0.1 2 3 4 0\n7 1.0 1 0 0.25\n8 0 1 1 -5 "
+           "0\n"
            "4 0 1 2 3 42\n";
 }
 
@@ -60,18 +61,22 @@ inline std::string binary_ply(bool big_endian)
 
 inline std::string off()
 {
-    return "OFF # a square\n\n# counts\n4 2 0\n0 0 0\n1 0 0  # corner\n1 1 .5\n0 1 0 255 0 0\n3 0 1 2\n3 0 2 3 0.5 0.5 0.5\n";
+    return "OFF # a square\n\n# counts\n4 2 0\n0 0 0\n1 0 0  # corner\n1 1 .5\n0 1 0 255 0 0\n3 0 1 2\n3 0 2 3 0.5 0.5 "
+           "0.5\n";
 }
 
 inline std::string off_with_normals()
 {
-    return "CNOFF\n4 1 4\n0 0 0 0 0 1 255 255 0 255\n1 0 0 0 0 1 0 0 0 255\n1 1 0 0 0 1 9 9 9 255\n0 1 0 0 0 1 8 8 8 255\n4 0 1 2 3\n";
+    return "CNOFF\n4 1 4\n0 0 0 0 0 1 255 255 0 255\n1 0 0 0 0 1 0 0 0 255\n1 1 0 0 0 1 9 9 9 255\n0 1 0 0 0 1 8 8 8 "
+           "255\n4 0 1 2 3\n";
 }
 
 inline std::string ascii_stl()
 {
-    return "solid square of two\n  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1.0e0 0 0\n      vertex 1 1 0\n"
-           "    endloop\n  endfacet\n  FACET NORMAL 0 0 1\n    outer loop\n      vertex 0.0 -0 0\n      vertex 1 1 0\n      vertex 0 1 0\n"
+    return "solid square of two\n  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1.0e0 0 0\n    "
+           "  vertex 1 1 0\n"
+           "    endloop\n  endfacet\n  FACET NORMAL 0 0 1\n    outer loop\n      vertex 0.0 -0 0\n      vertex 1 1 0\n "
+           "     vertex 0 1 0\n"
            "    endloop\n  endfacet\nendsolid square of two\n";
 }
 
@@ -81,7 +86,8 @@ inline std::string binary_stl()
     std::string stl = "solid by a scanner";
     stl.resize(80, ' ');
     stl += raw<std::uint32_t>(2);
-    for (const auto& corners : std::vector<std::vector<float>> { { 0, 0, 0, 1, 0, 0, 1, 1, 0 }, { 0, 0, 0, 1, 1, 0, 0, 1, 0 } }) {
+    for (const auto& corners :
+         std::vector<std::vector<float>> { { 0, 0, 0, 1, 0, 0, 1, 1, 0 }, { 0, 0, 0, 1, 1, 0, 0, 1, 0 } }) {
         stl += raw(0.0f) + raw(0.0f) + raw(1.0f);
         for (const float x : corners)
             stl += raw(x);
@@ -106,15 +112,19 @@ inline std::string gltf_buffer()
 inline std::string gltf_json(const std::string& buffer)
 {
     return "{\"asset\":{\"version\":\"2.0\",\"generator\":\"by hand\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
-           "\"nodes\":[{\"translation\":[1,0,0],\"children\":[1]},{\"mesh\":0,\"scale\":[2,2,2],\"extras\":{\"kept\":[1,2.5,\"\"]}}],"
+           "\"nodes\":[{\"translation\":[1,0,0],\"children\":[1]},{\"mesh\":0,\"scale\":[2,2,2],\"extras\":{\"kept\":["
+           "1,2.5,\"\"]}}],"
            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,\"material\":0},"
            "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":3}]}],\"materials\":[{\"name\":\"linen\"}],"
-           "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]},"
+           "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[0,0,0],"
+           "\"max\":[1,1,0]},"
            "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
            "{\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},"
            "{\"bufferView\":1,\"byteOffset\":6,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"}],"
-           "\"bufferViews\":[{\"buffer\":0,\"byteLength\":96,\"byteStride\":24},{\"buffer\":0,\"byteOffset\":96,\"byteLength\":12}],"
-           "\"buffers\":[{" + buffer + "\"byteLength\":108}]}";
+           "\"bufferViews\":[{\"buffer\":0,\"byteLength\":96,\"byteStride\":24},{\"buffer\":0,\"byteOffset\":96,"
+           "\"byteLength\":12}],"
+           "\"buffers\":[{"
+        + buffer + "\"byteLength\":108}]}";
 }
 
 inline std::string glb(std::string json = gltf_json(""))
@@ -122,7 +132,8 @@ inline std::string glb(std::string json = gltf_json(""))
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::string buffer = gltf_buffer();
     return "glTF" + raw<std::uint32_t>(2) + raw(std::uint32_t(12 + 8 + json.size() + 8 + buffer.size()))
-        + raw(std::uint32_t(json.size())) + "JSON" + json + raw(std::uint32_t(buffer.size())) + std::string("BIN\0", 4) + buffer;
+        + raw(std::uint32_t(json.size())) + "JSON" + json + raw(std::uint32_t(buffer.size())) + std::string("BIN\0", 4)
+        + buffer;
 }
 
 struct File {
@@ -132,8 +143,14 @@ struct File {
 /// One of each, whole in itself.
 inline std::vector<File> all()
 {
-    return { { "a.obj", obj() }, { "text.ply", ascii_ply() }, { "little.ply", binary_ply(false) }, { "big.ply", binary_ply(true) },
-             { "a.off", off() }, { "n.off", off_with_normals() }, { "text.stl", ascii_stl() }, { "binary.stl", binary_stl() },
+    return { { "a.obj", obj() },
+             { "text.ply", ascii_ply() },
+             { "little.ply", binary_ply(false) },
+             { "big.ply", binary_ply(true) },
+             { "a.off", off() },
+             { "n.off", off_with_normals() },
+             { "text.stl", ascii_stl() },
+             { "binary.stl", binary_stl() },
              { "a.glb", glb() } };
 }
 

@@ -16,7 +16,8 @@ protected:
     void SetUp() override
     {
         const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder = std::filesystem::path(testing::TempDir()) / (std::string("garmentfit_") + info->test_suite_name() + "_" + info->name());
+        folder = std::filesystem::path(testing::TempDir())
+            / (std::string("garmentfit_") + info->test_suite_name() + "_" + info->name());
         std::filesystem::remove_all(folder);
         std::filesystem::create_directories(folder);
     }
@@ -24,7 +25,7 @@ protected:
 
     std::filesystem::path save(const std::string& name, const std::string& bytes) const
     {
-        std::filesystem::remove(folder / name);   // truncating a file makes some file systems wait for the disk
+        std::filesystem::remove(folder / name);  // truncating a file makes some file systems wait for the disk
         std::ofstream(folder / name, std::ios::binary) << bytes;
         return folder / name;
     }

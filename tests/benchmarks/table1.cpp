@@ -22,13 +22,13 @@
 
 #include <tbb/global_control.h>
 
-#include "nearest.h"
-#include "parallel.h"
-#include "posture.h"
 #include "baselines/surface_metric.h"
 #include "garmentfit/fit_skeleton.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "posture.h"
 
 namespace {
 
