@@ -51,7 +51,7 @@ TEST_F(RigFiles, SayWhichVertexHasAWeightOutOfRange)
     RigFile contents = small_rig();
     contents.rig.weights.weights(1, 0) = 1.5;
     write_rig_file(folder / "man.rig.json", contents);
-    EXPECT_NE(message_of(folder / "man.rig.json").find("vertex 1 has a bone or weight out of range"),
+    EXPECT_NE(message_of(folder / "man.rig.json").find("vertex 1 has a bone or a weight out of range"),
               std::string::npos);
 }
 
