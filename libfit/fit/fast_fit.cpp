@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "best_start.h"
 #include "coordinate_ascent.h"
 #include "garmentfit/error.h"
+#include "number_text.h"
 #include "outward_cloth.h"
 #include "parallel.h"
 #include "posture_moves.h"
@@ -36,10 +36,9 @@ std::string describe_sizes(const Rig& rig, const ClearanceField& cloth)
 {
     const Vec3 size = 100 * (cloth.high() - cloth.low());
     const Skeleton& rest = rig.skeleton;
-    char text[160];
-    std::snprintf(text, sizeof text, "the garment is %.3g x %.3g x %.3g cm, the body's legs are %.3g cm long", size.x(),
-                  size.y(), size.z(), 100 * (rest.length(lfemur) + rest.length(ltibia)));
-    return text;
+    return "the garment is " + rounded_text(size.x(), 3) + " x " + rounded_text(size.y(), 3) + " x "
+        + rounded_text(size.z(), 3) + " cm, the body's legs are "
+        + rounded_text(100 * (rest.length(lfemur) + rest.length(ltibia)), 3) + " cm long";
 }
 
 // Half of the covered bones must be inside, with some clearance: next to a flat sheet everything is half inside. The
@@ -65,11 +64,8 @@ void require_clear(const FitEnergy& energy, const Posture& posture)
     const auto require = [&](const std::string& name, const Vec3& from, const Vec3& to) {
         if (!energy.metric().cloth().crosses(from, to))
             return;
-        char place[96];
-        std::snprintf(place, sizeof place, "(%.2f, %.2f, %.2f) and (%.2f, %.2f, %.2f) m", from.x(), from.y(), from.z(),
-                      to.x(), to.y(), to.z());
         throw SolverFailure("no pose found that keeps the bones clear of the cloth: " + name
-                            + " passes through it between " + place
+                            + " passes through it between " + place_text(from) + " and " + place_text(to)
                             + "; check the garment's type, and that its openings are open");
     };
     for (int b = 0; b < bone_count; ++b)
@@ -80,15 +76,12 @@ void require_clear(const FitEnergy& energy, const Posture& posture)
 void require_openings(const TriangleMesh& outward)
 {
     const Pieces pieces = count_pieces(outward);
-    char text[256];
-    if (pieces.count > 1 && pieces.largest < k_min_piece) {
-        std::snprintf(
-            text, sizeof text,
-            "garment: %d loose pieces, the largest %.3g cm across, such as buttons; none of them goes round a "
-            "body. Give the cloth that they belong to, or check its unit",
-            pieces.count, 100 * pieces.largest);
-        throw InvalidInput(ErrorCode::no_opening, text);
-    }
+    if (pieces.count > 1 && pieces.largest < k_min_piece)
+        throw InvalidInput(ErrorCode::no_opening,
+                           "garment: " + std::to_string(pieces.count) + " loose pieces, the largest "
+                               + rounded_text(100 * pieces.largest, 3)
+                               + " cm across, such as buttons; none of them goes round a body. Give the cloth that they "
+                                 "belong to, or check its unit");
     if (is_sealed(outward))
         throw InvalidInput(ErrorCode::closed_garment,
                            "garment: closed surface; a garment needs openings for head, arms or legs. Remove the caps, "

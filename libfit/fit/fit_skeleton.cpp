@@ -2,14 +2,13 @@
 #include "garmentfit/fit_skeleton.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <numeric>
-#include <sstream>
 #include <string>
 
 #include "baselines/baseline_fit.h"
 #include "fast_fit.h"
 #include "garmentfit/error.h"
+#include "number_text.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -55,10 +54,10 @@ void require_wearable_size(const Rig& rig, const GarmentMesh& garment)
     const double height = height_of(rig.skeleton), length = length_of(garment);
     if (length <= k_max_length * height && length >= k_min_length * height)
         return;
-    std::ostringstream text;
-    text << std::setprecision(3) << "the garment would be " << length << " m long on a body of about " << height
-         << " m; check the units of both, and give the garment's (garment_unit)";
-    throw InvalidInput(ErrorCode::wrong_unit, text.str());
+    throw InvalidInput(ErrorCode::wrong_unit,
+                       "the garment would be " + rounded_text(length, 3) + " m long on a body of about "
+                           + rounded_text(height, 3)
+                           + " m; check the units of both, and give the garment's (garment_unit)");
 }
 
 FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
