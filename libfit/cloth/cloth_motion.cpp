@@ -98,7 +98,7 @@ double ClothMotion::contact_distance(ContactReason reason) const
 
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
-    rest_ = weld_.gathered(rest);
+    rest_ = weld_.gather(rest);
     energy_.emplace(rest_, topology_, ties_, options_);
 }
 
@@ -108,7 +108,7 @@ void ClothMotion::restore(const Positions& state)
     velocity_.setZero();
 }
 
-Positions ClothMotion::cloth() const { return weld_.placed(x_.topRows(cloth_vertices_)); }
+Positions ClothMotion::cloth() const { return weld_.place(x_.topRows(cloth_vertices_)); }
 
 double ClothMotion::speed() const { return velocity_.rowwise().norm().maxCoeff(); }
 
@@ -139,7 +139,7 @@ void ClothMotion::move(const Positions& displacements)
 
 void ClothMotion::advect(const Positions& cloth, const Positions& obstacle)
 {
-    move(stack(weld_.gathered(cloth), obstacle));
+    move(stack(weld_.gather(cloth), obstacle));
 }
 
 std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const Positions& targets) const

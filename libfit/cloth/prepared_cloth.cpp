@@ -8,8 +8,8 @@ namespace garmentfit {
 PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start)
 {
     Weld weld(rest);
-    GarmentMesh cloth = weld.gathered(rest);
-    Positions positions = weld.gathered(start);
+    GarmentMesh cloth = weld.gather(rest);
+    Positions positions = weld.gather(start);
     MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
     return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), {} };
 }

@@ -34,7 +34,7 @@ std::optional<PreparedCloth> retract_sleeves(const SleeveRetraction& retraction,
 {
     const Triangles& triangles = given.rest.triangles;
     UntangleResult retracted
-        = untangle({ given.weld.gathered(retraction.positions()), triangles }, given.topology.edges());
+        = untangle({ given.weld.gather(retraction.positions()), triangles }, given.topology.edges());
     if (!retracted.left.empty())
         if (const std::vector<Crossing> crossed = self_crossings({ given.rest.positions, triangles });
             !std::includes(crossed.begin(), crossed.end(), retracted.left.begin(), retracted.left.end()))
@@ -58,7 +58,7 @@ DrapeStart choose_start(const Wearer& wearer, const GarmentMesh& garment)
     const PreparedCloth given = prepare_cloth(garment, garment.positions);
     if (const SleeveRetraction retraction(wearer.joints, garment); retraction.is_any())
         if (const auto retracted = retract_sleeves(retraction, given)) {
-            const TriangleMesh cloth { given.weld.placed(retracted->positions), garment.triangles };
+            const TriangleMesh cloth { given.weld.place(retracted->positions), garment.triangles };
             GrowingBody inside = make_growing_body(wearer, { cloth.positions, cloth.triangles }, &retraction);
             if (const auto scale = find_initial_scale(inside, cloth))
                 return make_start(*retracted, std::move(inside), *scale);
