@@ -6,7 +6,7 @@
 
 namespace garmentfit {
 
-/// Items grouped by a key in [0, keys), in their order: a map from key to items in two arrays. Cost O(items + keys).
+/// Items by a key in [0, keys), in rising order within each key. Cost O(items + keys).
 class Buckets {
 public:
     Buckets(int keys, const std::vector<int>& key_of_item) : begin_(keys + 1, 0), items_(key_of_item.size())

@@ -6,12 +6,12 @@
 
 namespace garmentfit {
 
-/// Which vertices hang together: disjoint sets.
+/// Connected components by union-find: sets that are joined pair by pair. Names of sets depend on the order of joins.
 class DisjointSets {
 public:
     explicit DisjointSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-    /// @return whether they were apart
+    /// @return whether the two were in different sets
     bool join(int a, int b)
     {
         a = root(a);
@@ -19,6 +19,7 @@ public:
         parent_[a] = b;
         return a != b;
     }
+    /// The name of the set: one of its members.
     int root(int v)
     {
         while (parent_[v] != v)

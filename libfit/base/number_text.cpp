@@ -33,7 +33,8 @@ std::string rounded_text(double value, int digits) { return converted(value, std
 
 std::string place_text(const Eigen::Vector3d& metres)
 {
-    return '(' + fixed_text(metres.x(), 2) + ", " + fixed_text(metres.y(), 2) + ", " + fixed_text(metres.z(), 2) + ") m";
+    return '(' + fixed_text(metres.x(), 2) + ", " + fixed_text(metres.y(), 2) + ", " + fixed_text(metres.z(), 2)
+        + ") m";
 }
 
 }  // namespace garmentfit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Memory whose addresses rise in the order of asking, the same in every run. For code that sorts by address, as CGAL's
-// halfedge handles do: with it, same input gives same bits.
+// Memory whose addresses rise in the order of allocation, the same in every run. CGAL sorts halfedge handles by
+// address; with this memory the same input gives the same bits.
 
 #include <cstddef>
 #include <map>
@@ -12,11 +12,11 @@
 
 namespace garmentfit {
 
-/// While it lives, OrderedAllocator of this thread draws from it; falls back on plain memory when it is full.
+/// While it exists, OrderedAllocator of this thread takes memory from it. Falls back on plain memory when it is full.
 class OrderedMemory {
 public:
-    explicit OrderedMemory(std::size_t bytes)
-        : begin_(static_cast<std::byte*>(::operator new(bytes))), next_(begin_), end_(begin_ + bytes), before_(current_)
+    explicit OrderedMemory(std::size_t bytes) :
+        begin_(static_cast<std::byte*>(::operator new(bytes))), next_(begin_), end_(begin_ + bytes), before_(current_)
     {
         current_ = this;
     }
@@ -59,17 +59,19 @@ private:
 
     std::byte *begin_, *next_, *end_;
     OrderedMemory* before_;
-    std::map<std::size_t, std::vector<void*>> returned_;  // by size, last in first out
+    std::map<std::size_t, std::vector<void*>> returned_;  // free blocks by size, last in first out
 };
 
-/// @pre an OrderedMemory lives for as long as anything allocated.
+/// @pre an OrderedMemory exists as long as anything allocated.
 template <class T>
 struct OrderedAllocator {
     using value_type = T;
 
     OrderedAllocator() = default;
     template <class U>
-    OrderedAllocator(const OrderedAllocator<U>&) { }
+    OrderedAllocator(const OrderedAllocator<U>&)
+    {
+    }
 
     T* allocate(std::size_t n) { return static_cast<T*>(OrderedMemory::current()->take(n * sizeof(T))); }
     void deallocate(T* block, std::size_t n) { OrderedMemory::current()->give_back(block, n * sizeof(T)); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A loop whose turns run on all cores, in any order: the only place that knows how the work is shared out.
+// Loops that run on all cores, in any order. No other file knows how the work is divided.
 
 #include <algorithm>
 #include <optional>
@@ -20,10 +20,10 @@
 
 namespace garmentfit {
 
-/// Calls turn(i) for each i in [0, count). `grain`: as many turns as are worth handing to another thread.
-/// An exception of a turn ends the loop and is passed on.
+/// Calls turn(i) for each i in [0, count). `grain`: so many calls are worth a switch to another thread.
+/// An exception of a call ends the loop and is passed on.
 #ifdef __SANITIZE_THREAD__
-// The thread sanitizer cannot look into libtbb, where threads hand work to each other, but it knows plain threads.
+// The thread sanitizer cannot see synchronisation within libtbb, but it knows plain threads.
 template <class Index, class Turn>
 void parallel_for(Index count, const Turn& turn, Index grain = 1)
 {
@@ -63,11 +63,11 @@ void parallel_for(Index count, const Turn& turn, Index grain = 1)
 }
 #endif
 
-/// What turn(i), a std::optional<T>, gives for i in [0, count), without what is empty, in order.
+/// Collects what turn(i), a std::optional<T>, returns for i in [0, count), in order, without empty ones.
 template <class T, class Turn>
 std::vector<T> parallel_collect(std::size_t count, const Turn& turn)
 {
-    constexpr std::size_t k_chunk = 1024;
+    constexpr std::size_t k_chunk = 1024;  // unit: decides speed only
     std::vector<std::vector<T>> chunks((count + k_chunk - 1) / k_chunk);
     parallel_for(chunks.size(), [&](std::size_t c) {
         for (std::size_t i = c * k_chunk; i < std::min(count, (c + 1) * k_chunk); ++i)

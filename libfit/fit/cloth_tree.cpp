@@ -7,16 +7,16 @@
 #include <limits>
 #include <numbers>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
 
-constexpr int k_leaf_size = 4;
-constexpr int k_parts = 8;  // of a block
+constexpr int k_leaf_size = 4;  // unit: decides speed, and single precision of windings
+constexpr int k_parts = 8;  // derived: cubes of 2 x 2 x 2 nodes in a block of 4 x 4 x 4
 constexpr float k_pi = float(std::numbers::pi);
-constexpr float k_far = 1.4f;  // radii; beyond, a dipole is good to some per cent
-constexpr float k_tolerance = 1.1f;  // of a distance
-constexpr int k_largest_parts = 40;  // of a triangle's side
-constexpr double k_largest_grid = 4e6;  // cells
+constexpr int k_largest_parts = 40;  // unit: of a triangle's side; bounds the time for huge triangles
+constexpr double k_largest_grid = 4e6;  // unit: cells; bounds the memory
 
 // Calls visit(middle, area vector) for parts of a triangle that are no larger than a cell.
 template <class Visit>
@@ -98,8 +98,9 @@ ClothTree::Ball ClothTree::ball_of(std::span<const ClothPatch> patches)
 }
 
 ClothTree::ClothTree(std::vector<ClothPatch> patches) :
-    tree_(std::move(patches), k_leaf_size,
-          [](const ClothPatch& patch) -> const Eigen::Vector3f& { return patch.centre; }, ball_of)
+    tree_(
+        std::move(patches), k_leaf_size, [](const ClothPatch& patch) -> const Eigen::Vector3f& { return patch.centre; },
+        ball_of)
 {
 }
 
@@ -108,7 +109,7 @@ float ClothTree::distance(const Vec3& query) const
     const Eigen::Vector3f q = query.cast<float>();
     float nearest = std::numeric_limits<float>::infinity();
     tree_.walk_nearest_first([&](const Ball& ball) { return (ball.centre - q).norm() - ball.radius; },
-                             [&](float distance) { return k_tolerance * distance < nearest; },
+                             [&](float distance) { return k_distance_tolerance * distance < nearest; },
                              [&](const Ball& leaf) {
                                  for (const ClothPatch& patch : tree_.items(leaf))
                                      nearest = std::min(nearest, (patch.centre - q).norm());
@@ -123,7 +124,7 @@ float ClothTree::winding(const Vec3& query) const
     tree_.walk(
         [&](const Ball& ball) {
             const Eigen::Vector3f to = ball.centre - q;
-            const float squared = to.squaredNorm(), far = k_far * ball.radius;
+            const float squared = to.squaredNorm(), far = k_far_dipole * ball.radius;
             if (!(squared > far * far && squared > ball.size))
                 return true;
             angle += ball.area_vector.dot(to) / (squared * std::sqrt(squared));
@@ -193,8 +194,8 @@ struct ClothTree::Nodes {
     float radius;
 };
 
-// A patch further from a cube's centre than the nearest one and the cube's diameter is nearest to none of its nodes: so few are asked by the
-// whole block, and of those fewer by each of its eight parts.
+// A patch further from the centre of a cube than the nearest patch plus the diameter of the cube is nearest to none of
+// its nodes. The whole block collects candidates by this rule, and each of its eight parts selects from them.
 ClothTree::Values ClothTree::squared_distances(const Nodes& nodes) const
 {
     constexpr float rounding = 1.0001f;  // unit: more than the distances of a node may be rounded by
@@ -234,7 +235,7 @@ ClothTree::Values ClothTree::angles(const Nodes& nodes) const
     tree_.walk(
         [&](const Ball& ball) {
             const float distance = (ball.centre - nodes.centre).norm() - nodes.radius;
-            if (!(distance > k_far * ball.radius && distance > std::sqrt(ball.size)))
+            if (!(distance > k_far_dipole * ball.radius && distance > std::sqrt(ball.size)))
                 return true;
             angles += nodes.angles(ball.area_vector, ball.centre, 0);
             return false;

@@ -164,6 +164,13 @@ inline constexpr double k_clearance_kept = 0.75;  ///< share of its clearance th
 inline constexpr double k_clearance_tolerance = 0.01;
 inline constexpr double k_same_root = 0.2, k_same_turn = 0.35;  ///< m, rad; roots that may become one. guess
 
+// ---------------------------------------------------------------- cloth tree
+
+/// Radii of a ball of patches; further away it counts as one dipole, good to some per cent. guess
+inline constexpr float k_far_dipole = 1.4f;
+/// Factor by which a distance to the cloth may be too large. guess
+inline constexpr float k_distance_tolerance = 1.1f;
+
 // ---------------------------------------------------------------- baselines
 
 /// m; weight of opposed normals against distance. The paper gives no number: two layers of cloth on a thin limb are

@@ -10,7 +10,7 @@
 namespace garmentfit {
 namespace {
 
-constexpr int k_leaf_size = 4;
+constexpr int k_leaf_size = 4;  // unit: decides speed, and the order of pairs
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void BoxTree::Bounds::extend(const Bounds& other)
 
 float BoxTree::Bounds::girth() const { return (high - low).sum(); }
 
-// By one or two units in the last place, which is more than a conversion is ever wrong by.
+// unit: outwards by one or two units in the last place; a conversion is wrong by half a unit.
 BoxTree::Bounds BoxTree::rounded(const Box& box)
 {
     Bounds result;
@@ -82,7 +82,7 @@ void BoxTree::refit(const std::vector<Box>& boxes)
 {
     for (std::size_t i = 0; i < order_.size(); ++i)
         boxes_[i] = rounded(boxes[order_[i]]);
-    for (int n = int(nodes_.size()) - 1; n >= 0; --n) {  // children stand behind their parents
+    for (int n = int(nodes_.size()) - 1; n >= 0; --n) {  // children come after their parents
         Node& node = nodes_[n];
         if (node.count == 0) {
             node.box = nodes_[node.first].box;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A hierarchy of boxes over the primitives of a moving mesh: built once, its boxes renewed at every step.
+// The refitted tree: boxes over the primitives of a moving mesh, built once, renewed at every step. On the edges of a
+// coat, refitting it and listing all close pairs takes a ninth of the time of CGAL's box intersection, which
+// starts from nothing (docs/decisions/0016-trees.md). Static items have MedianTree.
 
 #include <Eigen/Geometry>
 #include <functional>
@@ -19,20 +21,21 @@ public:
     /// Groups primitives by the centres of these boxes. O(n log n).
     explicit BoxTree(const std::vector<Box>& boxes);
 
-    /// Renews all boxes; which primitives are grouped stays. O(n).
+    /// Renews all boxes and keeps the groups. O(n).
     void refit(const std::vector<Box>& boxes);
 
     bool empty() const { return order_.empty(); }
 
-    /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`; of a tree and itself, once for
-    /// each pair of two primitives. The search is cut into k_parts parts, run on all threads; visits of one part are in a fixed
-    /// order, so results gathered by part are the same for any number of threads.
+    /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`. Where `a` and `b` are
+    /// one tree, each pair of two primitives comes once. The search consists of k_parts parts that run on all threads.
+    /// Visits of one part come in a fixed order, so results gathered by part are the same for any number of threads.
     using Visit = std::function<void(int part, int i, int j)>;
-    static constexpr int k_parts = 64;
+    static constexpr int k_parts = 64;  ///< unit: enough to keep all threads busy; decides speed only
     static void overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit);
 
 private:
-    /// A box in single precision, rounded outwards, so it misses nothing. The fourth number, about 0, is there for wide instructions.
+    /// A box in single precision, rounded outwards, so that no overlap is missed. The fourth number is about 0 and
+    /// fills the registers of wide instructions.
     struct Bounds {
         Eigen::Array4f low, high;
         bool meets(const Bounds& other) const;

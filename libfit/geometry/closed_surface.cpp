@@ -23,6 +23,7 @@
 #include "garmentfit/error.h"
 #include "surface_measures.h"
 #include "topology.h"
+#include "tuning.h"
 #include "winding_number.h"
 #include "wrapped_surface.h"
 
@@ -31,22 +32,15 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-// Shares of the diagonal within which vertices are one, tried in turn: 2 micrometres of a body to 1 mm for soups that were
-// rounded or shaken.
-constexpr double k_welds[] = { 1e-6, 1e-5, 1e-4, 5e-4 };
-constexpr double k_rival = 0.2;   // a piece of this share of the body's size is no island but a limb, or somebody else
-constexpr std::size_t k_cubic = 300;  // edges of a hole: trying all patches costs their third power, a second here
-constexpr int k_samples = 9;      // of a piece's vertices, to tell whether it lies within the body
-
 struct Soup {
     std::vector<CgalKernel::Point_3> points;
     std::vector<std::vector<std::size_t>> triangles;
 };
 
-/// Finds the first of all points given so far that is no more than a distance away.
+/// Finds the first point given so far that lies within a distance.
 class Welder {
 public:
-    explicit Welder(double distance) : distance_(std::max(distance, 1e-300)) { }
+    explicit Welder(double distance) : distance_(std::max(distance, 1e-300)) { }  // unit: never 0
 
     std::size_t row(const Vec3& p, std::vector<CgalKernel::Point_3>& points)
     {
@@ -55,7 +49,8 @@ public:
             if (const auto found = rows_.find({ corner[0] + (k & 1), corner[1] + (k >> 1 & 1), corner[2] + (k >> 2) });
                 found != rows_.end())
                 for (const std::size_t row : found->second)
-                    if ((Vec3(points[row].x(), points[row].y(), points[row].z()) - p).squaredNorm() <= distance_ * distance_)
+                    if ((Vec3(points[row].x(), points[row].y(), points[row].z()) - p).squaredNorm()
+                        <= distance_ * distance_)
                         return row;
         rows_[cell(p)].push_back(points.size());
         points.emplace_back(p.x(), p.y(), p.z());
@@ -82,8 +77,8 @@ private:
     std::unordered_map<Cell, std::vector<std::size_t>, Hash> rows_;
 };
 
-/// Vertices that lie at one place become one; triangles that lose a corner, and all but the first on the same corners, go.
-Soup welded(const TriangleMesh& surface, double distance)
+/// Merges vertices within a distance. Drops triangles that lose a corner, and all but the first on the same corners.
+Soup weld(const TriangleMesh& surface, double distance)
 {
     Soup soup;
     Welder welder(distance);
@@ -103,7 +98,8 @@ Soup welded(const TriangleMesh& surface, double distance)
     sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
     for (const auto& corners : sorted) {
         const auto f = Eigen::Index(corners[3]);
-        soup.triangles.push_back({ row[surface.triangles(f, 0)], row[surface.triangles(f, 1)], row[surface.triangles(f, 2)] });
+        soup.triangles.push_back(
+            { row[surface.triangles(f, 0)], row[surface.triangles(f, 1)], row[surface.triangles(f, 2)] });
     }
     return soup;
 }
@@ -162,19 +158,20 @@ bool is_one_closed_manifold(const TriangleMesh& surface)
     return !across.empty() && has_one_fan_a_vertex(surface, across) && is_one_piece(across) && volume(surface) != 0;
 }
 
-/// What hangs together.
+/// A connected component.
 struct Piece {
     std::size_t label = 0;
     Eigen::AlignedBox3d box;
-    double volume = 0;  ///< m^3, about the middle of its box: an open sheet has next to none
+    double volume = 0;  ///< m^3, about the middle of its box; an open sheet has almost none
 
     double size() const { return box.diagonal().norm() * std::cbrt(std::abs(volume)); }
 };
 
 constexpr const char* k_label = "f:piece";
 
-/// The largest first: long and full, as a body is, and a floor or a block is not.
-std::vector<Piece> labelled_pieces(CgalMesh& mesh)
+/// Labels the faces by piece and returns the pieces, the largest first. Size is length times thickness, so that a body
+/// comes before a floor or a block.
+std::vector<Piece> label_pieces(CgalMesh& mesh)
 {
     const auto labels = mesh.add_property_map<CgalMesh::Face_index, std::size_t>(k_label, 0).first;
     std::vector<Piece> pieces(pmp::connected_components(mesh, labels));
@@ -197,48 +194,50 @@ std::vector<Piece> labelled_pieces(CgalMesh& mesh)
     return pieces;
 }
 
-CgalMesh only(CgalMesh mesh, std::size_t label)
+CgalMesh keep_only(CgalMesh mesh, std::size_t label)
 {
-    const auto labels = mesh.property_map<CgalMesh::Face_index, std::size_t>(k_label).first;  // the copy's: CGAL overwrites them
+    const auto labels = mesh.property_map<CgalMesh::Face_index, std::size_t>(k_label)
+                            .first;  // those of the copy; CGAL overwrites them
     pmp::keep_connected_components(mesh, std::vector<std::size_t> { label }, labels);
     mesh.collect_garbage();
     return mesh;
 }
 
-/// An inner wall, say, or the lungs.
+/// Whether most of a piece is inside the other one, as an inner wall or lungs are.
 bool lies_within(const TriangleMesh& piece, const TriangleMesh& main)
 {
-    const Eigen::Index step = std::max<Eigen::Index>(1, piece.positions.rows() / k_samples);
+    const Eigen::Index step = std::max<Eigen::Index>(1, piece.positions.rows() / k_piece_samples);
     int inside = 0, samples = 0;
     for (Eigen::Index v = 0; v < piece.positions.rows(); v += step, ++samples)
         inside += std::abs(winding_number(main, piece.positions.row(v))) > 0.5;
     return 2 * inside > samples;
 }
 
-/// The largest piece, and how much smaller the next one is that lies beside it; islands are far smaller.
+/// The largest piece, and the size of the next one that lies beside it.
 struct Body {
     CgalMesh mesh;
-    double rival = 0;  ///< share of size
+    double rival = 0;  ///< as a share of the size; 0: none but islands
 };
 
 Body main_body(CgalMesh mesh)
 {
-    const std::vector<Piece> pieces = labelled_pieces(mesh);
+    const std::vector<Piece> pieces = label_pieces(mesh);
     if (pieces.empty() || pieces[0].size() == 0)
         return {};
-    Body body { only(mesh, pieces[0].label) };
+    Body body { keep_only(mesh, pieces[0].label) };
     for (std::size_t i = 1; i < pieces.size() && body.rival == 0; ++i) {
         const double share = pieces[i].size() / pieces[0].size();
-        if (share < k_rival)
+        if (share < k_largest_island)
             break;
-        if (!lies_within(from_cgal(only(mesh, pieces[i].label)), from_cgal(body.mesh)))
+        if (!lies_within(from_cgal(keep_only(mesh, pieces[i].label)), from_cgal(body.mesh)))
             body.rival = share;
     }
     return body;
 }
 
-/// @return whether a patch was found, its edges taken from a Delaunay triangulation or from all there could be
-bool is_patched(CgalMesh& mesh, CgalMesh::Halfedge_index hole, bool delaunay)
+/// @param delaunay  take edges from a Delaunay triangulation only, else from all pairs of vertices
+/// @return whether a patch was found
+bool patch_hole(CgalMesh& mesh, CgalMesh::Halfedge_index hole, bool delaunay)
 {
     std::vector<CgalMesh::Face_index> patch;
     std::vector<CgalMesh::Vertex_index> added;
@@ -248,8 +247,8 @@ bool is_patched(CgalMesh& mesh, CgalMesh::Halfedge_index hole, bool delaunay)
     return !patch.empty();
 }
 
-/// Triangles from the border to its middle: not smooth, but closed.
-void put_tent(CgalMesh& mesh, CgalMesh::Halfedge_index hole)
+/// Closes a hole by a fan of triangles from its border to its middle.
+void close_by_fan(CgalMesh& mesh, CgalMesh::Halfedge_index hole)
 {
     CgalKernel::Vector_3 sum = CGAL::NULL_VECTOR;
     const auto corners = CGAL::vertices_around_face(hole, mesh);
@@ -266,13 +265,14 @@ void fill_holes(CgalMesh& mesh)
     pmp::extract_boundary_cycles(mesh, std::back_inserter(holes));
     for (const auto hole : holes) {
         const std::size_t edges = CGAL::halfedges_around_face(hole, mesh).size();
-        if (!is_patched(mesh, hole, true) && !(edges < k_cubic && is_patched(mesh, hole, false)))
-            put_tent(mesh, hole);
+        if (!patch_hole(mesh, hole, true)
+            && !(edges < std::size_t(k_largest_cubic_hole) && patch_hole(mesh, hole, false)))
+            close_by_fan(mesh, hole);
     }
 }
 
-/// Nothing when the body comes in parts.
-CgalMesh closed_soup(Soup soup)
+/// Orients, stitches and fills. Empty when the body comes in parts.
+CgalMesh close_soup(Soup soup)
 {
     pmp::orient_polygon_soup(soup.points, soup.triangles);
     CgalMesh mesh;
@@ -290,19 +290,19 @@ bool is_solid(const CgalMesh& mesh)
     return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
 }
 
-CgalMesh wrapped_body(const TriangleMesh& surface)
+CgalMesh wrap_body(const TriangleMesh& surface)
 {
-    Body body = main_body(to_cgal(wrapped_surface(surface)));
+    Body body = main_body(to_cgal(wrap_surface(surface)));
     if (body.rival > 0)
         throw InvalidInput(ErrorCode::separate_pieces,
                            "body: it is in pieces that lie apart, the second "
                                + std::to_string(std::lround(100 * body.rival))
                                + "% the size of the first (an island has at most "
-                               + std::to_string(std::lround(100 * k_rival)) + "%); give one human body");
+                               + std::to_string(std::lround(100 * k_largest_island)) + "%); give one human body");
     return std::move(body.mesh);
 }
 
-TriangleMesh outward(TriangleMesh mesh)
+TriangleMesh orient_outwards(TriangleMesh mesh)
 {
     if (volume(mesh) < 0)
         mesh.triangles.col(1).swap(mesh.triangles.col(2));
@@ -311,27 +311,27 @@ TriangleMesh outward(TriangleMesh mesh)
 
 }  // namespace
 
-TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired)
+TriangleMesh close_surface(const TriangleMesh& surface, bool& repaired)
 {
     if (is_one_closed_manifold(surface)) {
-        TriangleMesh result = outward(surface);
+        TriangleMesh result = orient_outwards(surface);
         repaired = result.triangles != surface.triangles;
         return result;
     }
     repaired = true;
     const double size = diagonal(surface.positions);
-    if (welded(surface, k_welds[0] * size).triangles.empty())
+    if (weld(surface, k_weld_shares[0] * size).triangles.empty())
         throw InvalidInput(ErrorCode::degenerate_mesh,
                            "body: all " + std::to_string(surface.triangles.rows())
                                + " faces have no area; give another surface");
     try {
-        for (const double weld : k_welds)
-            if (const CgalMesh mesh = closed_soup(welded(surface, weld * size)); is_solid(mesh))
-                return outward(from_cgal(mesh));
-        if (const CgalMesh mesh = wrapped_body(surface); is_solid(mesh))  // in tatters or in parts
-            return outward(from_cgal(mesh));
+        for (const double share : k_weld_shares)
+            if (const CgalMesh mesh = close_soup(weld(surface, share * size)); is_solid(mesh))
+                return orient_outwards(from_cgal(mesh));
+        if (const CgalMesh mesh = wrap_body(surface); is_solid(mesh))  // torn, or in parts
+            return orient_outwards(from_cgal(mesh));
     } catch (const CGAL::Failure_exception&) {
-        // told below, in the user's words
+        // the message below says it
     }
     throw InvalidInput(ErrorCode::degenerate_mesh,
                        "body: its " + std::to_string(surface.triangles.rows())

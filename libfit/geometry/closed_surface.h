@@ -5,8 +5,8 @@
 
 namespace garmentfit {
 
-/// One closed, outward oriented, connected 2-manifold near `surface`; `repaired` says whether it differs from it.
+/// Returns a closed, outward oriented, connected 2-manifold near `surface`. Sets `repaired` to whether it differs.
 /// @throws InvalidInput when nothing can be closed.
-TriangleMesh closed_surface(const TriangleMesh& surface, bool& repaired);
+TriangleMesh close_surface(const TriangleMesh& surface, bool& repaired);
 
 }  // namespace garmentfit

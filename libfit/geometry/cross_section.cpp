@@ -16,10 +16,10 @@ EdgeKey key(int a, int b)
     return (EdgeKey(low) << 32) | EdgeKey(high);
 }
 
-/// A triangle's part of the cut: it is entered through one edge and left through another.
+/// The part of the cut within one triangle: from one edge to another.
 struct Step {
     EdgeKey leaves_by;
-    Vec3 at;     // where it is entered
+    Vec3 at;  // where the cut enters
     int vertex;  // above that place
 };
 
@@ -39,7 +39,8 @@ std::unordered_map<EdgeKey, Step> steps_through(const TriangleMesh& mesh, const 
 {
     std::unordered_map<EdgeKey, Step> steps;
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        // seen from outside, triangles run counter-clockwise: entered where they fall, the outline does so from above
+        // triangles run counter-clockwise seen from outside: with the falling edge as the entry, so does the outline
+        // seen from above
         const int in = crossing_edge(mesh.triangles, f, height, false);
         if (in < 0)
             continue;
@@ -61,7 +62,7 @@ std::vector<CrossSection> outlines(const TriangleMesh& mesh, const Eigen::Vector
     std::vector<CrossSection> result;
     for (const EdgeKey first : order) {
         CrossSection section;
-        for (auto step = steps.find(first); step != steps.end(); ) {
+        for (auto step = steps.find(first); step != steps.end();) {
             section.outline.push_back(step->second.at);
             section.vertices.push_back(step->second.vertex);
             const EdgeKey next = step->second.leaves_by;
@@ -95,7 +96,7 @@ bool goes_round(const CrossSection& section, const Vec3& point, const Vec3& norm
         const Vec3 a = section.outline[i] - point, b = section.outline[(i + 1) % section.outline.size()] - point;
         turn += std::atan2(a.cross(b).dot(normal), a.dot(b));
     }
-    return turn > 3.14;  // once round is 2 pi; a cavity's outline turns the other way
+    return turn > 3.14;  // derived: about half of one turn, 2 pi; the outline of a cavity turns the other way
 }
 
 }  // namespace

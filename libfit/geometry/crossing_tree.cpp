@@ -11,12 +11,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr int k_leaf_size = 4;
-constexpr double k_slack = 1e-9;  // m; far more than the few roundings of a box test, far less than a box
+constexpr int k_leaf_size = 4;  // unit: decides speed only
+constexpr double k_slack = 1e-9;  // unit: m; far more than the few roundings of a box test, far less than a box
 
 Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
 
-// Against boxes, by separating planes: across the box's axes, and across an axis and the segment.
+// A segment against boxes by separating axes: those of the box, and their cross products with the segment.
 class SegmentTest {
 public:
     SegmentTest(const Vec3& from, const Vec3& to) :
@@ -69,7 +69,8 @@ bool CrossingTree::is_met(const Vec3& from, const Vec3& to) const
                 [&](const BoxNode& leaf) {
                     for (const BoxedPrimitive& item : boxes_.items(leaf)) {
                         const auto& [a, b, c] = triangles_[item.primitive];
-                        is_met = is_met || CGAL::do_intersect(segment, Kernel::Triangle_3(point(a), point(b), point(c)));
+                        is_met
+                            = is_met || CGAL::do_intersect(segment, Kernel::Triangle_3(point(a), point(b), point(c)));
                     }
                     return !is_met;
                 });

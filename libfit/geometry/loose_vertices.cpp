@@ -6,16 +6,16 @@
 #include "nearest.h"
 #include "surface_measures.h"
 #include "topology.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-// Of the diagonal. A head, a hand or a foot reaches that far from its stump.
-constexpr double k_cut_off = 0.15;
-// No further away are a vertex and its like on the closed surface, whose vertices were welded.
+// derived: of the diagonal; twice the largest weld of close_surface(), so a vertex and its copy on the closed surface
+// are nearer.
 constexpr double k_same_place = 1e-3;
 
-/// How the user's vertices are surrounded by faces.
+/// The user's vertices by how many of their edges have faces on both sides.
 struct Surroundings {
     std::vector<int> none, some, all;
 };
@@ -42,8 +42,8 @@ Surroundings surroundings(const TriangleMesh& surface)
     return result;
 }
 
-/// Vertices of the closed surface where the user's is torn, and of the patches over its holes.
-Positions torn_and_patched(const TriangleMesh& closed, const NearestPoint& whole, double same_place)
+/// Vertices of the closed surface along the borders of the user's, and of the patches over its holes.
+Positions vertices_at_holes(const TriangleMesh& closed, const NearestPoint& whole, double same_place)
 {
     std::vector<int> rows;
     for (int v = 0; v < int(closed.positions.rows()); ++v)
@@ -54,7 +54,7 @@ Positions torn_and_patched(const TriangleMesh& closed, const NearestPoint& whole
 
 }  // namespace
 
-Positions brought_to_stumps(const BodyMesh& body)
+Positions move_to_stumps(const BodyMesh& body)
 {
     Positions result = body.surface.positions;
     const Surroundings vertices = surroundings(body.surface);
@@ -63,13 +63,13 @@ Positions brought_to_stumps(const BodyMesh& body)
     const Positions& closed = body.closed.positions;
     const double size = diagonal(closed);
     const NearestPoint whole(result(vertices.all, Eigen::all));
-    const Positions stumps = torn_and_patched(body.closed, whole, k_same_place * size);
+    const Positions stumps = vertices_at_holes(body.closed, whole, k_same_place * size);
     if (stumps.rows() == 0)
         return result;
     const NearestPoint stump(stumps);
     for (const int v : vertices.none)
         if (const Vec3 p = result.row(v);
-            whole.distance(p) > k_same_place * size && stump.distance(p) < k_cut_off * size)
+            whole.distance(p) > k_same_place * size && stump.distance(p) < k_reach_of_stump * size)
             result.row(v) = stumps.row(stump.index(p));
     return result;
 }

@@ -5,8 +5,8 @@
 
 namespace garmentfit {
 
-/// The user's vertices, but those that were cut off (of a hand, say, whose faces were deleted and whose vertices were left)
-/// brought to the nearest stump: beside a thigh they still belong to the arm. O(n log n); nothing to do where all have faces.
-Positions brought_to_stumps(const BodyMesh& body);
+/// The user's vertices, with those that were cut off moved to the nearest stump. Vertices are cut off where faces were
+/// deleted and vertices left, of a hand for example. Next to a thigh they still belong to the arm. O(n log n).
+Positions move_to_stumps(const BodyMesh& body);
 
 }  // namespace garmentfit

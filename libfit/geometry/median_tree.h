@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The static tree of libfit: items that stay where they are, halved at their median along the longest side of the box of
-// their places, until a handful is left. What a node knows of its items (a box, a dipole, a ball) is the user's.
+// The static tree of libfit: items that stay where they are, halved at their median along the longest side of the box
+// of their places, until a handful is left. What a node knows of its items (a box, a dipole, a ball) is the user's.
 //
-// Why not a library: FLANN's KD-tree answers nearest points only, CGAL's AABB tree carries exact kernels into each node.
-// Measured ratios: docs/decisions/0016-trees.md, tests/benchmarks/trees.cpp. Meshes that move have BoxTree.
+// Why not a library: FLANN's KD-tree answers nearest points only, CGAL's AABB tree carries exact kernels into each
+// node. Measured ratios: docs/decisions/0016-trees.md, tests/benchmarks/trees.cpp. Meshes that move have BoxTree.
 //
 // Cost  O(n log n) to build; a query takes no memory but 31 stack frames at most, for 2^31 items are halved 31 times.
 

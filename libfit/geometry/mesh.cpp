@@ -31,7 +31,7 @@ BodyMesh make_body(const Positions& positions, const Triangles& triangles)
     check("body", positions, triangles);
     BodyMesh body;
     body.surface = { positions, triangles };
-    body.closed = closed_surface(body.surface, body.repaired);
+    body.closed = close_surface(body.surface, body.repaired);
     return body;
 }
 

@@ -7,7 +7,7 @@
 
 namespace garmentfit {
 
-/// @throws InvalidInput naming the first triangle that names a vertex which `what` does not have.
+/// @throws InvalidInput with the first triangle whose vertex indices are out of range.
 void require_named_vertices(std::string_view what, Eigen::Index vertices, const Triangles& triangles);
 
 }  // namespace garmentfit

@@ -23,9 +23,9 @@ using Aabb = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 point(const Vec3& p) { return { p.x(), p.y(), p.z() }; }
 
-constexpr double k_anywhere = 1e150;  // its square is still a number
+constexpr double k_anywhere = 1e150;  // unit: m; the largest distance whose square is still a number
 
-// Of points equally near, the one with the lowest index, whatever the order in which the tree comes across them.
+// Of points equally near, the one with the lowest index, in whatever order the tree visits them.
 class FirstNearest : public flann::ResultSet<double> {
 public:
     explicit FirstNearest(double known) : squared_(known * known * k_rounding), above_(squared_) { }
@@ -43,19 +43,19 @@ public:
     std::pair<int, double> found() const { return { int(index_), std::sqrt(squared_) }; }
 
 private:
-    static constexpr double k_rounding = 1 + 1e-12;  // the point that is known has to be found again
+    static constexpr double k_rounding = 1 + 1e-12;  // unit: the known point has to be found again, whatever rounds
 
     std::size_t index_ = 0;
     double squared_;
-    double above_;  // FLANN passes on what is below: points equally near have to be
+    double above_;  // FLANN reports points below this bound; points equally near have to be among them
 };
 
-/// What a traversal of the tree does with the nodes and triangles it comes to.
+/// Lists the triangles that a segment meets, in a traversal of the tree.
 struct Listing {
     const Aabb::AABB_traits& traits;
     const std::vector<Kernel::Triangle_3>& triangles;
     const std::vector<int>& index;
-    const std::function<bool(int)>& passed_over;
+    const std::function<bool(int)>& is_skipped;
     std::vector<int> result;
 
     bool go_further() const { return true; }
@@ -67,7 +67,7 @@ struct Listing {
     void intersection(const Kernel::Segment_3& segment, const Primitive& primitive)
     {
         const int triangle = index[primitive.id() - triangles.cbegin()];
-        if (!(passed_over && passed_over(triangle)) && CGAL::do_intersect(segment, *primitive.id()))
+        if (!(is_skipped && is_skipped(triangle)) && CGAL::do_intersect(segment, *primitive.id()))
             result.push_back(triangle);
     }
 };
@@ -76,8 +76,8 @@ struct Listing {
 
 struct NearestPoint::Tree {
     explicit Tree(const Positions& given) :
-        points(given),
-        index(flann::Matrix<double>(points.data(), points.rows(), 3), flann::KDTreeSingleIndexParams(10, true))
+        points(given), index(flann::Matrix<double>(points.data(), points.rows(), 3),
+                             flann::KDTreeSingleIndexParams(10, true))  // unit: 10 points a leaf, FLANN's own choice
     {
         index.buildIndex();
     }
@@ -97,7 +97,8 @@ int NearestPoint::index(const Vec3& query, double known) const { return tree_->n
 
 int PointScan::index(const Vec3& query) const
 {
-    constexpr Eigen::Index block = 256;  // fits the nearest cache; only blocks that improve are looked into
+    constexpr Eigen::Index block
+        = 256;  // unit: fits the first cache; the index is looked up in blocks that improve only
     double nearest = INFINITY;
     Eigen::Index index = 0;
     for (Eigen::Index begin = 0; begin < points_.rows(); begin += block) {
@@ -139,9 +140,9 @@ bool TriangleTree::is_met(const Vec3& from, const Vec3& to) const
 }
 
 std::vector<int> TriangleTree::met_by(const Vec3& from, const Vec3& to,
-                                      const std::function<bool(int)>& passed_over) const
+                                      const std::function<bool(int)>& is_skipped) const
 {
-    Listing listing { tree_->aabb.traits(), tree_->triangles, tree_->index, passed_over, {} };
+    Listing listing { tree_->aabb.traits(), tree_->triangles, tree_->index, is_skipped, {} };
     if (from != to && !tree_->triangles.empty())
         tree_->aabb.traversal(Kernel::Segment_3(point(from), point(to)), listing);
     std::sort(listing.result.begin(), listing.result.end());

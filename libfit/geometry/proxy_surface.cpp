@@ -9,23 +9,17 @@
 #include "cgal_mesh.h"
 #include "short_edges.h"
 #include "topology.h"
+#include "tuning.h"
 
 namespace garmentfit {
-
 namespace {
 
 namespace sms = CGAL::Surface_mesh_simplification;
 
 using Stop = sms::Count_stop_predicate<CgalMesh>;
 
-// Above this multiple of the target, the shortest edges go first: that is far cheaper, and they are far below the target's
-// resolution.
-constexpr int k_coarse_multiple = 4;
-
-constexpr double k_fewest = 0.65;  // of the target: on larger triangles the flow loses its way at wrists and armpits
-
-/// Each triangle cut into four at the middles of its edges.
-TriangleMesh quartered(const TriangleMesh& mesh)
+/// Cuts each triangle into four at the middles of its edges.
+TriangleMesh quarter(const TriangleMesh& mesh)
 {
     const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
     std::vector<int> middle_of(topology.edges().rows(), -1);
@@ -53,11 +47,11 @@ TriangleMesh quartered(const TriangleMesh& mesh)
     return result;
 }
 
-TriangleMesh decimated(const TriangleMesh& closed, int vertices)
+TriangleMesh decimate(const TriangleMesh& closed, int vertices)
 {
     const int coarse = k_coarse_multiple * vertices;
-    CgalMesh mesh = to_cgal(closed.positions.rows() > coarse ? without_short_edges(closed, coarse) : closed);
-    sms::edge_collapse(mesh, Stop(3 * std::size_t(vertices)));  // Euler: three edges a vertex
+    CgalMesh mesh = to_cgal(closed.positions.rows() > coarse ? collapse_short_edges(closed, coarse) : closed);
+    sms::edge_collapse(mesh, Stop(3 * std::size_t(vertices)));  // derived: Euler, three edges a vertex
     mesh.collect_garbage();
     return from_cgal(mesh);
 }
@@ -67,10 +61,11 @@ TriangleMesh decimated(const TriangleMesh& closed, int vertices)
 TriangleMesh proxy_surface(const TriangleMesh& closed, int vertices)
 {
     if (closed.positions.rows() > vertices)
-        return decimated(closed, vertices);
+        return decimate(closed, vertices);
     TriangleMesh proxy = closed;
-    while (double(proxy.positions.rows()) < k_fewest * vertices)  // not thinned out again: that would undo it where it is flat
-        proxy = quartered(proxy);
+    while (double(proxy.positions.rows()) < k_fewest_proxy_vertices
+               * vertices)  // not decimated afterwards, which would undo it where the surface is flat
+        proxy = quarter(proxy);
     return proxy;
 }
 

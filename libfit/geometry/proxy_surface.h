@@ -5,9 +5,9 @@
 
 namespace garmentfit {
 
-/// `closed` with about `vertices` vertices: edges collapsed (Lindstrom and Turk) where it has more; triangles quartered
-/// where it has less than a third of that, for a curve skeleton needs vertices to contract. Stays closed and keeps its genus.
-/// O(n log n).
+/// `closed` with about `vertices` vertices. With more, edges are collapsed (Lindstrom and Turk, by CGAL). With fewer
+/// than k_fewest_proxy_vertices of them, triangles are quartered: a curve skeleton needs vertices to contract. The
+/// result is closed and of the same genus. O(n log n).
 TriangleMesh proxy_surface(const TriangleMesh& closed, int vertices);
 
 }  // namespace garmentfit

@@ -18,21 +18,15 @@
 
 #include "cgal_mesh.h"
 #include "garmentfit/error.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr int k_fewest_points = 500;  // fewer cannot show hands and feet
-constexpr double k_most_points = 50000;  // the rig reads no more than a fraction of them
-constexpr int k_neighbours = 24;  // that spacing is judged by
-constexpr double k_outlier = 3;  // spacings to its neighbours on average: twice what a point of the surface has
-constexpr int k_smoothing = 4;  // rounds: noise of the size of the spacing goes
-constexpr double k_longest_edge = 8;  // spacings: wider gaps stay open, or an arm would be sewn to the trunk
-
 using IndexedPoint = std::pair<CgalKernel::Point_3, int>;
 using PointMap = CGAL::First_of_pair_property_map<IndexedPoint>;
 
-std::vector<IndexedPoint> indexed(const Positions& points)
+std::vector<IndexedPoint> number_points(const Positions& points)
 {
     std::vector<IndexedPoint> result;
     for (Eigen::Index v = 0; v < points.rows(); ++v)
@@ -43,14 +37,14 @@ std::vector<IndexedPoint> indexed(const Positions& points)
 
 double spacing(const std::vector<IndexedPoint>& points)
 {
-    return CGAL::compute_average_spacing<CGAL::Sequential_tag>(points, k_neighbours,
+    return CGAL::compute_average_spacing<CGAL::Sequential_tag>(points, k_spacing_neighbours,
                                                                CGAL::parameters::point_map(PointMap()));
 }
 
 void remove_outliers(std::vector<IndexedPoint>& points)
 {
     const auto first = CGAL::remove_outliers<CGAL::Sequential_tag>(
-        points, k_neighbours,
+        points, k_spacing_neighbours,
         CGAL::parameters::point_map(PointMap()).threshold_percent(100).threshold_distance(k_outlier * spacing(points)));
     points.erase(first, points.end());
 }
@@ -59,9 +53,10 @@ void thin_out(std::vector<IndexedPoint>& points)
 {
     if (double(points.size()) <= k_most_points)
         return;
-    // neighbours among k lie about sqrt(k / pi) / 1.5 cells of one point each away
-    const double cell
-        = spacing(points) * 1.5 / std::sqrt(k_neighbours / 3.14) * std::sqrt(double(points.size()) / k_most_points);
+    // derived: on a plane with one point a cell, k neighbours fill a disc of radius sqrt(k / pi) cells, and their mean
+    // distance is 2 / 3 of it
+    const double cell = spacing(points) * 1.5 / std::sqrt(k_spacing_neighbours / 3.14)
+        * std::sqrt(double(points.size()) / k_most_points);
     points.erase(CGAL::grid_simplify_point_set(points, cell, CGAL::parameters::point_map(PointMap())), points.end());
 }
 
@@ -69,7 +64,7 @@ void thin_out(std::vector<IndexedPoint>& points)
 
 Triangles reconstruct_surface(const Positions& points, const Progress& progress)
 {
-    std::vector<IndexedPoint> kept = indexed(points);
+    std::vector<IndexedPoint> kept = number_points(points);
     if (kept.size() >= std::size_t(k_fewest_points)) {
         remove_outliers(kept);
         progress.at(0.2);
@@ -84,10 +79,10 @@ Triangles reconstruct_surface(const Positions& points, const Progress& progress)
     CGAL::Scale_space_surface_reconstruction_3<CgalKernel> scales;
     for (const IndexedPoint& point : kept)
         scales.insert(point.first);
-    scales.increase_scale(k_smoothing, CGAL::Scale_space_reconstruction_3::Weighted_PCA_smoother<CgalKernel>());
+    scales.increase_scale(k_scale_steps, CGAL::Scale_space_reconstruction_3::Weighted_PCA_smoother<CgalKernel>());
     progress.at(0.7);
     scales.reconstruct_surface(
-        CGAL::Scale_space_reconstruction_3::Advancing_front_mesher<CgalKernel>(k_longest_edge * spacing(kept)));
+        CGAL::Scale_space_reconstruction_3::Advancing_front_mesher<CgalKernel>(k_longest_bridge * spacing(kept)));
 
     Triangles triangles(Eigen::Index(scales.number_of_facets()), 3);
     Eigen::Index f = 0;

@@ -8,7 +8,7 @@
 
 namespace garmentfit {
 
-/// A segment may have no length: it is a point then.
+/// @pre none: a segment without length is a point.
 inline Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 {
     const Vec3 axis = b - a;

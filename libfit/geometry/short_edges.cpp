@@ -6,14 +6,10 @@
 #include <vector>
 
 #include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
-
-// Of the edge that an even mesh of the wanted size would have: the first sweep takes edges shorter than this, each
-// further one takes somewhat longer ones.
-constexpr double k_first_length = 0.3, k_growth = 1.25;
-constexpr int k_most_sweeps = 12;
 
 class Collapser {
 public:
@@ -28,7 +24,7 @@ public:
 
     int left() const { return left_; }
 
-    /// Every vertex gives in once to its nearest neighbour, where that is nearer than `length`.
+    /// Merges every vertex once with its nearest neighbour, where that is nearer than `length`.
     void sweep(double length)
     {
         for (int v = 0; v < int(faces_of_.size()); ++v)
@@ -80,7 +76,8 @@ private:
         neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     }
 
-    /// Two neighbours in common, else a handle would close or a sheet fold; and nothing turns over.
+    /// Exactly two common neighbours keep the surface a manifold. More than four neighbours of the merged vertex keep
+    /// it from collapsing to a flat pair of faces. No triangle may turn over.
     bool may_join(int v, int u)
     {
         collect_neighbours(v, of_v_);
@@ -88,11 +85,11 @@ private:
         common_.clear();
         std::set_intersection(of_v_.begin(), of_v_.end(), of_u_.begin(), of_u_.end(), std::back_inserter(common_));
         const Vec3 middle = 0.5 * (at(v) + at(u));
-        return common_.size() == 2 && of_v_.size() + of_u_.size() > 8 && stays_up(v, u, middle)
-            && stays_up(u, v, middle);
+        return common_.size() == 2 && of_v_.size() + of_u_.size() > 8 && keeps_normals(v, u, middle)
+            && keeps_normals(u, v, middle);
     }
 
-    bool stays_up(int v, int other, const Vec3& to) const
+    bool keeps_normals(int v, int other, const Vec3& to) const
     {
         return std::all_of(faces_of_[v].begin(), faces_of_[v].end(), [&](int f) {
             if (has(f, other))
@@ -130,20 +127,21 @@ private:
     }
 
     Positions positions_;
-    Triangles triangles_;  // rows of -1: gone
-    std::vector<std::vector<int>> faces_of_;  // empty: gone
+    Triangles triangles_;  // rows of -1 are deleted
+    std::vector<std::vector<int>> faces_of_;  // empty where deleted
     int left_;
     std::vector<int> of_v_, of_u_, common_;  // kept between calls for their memory
 };
 
 }  // namespace
 
-TriangleMesh without_short_edges(const TriangleMesh& closed, int vertices)
+TriangleMesh collapse_short_edges(const TriangleMesh& closed, int vertices)
 {
     Collapser collapser(closed);
-    double length
-        = k_first_length * std::sqrt(2 / std::sqrt(3.0) * area(closed) / vertices);  // a vertex has two triangles
-    for (int sweep = 0; sweep < k_most_sweeps && collapser.left() > vertices; ++sweep, length *= k_growth)
+    double length = k_first_short_edge
+        * std::sqrt(2 / std::sqrt(3.0) * area(closed)
+                    / vertices);  // derived: a vertex has two triangles, equilateral ones
+    for (int sweep = 0; sweep < k_most_sweeps && collapser.left() > vertices; ++sweep, length *= k_short_edge_growth)
         collapser.sweep(length);
     return collapser.result();
 }

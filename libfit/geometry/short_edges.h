@@ -5,8 +5,9 @@
 
 namespace garmentfit {
 
-/// Collapses the shortest edges of a closed manifold to their middles, evenly all over, until no more than about so many
-/// vertices are left; fewer by up to a third. Stays closed and a manifold; no triangle turns over. O(n), a microsecond a vertex.
-TriangleMesh without_short_edges(const TriangleMesh& closed, int vertices);
+/// Collapses the shortest edges of a closed manifold to their middles, evenly all over, until about `vertices` are
+/// left, or up to a third fewer. The result is a closed manifold, and no triangle turns over. O(n), a microsecond a
+/// vertex.
+TriangleMesh collapse_short_edges(const TriangleMesh& closed, int vertices);
 
 }  // namespace garmentfit

@@ -11,7 +11,8 @@ double diagonal(const Positions& positions);
 /// m^2; the area of triangle `f` times its unit normal.
 inline Vec3 area_vector(const Positions& positions, const Triangles& triangles, Eigen::Index f)
 {
-    const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)), c = positions.row(triangles(f, 2));
+    const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)),
+               c = positions.row(triangles(f, 2));
     return 0.5 * (b - a).cross(c - a);
 }
 

@@ -12,10 +12,7 @@ namespace {
 /// A side with its vertices in rising order.
 struct SortedSide {
     int high, side;
-    bool operator<(const SortedSide& other) const
-    {
-        return std::tie(high, side) < std::tie(other.high, other.side);
-    }
+    bool operator<(const SortedSide& other) const { return std::tie(high, side) < std::tie(other.high, other.side); }
 };
 
 }  // namespace

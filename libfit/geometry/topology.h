@@ -3,8 +3,8 @@
 
 // Edges, neighbours and borders of a triangle mesh: built once, handed down to all who ask.
 //
-// A side is the directed edge of a triangle from its corner k to its corner k + 1 (mod 3); its number is 3 f + k.
-// An edge is an undirected pair of vertices; several sides may lie on it: one on a border, two on a manifold, more where
+// A side is the directed edge of a triangle from its corner k to its corner k + 1 (mod 3); its number is 3 f + k. An
+// edge is an undirected pair of vertices; several sides may lie on it: one on a border, two on a manifold, more where
 // sheets meet. A side between a vertex and itself lies on no edge.
 //
 // Cost  O(n) memory and, for meshes whose vertices have a bounded number of triangles, O(n) time.

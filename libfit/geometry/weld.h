@@ -7,16 +7,17 @@
 
 namespace garmentfit {
 
-/// Vertices of a garment at exactly one place are one vertex of its cloth: seams of UV charts are no cuts. Stray vertices, of no face, are
-/// no cloth; they go with the nearest vertex that is.
+/// Between a garment as given and its cloth. Vertices of the garment at exactly the same place are one vertex of the
+/// cloth, because seams of UV charts are no cuts. Stray vertices, which have no face, are not part of the cloth; they
+/// follow its nearest vertex.
 class Weld {
 public:
     explicit Weld(const GarmentMesh& garment);  ///< O(n log n)
 
-    Positions gathered(const Positions& garment) const;  ///< of the cloth, from those of the garment
-    GarmentMesh gathered(const GarmentMesh& garment) const;  ///< without faces that the weld leaves no area
-    Positions spread(const Positions& cloth) const;  ///< values of the garment, from those of the cloth
-    Positions placed(const Positions& cloth) const;  ///< positions: a stray vertex is as far off its nearest as at rest
+    Positions gathered(const Positions& garment) const;  ///< positions of the cloth
+    GarmentMesh gathered(const GarmentMesh& garment) const;  ///< the cloth, without faces that lose a corner
+    Positions spread(const Positions& cloth) const;  ///< values at the garment's vertices, from those of the cloth
+    Positions placed(const Positions& cloth) const;  ///< positions; a stray vertex keeps its offset at rest
     int given() const { return int(cloth_vertex_.size()); }  ///< vertices of the garment
 
 private:
@@ -26,7 +27,7 @@ private:
     };
 
     std::vector<int> cloth_vertex_;  // of each vertex of the garment
-    std::vector<int> last_;  // of the vertices of the garment that are a vertex of the cloth
+    std::vector<int> last_;  // vertex of the garment at each vertex of the cloth
     std::vector<Stray> strays_;
 };
 

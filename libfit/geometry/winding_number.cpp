@@ -8,8 +8,9 @@
 namespace garmentfit {
 namespace {
 
-constexpr int k_leaf_size = 8;
-constexpr double k_far = 2;  // radii; beyond, a dipole is good to about one per cent
+constexpr int k_leaf_size = 8;  // unit: decides speed; inside of the last digits also the result
+// literature: [barill_2018_fast_winding_numbers], beta = 2, in radii. Beyond, a dipole is good to about 1 %.
+constexpr double k_far = 2;
 
 // Van Oosterom and Strackee 1983.
 double solid_angle(const Eigen::Matrix3d& corners, const Vec3& query)
@@ -28,10 +29,7 @@ Eigen::Matrix3d corners_of(const TriangleMesh& surface, int f)
     return corners;
 }
 
-Vec3 area_vector_of(const Eigen::Matrix3d& c)
-{
-    return 0.5 * (c.col(1) - c.col(0)).cross(Vec3(c.col(2) - c.col(0)));
-}
+Vec3 area_vector_of(const Eigen::Matrix3d& c) { return 0.5 * (c.col(1) - c.col(0)).cross(Vec3(c.col(2) - c.col(0))); }
 
 }  // namespace
 

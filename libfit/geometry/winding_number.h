@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Generalized winding number: 1 well inside an outward surface, 0 outside, fading through openings.
+// Generalized winding number: 1 well inside an outward surface, 0 outside, with a smooth transition at openings.
 //
 // Method  exact solid angles near by, one dipole per tree node far away [barill_2018_fast_winding_numbers].
 // Cost    O(n log n) once, O(log n) a query.
@@ -31,7 +31,7 @@ private:
     MedianTree<Triangle, Dipole> tree_;
 };
 
-/// The same at one query or a few: all solid angles, exact; no cost beforehand.
+/// The same for a few queries: the exact sum of all solid angles, without a tree.
 double winding_number(const TriangleMesh& surface, const Vec3& query);
 
 }  // namespace garmentfit

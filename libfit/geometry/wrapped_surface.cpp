@@ -8,16 +8,11 @@
 
 #include "cgal_mesh.h"
 #include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
-namespace {
 
-constexpr double k_alpha = 0.012;   // of the diagonal: holes narrower than this are wrapped over
-constexpr double k_offset = 0.001;  // of the diagonal: how far the wrap keeps off the surface
-
-}  // namespace
-
-TriangleMesh wrapped_surface(const TriangleMesh& surface)
+TriangleMesh wrap_surface(const TriangleMesh& surface)
 {
     std::vector<CgalKernel::Point_3> points;
     for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
@@ -28,7 +23,7 @@ TriangleMesh wrapped_surface(const TriangleMesh& surface)
                               std::size_t(surface.triangles(f, 2)) });
     const double size = diagonal(surface.positions);
     CgalMesh mesh;
-    CGAL::alpha_wrap_3(points, triangles, k_alpha * size, k_offset * size, mesh);
+    CGAL::alpha_wrap_3(points, triangles, k_wrap_alpha * size, k_wrap_offset * size, mesh);
     return from_cgal(mesh);
 }
 

@@ -5,8 +5,8 @@
 
 namespace garmentfit {
 
-/// A closed surface shrink-wrapped round any triangles [portaneri_2022_alpha_wrap]; holes narrower than some 1% of the
-/// diagonal are wrapped over. A few seconds.
-TriangleMesh wrapped_surface(const TriangleMesh& surface);
+/// Returns a closed surface around any triangles [portaneri_2022_alpha_wrap]. It spans holes narrower than about 1 % of
+/// the diagonal. Takes a few seconds.
+TriangleMesh wrap_surface(const TriangleMesh& surface);
 
 }  // namespace garmentfit

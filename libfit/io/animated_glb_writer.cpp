@@ -11,7 +11,8 @@ namespace {
 std::size_t frames_of(const std::vector<MovingMesh>& meshes)
 {
     if (meshes.empty() || meshes.front().frames.empty())
-        throw InvalidInput(ErrorCode::missing_input, "animated GLB: no frames to write; give a mesh with at least one frame");
+        throw InvalidInput(ErrorCode::missing_input,
+                           "animated GLB: no frames to write; give a mesh with at least one frame");
     for (const MovingMesh& mesh : meshes)
         if (mesh.frames.size() != meshes.front().frames.size())
             throw InvalidInput(ErrorCode::count_mismatch,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A file in memory: where in it something is wrong, and how it is written again with pieces exchanged.
+// A file in memory: messages with the place of an error, and copies with some bytes replaced.
 
 #include <cstddef>
 #include <filesystem>
@@ -18,7 +18,7 @@ struct Span {
 };
 
 struct FileBytes {
-    std::string name;   ///< the path as the user gave it, for messages
+    std::string name;  ///< the path as the user gave it, for messages
     std::string bytes;
 
     std::string_view text(Span span) const { return std::string_view(bytes).substr(span.begin, span.end - span.begin); }
@@ -33,7 +33,7 @@ struct FileBytes {
 /// @throws InvalidInput when there is no such regular, readable, non-empty file.
 FileBytes read_file(const std::filesystem::path& path);
 
-/// Copies a file, putting other bytes in the place of some. Replacements come in the order of the file.
+/// Copies a file and replaces some of its bytes. Replacements come in the order of the file.
 class Rewriter {
 public:
     explicit Rewriter(const std::string& original);

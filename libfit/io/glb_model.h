@@ -27,8 +27,8 @@ public:
         const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values
             = rows.template cast<Number>();
         const std::size_t count = std::size_t(type == TINYGLTF_TYPE_SCALAR ? values.size() : values.rows());
-        return add_bytes(values.data(), std::size_t(values.size()) * sizeof(Number), component_of<Number>(), count, type,
-                         target);
+        return add_bytes(values.data(), std::size_t(values.size()) * sizeof(Number), component_of<Number>(), count,
+                         type, target);
     }
 
     /// Least and largest of each column, as they are stored. The format wants them for positions and times.

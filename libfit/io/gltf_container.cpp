@@ -13,9 +13,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::uint32_t k_json_type = 0x4E4F534A, k_binary_type = 0x004E4942;   // "JSON", "BIN\0"
-constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;
-constexpr int k_deepest_json = 100;   // real files stay below 20; a parser's stack does not last for ever
+constexpr std::uint32_t k_json_type = 0x4E4F534A, k_binary_type = 0x004E4942;  // "JSON", "BIN\0"
+constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;  // literature: glTF 2.0, sec. 4.4
+constexpr int k_deepest_json = 100;  // unit: files of exporters stay below 20, and the parser recurses on the stack
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian, and read as it is");
 
@@ -40,12 +40,13 @@ std::vector<GltfChunk> read_chunks(const FileBytes& file)
         file.fail_at_byte(4, "is GLB version " + std::to_string(version) + "; this program reads version 2");
     const std::size_t length = word_at(file, 8);
     if (length > file.bytes.size() || length < k_header_bytes)
-        file.fail_at_byte(8, "the GLB header says " + std::to_string(length) + " bytes, the file has "
-                                 + std::to_string(file.bytes.size()) + "; it is truncated or mangled");
+        file.fail_at_byte(8,
+                          "the GLB header says " + std::to_string(length) + " bytes, the file has "
+                              + std::to_string(file.bytes.size()) + "; it is truncated or mangled");
     std::vector<GltfChunk> chunks;
     for (std::size_t at = k_header_bytes; at < length;) {
-        const std::size_t room = length - at;
-        if (room < k_chunk_header_bytes || word_at(file, at) > room - k_chunk_header_bytes)
+        const std::size_t left = length - at;
+        if (left < k_chunk_header_bytes || word_at(file, at) > left - k_chunk_header_bytes)
             file.fail_at_byte(at, "a chunk reaches beyond the end of the file; it is truncated or mangled");
         const std::size_t size = word_at(file, at);
         chunks.push_back({ word_at(file, at + 4), file.bytes.substr(at + k_chunk_header_bytes, size) });
@@ -56,7 +57,7 @@ std::vector<GltfChunk> read_chunks(const FileBytes& file)
     return chunks;
 }
 
-ordered_json parsed(const FileBytes& file, const std::string& text)
+ordered_json parse(const FileBytes& file, const std::string& text)
 {
     const auto limit_depth = [&](int depth, ordered_json::parse_event_t, ordered_json&) {
         if (depth > k_deepest_json)
@@ -76,7 +77,7 @@ ordered_json parsed(const FileBytes& file, const std::string& text)
 }
 
 /// "%20" -> " ", as file names stand in URIs.
-std::string decoded(const std::string& uri)
+std::string decode(const std::string& uri)
 {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -92,7 +93,7 @@ std::string decoded(const std::string& uri)
     return text;
 }
 
-std::string padded(std::string bytes, char filler)
+std::string pad(std::string bytes, char filler)
 {
     bytes.resize((bytes.size() + 3) / 4 * 4, filler);
     return bytes;
@@ -116,10 +117,10 @@ GltfContainer read_gltf_container(const FileBytes& file)
     container.is_binary = file.bytes.starts_with("glTF");
     if (container.is_binary) {
         container.chunks = read_chunks(file);
-        container.json = parsed(file, container.chunks.front().bytes);
+        container.json = parse(file, container.chunks.front().bytes);
         container.chunks.erase(container.chunks.begin());
     } else {
-        container.json = parsed(file, file.bytes);
+        container.json = parse(file, file.bytes);
         const std::size_t line_break = file.bytes.find('\n');
         container.is_indented = line_break != std::string::npos && line_break + 1 < file.bytes.size();
     }
@@ -130,9 +131,9 @@ std::string bytes_of(const GltfContainer& container)
 {
     if (!container.is_binary)
         return container.json.dump(container.is_indented ? 2 : -1) + (container.is_indented ? "\n" : "");
-    std::string chunks = chunk_bytes(k_json_type, padded(container.json.dump(), ' '));
+    std::string chunks = chunk_bytes(k_json_type, pad(container.json.dump(), ' '));
     for (const GltfChunk& chunk : container.chunks)
-        chunks += chunk_bytes(chunk.type, padded(chunk.bytes, '\0'));
+        chunks += chunk_bytes(chunk.type, pad(chunk.bytes, '\0'));
     return "glTF" + word_bytes(2) + word_bytes(k_header_bytes + chunks.size()) + chunks;
 }
 
@@ -157,14 +158,15 @@ void embed_pictures(ordered_json& json, const std::filesystem::path& folder)
     if (!json.contains("images"))
         return;
     for (ordered_json& picture : json["images"]) {
-        const std::string uri = picture.is_object() && picture.contains("uri") && picture["uri"].is_string() ? picture["uri"] : "";
+        const std::string uri
+            = picture.is_object() && picture.contains("uri") && picture["uri"].is_string() ? picture["uri"] : "";
         if (uri.empty() || uri.starts_with("data:"))
             continue;
         try {
-            const FileBytes file = read_file(folder / decoded(uri));
+            const FileBytes file = read_file(folder / decode(uri));
             picture["uri"] = data_uri(file.bytes.starts_with("\x89PNG") ? "image/png" : "image/jpeg", file.bytes);
         } catch (const InvalidInput&) {
-            // a picture that is not there cannot be taken along; geometry does not need it
+            // the picture is missing; geometry does not need it
         }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The outer shell of glTF: JSON text, the chunks of GLB, data URIs. What the JSON means is read in gltf_file.cpp.
+// The container of glTF: JSON text, the chunks of GLB, data URIs. gltf_file.cpp reads what the JSON means.
 
 #include <cstdint>
 #include <string>
@@ -21,22 +21,22 @@ struct GltfChunk {
 
 struct GltfContainer {
     bool is_binary = false;
-    nlohmann::ordered_json json;        ///< keeps the order of its members
-    bool is_indented = false;           ///< the JSON of a .gltf spreads over lines
-    std::vector<GltfChunk> chunks;      ///< of GLB, after the JSON; the first may be the binary buffer
+    nlohmann::ordered_json json;  ///< keeps the order of its members
+    bool is_indented = false;  ///< the JSON of a .gltf spreads over lines
+    std::vector<GltfChunk> chunks;  ///< of GLB, after the JSON; the first may be the binary buffer
 
     /// The buffer that lives in the file itself; null when there is none.
     std::string* own_buffer();
 };
 
-/// @throws InvalidInput: truncated, mangled, not version 2, JSON that is none or is nested too deeply.
+/// @throws InvalidInput: truncated, mangled, not version 2, not JSON, or JSON nested too deeply.
 GltfContainer read_gltf_container(const FileBytes& file);
 
 std::string bytes_of(const GltfContainer& container);
 
 std::string data_uri(std::string_view mime_type, std::string_view bytes);
 
-/// Puts pictures that lie beside the file into it, so that it can be written anywhere.
+/// Copies pictures from beside the file into it, so that it can be written to another folder.
 void embed_pictures(nlohmann::ordered_json& json, const std::filesystem::path& folder);
 
 }  // namespace garmentfit

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// ---- the scene ----------------------------------------------------------------------------------------------------------
+// ---- the scene -----------------------------------------------------------------------------------------------------
 
 /// A run of vertices in the file: rows [first_row, first_row + positions.count) of the whole.
 struct Block {
@@ -31,7 +31,8 @@ struct Block {
 
 void require_sizes(const FileBytes& file, const tinygltf::Node& node)
 {
-    const auto is = [](const std::vector<double>& values, std::size_t size) { return values.empty() || values.size() == size; };
+    const auto is
+        = [](const std::vector<double>& values, std::size_t size) { return values.empty() || values.size() == size; };
     if (!is(node.matrix, 16) || !is(node.translation, 3) || !is(node.rotation, 4) || !is(node.scale, 3))
         file.fail("node '" + first_line(node.name) + "' has a transform of the wrong length");
 }
@@ -47,7 +48,8 @@ Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& no
     if (!node.translation.empty())
         transform.translate(Vec3::Map(node.translation.data()));
     if (!node.rotation.empty())
-        transform.rotate(Eigen::Quaterniond(Eigen::Vector4d::Map(node.rotation.data())).normalized());   // x y z w, as in Eigen
+        transform.rotate(
+            Eigen::Quaterniond(Eigen::Vector4d::Map(node.rotation.data())).normalized());  // x y z w, as in Eigen
     if (!node.scale.empty())
         transform.scale(Vec3::Map(node.scale.data()));
     return transform;
@@ -55,7 +57,10 @@ Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& no
 
 class SceneReader {
 public:
-    SceneReader(const FileBytes& file, const tinygltf::Model& model) : file_(file), model_(model), seen_(model.nodes.size()) { }
+    SceneReader(const FileBytes& file, const tinygltf::Model& model) :
+        file_(file), model_(model), seen_(model.nodes.size())
+    {
+    }
 
     /// Nodes in the order of the tree, parents first.
     void read()
@@ -120,7 +125,8 @@ private:
         const bool is_surface = primitive.mode < 0 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
         if (attribute == primitive.attributes.end() || !is_surface)
             return;
-        const Block& block = block_of(node, primitive, vector_column(file_, model_, attribute->second, "POSITION"), world_from_local);
+        const Block& block
+            = block_of(node, primitive, vector_column(file_, model_, attribute->second, "POSITION"), world_from_local);
         add_faces(primitive, indices_of(primitive, block), block);
     }
 
@@ -175,7 +181,8 @@ private:
             || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
             || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         if (!is_unsigned || accessor.type != TINYGLTF_TYPE_SCALAR)
-            file_.fail("indices (accessor " + std::to_string(column.accessor) + ") are not unsigned integers; the file is mangled");
+            file_.fail("indices (accessor " + std::to_string(column.accessor)
+                       + ") are not unsigned integers; the file is mangled");
         for (std::size_t i = 0; i < column.count; ++i) {
             std::uint32_t index = 0;
             std::memcpy(&index, model_.buffers[column.buffer].data.data() + column.offset(i), bytes);
@@ -198,11 +205,13 @@ private:
             const int first = static_cast<int>(block.first_row);
             fans_.add({ first + indices[a], first + indices[b], first + indices[c] });
         };
-        const std::size_t step = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP || primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ? 1 : 3;
+        const std::size_t step
+            = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP || primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ? 1 : 3;
         for (std::size_t i = 0; i + 2 < indices.size(); i += step) {
             if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN)
                 add(0, i + 1, i + 2);
-            else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1)   // every other one is wound the other way
+            else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP
+                     && i % 2 == 1)  // every other one is wound the other way
                 add(i, i + 2, i + 1);
             else
                 add(i, i + 1, i + 2);
@@ -212,7 +221,7 @@ private:
     const FileBytes& file_;
     const tinygltf::Model& model_;
     std::vector<char> seen_;
-    std::map<std::pair<int, std::size_t>, std::size_t> block_at_;   // (buffer, first byte) -> block
+    std::map<std::pair<int, std::size_t>, std::size_t> block_at_;  // (buffer, first byte) -> block
     FanBuilder fans_;
     Eigen::Index rows_ = 0;
 };
@@ -228,11 +237,11 @@ void require_apart(const FileBytes& file, const std::vector<Block>& blocks)
     std::sort(places.begin(), places.end());
     for (std::size_t i = 1; i < places.size(); ++i)
         if (places[i].first == places[i - 1].first && places[i].second - places[i - 1].second < sizeof(Eigen::Vector3f))
-            file.fail("vertices overlap in buffer " + std::to_string(places[i].first) + " at byte " + std::to_string(places[i].second)
-                      + "; export them with their own data");
+            file.fail("vertices overlap in buffer " + std::to_string(places[i].first) + " at byte "
+                      + std::to_string(places[i].second) + "; export them with their own data");
 }
 
-// ---- values -------------------------------------------------------------------------------------------------------------
+// ---- values --------------------------------------------------------------------------------------------------------
 
 using Buffers = std::vector<tinygltf::Buffer>;
 
@@ -253,11 +262,11 @@ struct GltfContent : MeshFile::Content {
     GltfContainer container;
     Buffers buffers;
     std::vector<Block> blocks;
-    Positions normals;   ///< of the world; zero where the file has none
+    Positions normals;  ///< of the world; zero where the file has none
 
     std::string bytes_with(const Positions& moved) const override
     {
-        const Positions turned = turned_normals(normals, triangles, triangles, positions, moved);
+        const Positions turned = turn_normals(normals, triangles, triangles, positions, moved);
         Buffers written = buffers;
         GltfContainer result = container;
         for (const Block& block : blocks)
@@ -267,7 +276,8 @@ struct GltfContent : MeshFile::Content {
     }
 
 private:
-    void write_block(const Block& block, const Positions& moved, const Positions& turned, Buffers& written, ordered_json& json) const
+    void write_block(const Block& block, const Positions& moved, const Positions& turned, Buffers& written,
+                     ordered_json& json) const
     {
         const Eigen::Affine3d local_from_world = block.world_from_local.inverse();
         const Eigen::Matrix3d local_from_world_normal = block.world_from_local.linear().transpose();
@@ -346,7 +356,7 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
         embed_pictures(content->container.json, folder);
     } catch (const InvalidInput&) {
         throw;
-    } catch (const std::exception& error) {   // of the JSON library: a member of an unexpected type
+    } catch (const std::exception& error) {  // of the JSON library: a member of an unexpected type
         file.fail("is not valid glTF: " + first_line(error.what()));
     }
     return content;

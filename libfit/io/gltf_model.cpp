@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Only what geometry needs: pictures, materials and animations are none of our business and cannot do harm.
+/// Only what geometry needs, so that mistakes in pictures, materials or animations do no harm.
 ordered_json geometry_of(const ordered_json& json)
 {
     ordered_json geometry = ordered_json::object();
@@ -44,7 +44,7 @@ bool read_beside(std::vector<unsigned char>* bytes, std::string* error, const st
     }
 }
 
-/// tinygltf's own would expand "~" and variables in the names of buffers, and read from devices.
+/// The default ones of tinygltf would expand "~" and variables in the names of buffers, and read from devices.
 tinygltf::FsCallbacks plain_files()
 {
     tinygltf::FsCallbacks files {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From the container to a glTF model whose indices can be trusted. Private: only sources that read glTF include it.
+// From the container to a glTF model with checked indices. Private: only sources that read glTF include it.
 
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace garmentfit {
 
-/// For messages.
+/// The first line of a text, cut at 200 bytes, for messages.
 std::string first_line(const std::string& text);
 
 tinygltf::Model load_model(const FileBytes& file, const GltfContainer& container, const std::filesystem::path& folder);
@@ -27,7 +27,7 @@ const Item& checked(const FileBytes& file, const std::vector<Item>& items, int i
     return items[index];
 }
 
-/// Where the values of an accessor lie.
+/// Where the values of an accessor are.
 struct Column {
     int accessor = -1;
     int buffer = 0;

@@ -5,49 +5,43 @@
 #include <map>
 
 #include "garmentfit/units.h"
-#include "known_units.h"
 #include "named_vertices.h"
 #include "number_text.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr std::array<std::string_view, 6> k_axes { "+y", "+z", "-y", "-z", "+x", "-x" };
-
-/// How much rarer each axis of k_axes is as "up" than +y, as a logarithm; decides where the shape does not.
-constexpr std::array<double, 6> k_axis_rarity { 0, 0.2, 1.2, 1.2, 1.5, 1.5 };
-
-constexpr double k_least_stature = 0.4, k_largest_stature = 2.6;    // m; a newborn; the tallest with arms up
-constexpr double k_usual_stature = 1.65, k_stature_spread = 0.35;   // m; of its logarithm: children are usual too
-constexpr double k_least_garment = 0.2, k_largest_garment = 3;      // m; longest side of baby shorts; of a gown
-constexpr double k_usual_garment = 0.9, k_garment_spread = 0.45;    // m; of its logarithm
-
 /// Area-weighted samples of a surface: one for each triangle.
 struct Samples {
     Positions centres, normals;
-    Eigen::VectorXd areas;   ///< sum to 1
+    Eigen::VectorXd areas;  ///< sum to 1
     Eigen::AlignedBox3d box;
 };
 
 Samples samples_of(const Positions& positions, const Triangles& triangles)
 {
-    Samples samples { Positions(triangles.rows(), 3), Positions(triangles.rows(), 3), Eigen::VectorXd(triangles.rows()), {} };
+    Samples samples {
+        Positions(triangles.rows(), 3), Positions(triangles.rows(), 3), Eigen::VectorXd(triangles.rows()), {}
+    };
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)), c = positions.row(triangles(f, 2));
+        const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)),
+                   c = positions.row(triangles(f, 2));
         const Vec3 normal = (b - a).cross(c - a);
         samples.centres.row(f) = (a + b + c) / 3;
         samples.normals.row(f) = normal.stableNormalized();
         samples.areas[f] = normal.stableNorm();
         samples.box.extend(a).extend(b).extend(c);
     }
-    samples.areas /= std::max(samples.areas.sum(), 1e-300);
+    samples.areas /= std::max(samples.areas.sum(), 1e-300);  // unit: never by 0
     return samples;
 }
 
-/// The share of the surface that finds no partner when mirrored at its middle across an axis: 0 = a mirror image.
+/// The share of the surface without a counterpart when it is mirrored at its middle across an axis; 0 is a mirror
+/// image.
 double asymmetry(const Samples& samples, int axis)
 {
-    const double cell = samples.box.sizes().maxCoeff() / 32;   // 5 cm on an adult: wider than a pose is uneven
+    const double cell = samples.box.sizes().maxCoeff() / k_symmetry_cells;
     const Vec3 centre = samples.centres.transpose() * samples.areas;
     std::map<std::array<int, 3>, double> left_minus_right;
     for (Eigen::Index s = 0; s < samples.centres.rows(); ++s) {
@@ -73,43 +67,44 @@ Shape shape_of(const Samples& samples)
     return { samples.box.sizes(), { asymmetry(samples, 0), asymmetry(samples, 1), asymmetry(samples, 2) } };
 }
 
-/// Humans are longest from head to foot (or as long as their arm span), and no mirror image that way.
+/// Evidence that an axis runs from head to foot: humans are longest along it, or as long as their arm span, and no
+/// mirror image across it.
 double tallness(const Shape& shape, int axis)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    const double evenness = 0.1;   // no scan is more even than this
     const double length = std::log(shape.sizes[axis] / std::max(shape.sizes[b], shape.sizes[c]));
-    const double unevenness = std::log((shape.asymmetries[axis] + evenness)
-                                       / (std::min(shape.asymmetries[b], shape.asymmetries[c]) + evenness));
-    return 2 * length + unevenness;
+    const double unevenness = std::log((shape.asymmetries[axis] + k_evenness)
+                                       / (std::min(shape.asymmetries[b], shape.asymmetries[c]) + k_evenness));
+    return k_length_weight * length + unevenness;
 }
 
-/// The share of the surface that lies flat at the end of the body in direction `outwards`: soles, or the crown.
+/// The share of the surface that lies flat at the end of the body in direction `outwards`, as soles do.
 double flat_end(const Samples& samples, const Vec3& outwards)
 {
     const double size = samples.box.sizes().dot(outwards.cwiseAbs());
     const double end = outwards.dot(samples.box.center()) + 0.5 * size;
     double area = 0;
     for (Eigen::Index s = 0; s < samples.centres.rows(); ++s)
-        if (end - samples.centres.row(s).dot(outwards) < 0.025 * size && samples.normals.row(s).dot(outwards) > 0.9)
+        if (end - samples.centres.row(s).dot(outwards) < k_end_depth * size
+            && samples.normals.row(s).dot(outwards) > k_flat_cosine)
             area += samples.areas[s];
     return area;
 }
 
-/// Soles are flat, a crown is round, and there is more of a body above its middle than below. Negative: upside down.
+/// Evidence that a body stands the right way up, negative for upside down: soles are flat, a crown is round, and more
+/// of the surface is above the middle than below.
 double uprightness(const Samples& samples, const Vec3& up)
 {
-    const double negligible = 0.002;   // of the surface; a sole has 0.006
-    const double soles = std::log((flat_end(samples, -up) + negligible) / (flat_end(samples, up) + negligible));
+    const double soles = std::log((flat_end(samples, -up) + k_least_sole) / (flat_end(samples, up) + k_least_sole));
     const Vec3 centre = samples.centres.transpose() * samples.areas;
     const double above_middle = up.dot(centre - samples.box.center()) / samples.box.sizes().dot(up.cwiseAbs());
-    return soles + 30 * above_middle;
+    return soles + k_top_heavy_weight * above_middle;
 }
 
-/// The logarithm of the likelihood that evidence for and against (negative) speaks for; 0 = certain.
+/// The logarithm of a likelihood, 0 for certain, from evidence for (positive) or against (negative).
 double log_likelihood(double evidence) { return -std::log1p(std::exp(-2 * evidence)); }
 
-/// 0 for a toss-up between two logarithms of likelihood, towards 1 the further they are apart.
+/// From 0, two logarithms of likelihood are equal, towards 1, they are far apart.
 double margin_between(double best, double second) { return 1 - std::exp(second - best); }
 
 struct Ranked {
@@ -118,7 +113,7 @@ struct Ranked {
 };
 
 template <std::size_t count>
-Ranked ranked(const std::array<double, count>& scores)
+Ranked rank(const std::array<double, count>& scores)
 {
     std::array<int, count> order;
     for (std::size_t i = 0; i < count; ++i)
@@ -134,22 +129,23 @@ Ranked rank_axes(const Samples& samples, const Shape& shape)
         const Vec3 up = axis_of(k_axes[i]);
         Eigen::Index axis;
         up.cwiseAbs().maxCoeff(&axis);
-        scores[i] = tallness(shape, static_cast<int>(axis)) + log_likelihood(uprightness(samples, up)) - k_axis_rarity[i];
+        scores[i]
+            = tallness(shape, static_cast<int>(axis)) + log_likelihood(uprightness(samples, up)) - k_axis_rarity[i];
     }
-    return ranked(scores);
+    return rank(scores);
 }
 
-/// Which unit makes a length most usual; those that make it impossible come last.
+/// Ranks units by how usual a length is in them. Units in which it is impossible come last.
 Ranked rank_units(double length, double usual, double spread, double least, double largest)
 {
-    const double impossible = 1000;
     std::array<double, k_known_units.size()> scores;
     for (std::size_t i = 0; i < scores.size(); ++i) {
         const double metres = length * k_known_units[i].metres;
         const double deviation = std::log(metres / usual) / spread;
-        scores[i] = -0.5 * deviation * deviation - k_known_units[i].log_rarity - (metres < least || metres > largest ? impossible : 0);
+        scores[i] = -0.5 * deviation * deviation - k_known_units[i].log_rarity
+            - (metres < least || metres > largest ? k_impossible : 0);
     }
-    return ranked(scores);
+    return rank(scores);
 }
 
 std::string text_of_length(double length) { return rounded_text(length, 3); }
@@ -172,14 +168,15 @@ std::string axis_name(const Vec3& axis)
 
 bool has_size(const Samples& samples) { return samples.areas.size() > 0 && samples.box.sizes().minCoeff() > 0; }
 
-/// Whether a garment stands by `other` rather than by `up`: garments are taller than deep, and even from front to back
-/// more than from hem to collar. Positive speaks for `other`.
+/// Evidence that a garment is upright along `other` (positive) or `up` (negative): garments are taller than deep, and
+/// their front is more like their back than their hem like their collar.
 double preference(const Shape& shape, const Vec3& up, const Vec3& other)
 {
     Eigen::Index a, b;
     up.cwiseAbs().maxCoeff(&a);
     other.cwiseAbs().maxCoeff(&b);
-    return std::log(shape.sizes[b] / shape.sizes[a]) + 2 * (shape.asymmetries[b] - shape.asymmetries[a]);
+    return std::log(shape.sizes[b] / shape.sizes[a])
+        + k_symmetry_weight * (shape.asymmetries[b] - shape.asymmetries[a]);
 }
 
 }  // namespace
@@ -201,8 +198,8 @@ FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangl
     const double metres = stature * guess.frame.metres_per_unit;
     const bool is_plausible = metres >= k_least_stature && metres <= k_largest_stature;
     guess.unit_margin = is_plausible ? unit.margin : 0;
-    guess.why = "the body is " + text_of_length(stature) + " units tall along " + std::string(k_axes[axis.best]) + ", read as "
-        + std::string(k_known_units[unit.best].name) + " that is " + text_of_length(metres) + " m"
+    guess.why = "the body is " + text_of_length(stature) + " units tall along " + std::string(k_axes[axis.best])
+        + ", read as " + std::string(k_known_units[unit.best].name) + " that is " + text_of_length(metres) + " m"
         + (is_plausible ? "" : ", which no human is: give the unit yourself");
     return guess;
 }
@@ -222,19 +219,20 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
         guess.frame.metres_per_unit = k_known_units[unit.best].metres;
         guess.unit_margin = unit.margin;
     } else {
-        guess.unit_margin = margin_between(std::log(k_largest_garment / k_usual_garment), std::abs(std::log(as_body / k_usual_garment)));
+        guess.unit_margin = margin_between(std::log(k_largest_garment / k_usual_garment),
+                                           std::abs(std::log(as_body / k_usual_garment)));
     }
 
-    const double clear = 0.4;   // below this the body's axes are the better witness
     const Vec3 other = std::abs(body.up.y()) > 0.5 ? Vec3::UnitZ() : Vec3::UnitY();
     const double other_is_better = preference(shape_of(samples), body.up, other);
-    if (other_is_better > clear)
+    if (other_is_better > k_clear_preference)
         guess.frame.up = other;
-    guess.up_margin = margin_between(std::abs(other_is_better - clear), 0);
+    guess.up_margin = margin_between(std::abs(other_is_better - k_clear_preference), 0);
     guess.why = "the garment's longest side is " + text_of_length(longest) + " units, "
         + text_of_length(longest * guess.frame.metres_per_unit) + " m in " + unit_name(guess.frame.metres_per_unit)
-        + (guess.frame.metres_per_unit == body.metres_per_unit ? " like the body" : " unlike the body") + ", and it hangs along "
-        + axis_name(guess.frame.up) + (guess.frame.up == body.up ? " like the body" : " unlike the body");
+        + (guess.frame.metres_per_unit == body.metres_per_unit ? " like the body" : " unlike the body")
+        + ", and it hangs along " + axis_name(guess.frame.up)
+        + (guess.frame.up == body.up ? " like the body" : " unlike the body");
     return guess;
 }
 

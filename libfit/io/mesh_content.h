@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What each format keeps of a mesh file, and the readers that make it.
+// What is kept of a mesh file in each format, and the functions that read it.
 
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ struct MeshFile::Content {
     std::string format;
 
     virtual ~Content() = default;
-    /// The file again, with other positions (same count).
+    /// The bytes of the file with other positions (same count).
     virtual std::string bytes_with(const Positions& positions) const = 0;
 };
 
@@ -26,7 +26,7 @@ using ContentPtr = std::shared_ptr<const MeshFile::Content>;
 ContentPtr read_obj(FileBytes file);
 ContentPtr read_off(FileBytes file);
 ContentPtr read_stl(FileBytes file);
-/// The file's own buffers and pictures lie beside it, in `folder`.
+/// @param folder  of the file's buffers and pictures
 ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder);
 ContentPtr read_ply(FileBytes file);
 

@@ -56,8 +56,8 @@ public:
         while (!words.done() && content_.file.bytes[words.at()] != '#')
             add_corner(words.next());
         if (corners_.size() < 6)
-            content_.file.fail_at_line_of(words.at(), "the face has " + std::to_string(corners_.size() / 2)
-                                                          + " corners; it needs three");
+            content_.file.fail_at_line_of(
+                words.at(), "the face has " + std::to_string(corners_.size() / 2) + " corners; it needs three");
         fans_.add(corners_);
     }
 
@@ -69,16 +69,18 @@ private:
         const std::string_view text = content_.file.text(word);
         const std::size_t slash = std::min(text.find('/'), text.size());
         const std::size_t last_slash = text.rfind('/');
-        corners_.push_back(row_named(content_.file, { word.begin, word.begin + slash }, vertices_, content_.positions.rows(), "vertex"));
-        const bool has_normal = last_slash != std::string_view::npos && last_slash > slash && last_slash + 1 < text.size();
+        corners_.push_back(row_named(content_.file, { word.begin, word.begin + slash }, vertices_,
+                                     content_.positions.rows(), "vertex"));
+        const bool has_normal
+            = last_slash != std::string_view::npos && last_slash > slash && last_slash + 1 < text.size();
         corners_.push_back(!has_normal ? -1
                                        : row_named(content_.file, { word.begin + last_slash + 1, word.end }, normals_,
                                                    content_.normals.rows(), "normal"));
     }
 
     const TextContent& content_;
-    Eigen::Index vertices_ = 0, normals_ = 0;   // so far in the file
-    std::vector<int> corners_;                  // of one face: position, normal, position, normal, ...
+    Eigen::Index vertices_ = 0, normals_ = 0;  // so far in the file
+    std::vector<int> corners_;  // of one face: position, normal, position, normal, ...
     FanBuilder fans_ { 2 };
 };
 
@@ -92,7 +94,7 @@ void read_faces(TextContent& content)
             reader.count_vertex();
         else if (key == "vn")
             reader.count_normal();
-        else if (key == "f" || key == "fo")   // fo: faces of old files
+        else if (key == "f" || key == "fo")  // fo: faces of old files
             reader.add(words);
     }
     content.triangles = reader.fans().triangles(0);

@@ -7,7 +7,7 @@
 namespace garmentfit {
 namespace {
 
-/// Goes through the lines that hold more than blanks and comments.
+/// The lines that hold more than blanks and comments, one after the other.
 class Rows {
 public:
     explicit Rows(const FileBytes& file) : file_(file), lines_(file) { }
@@ -42,7 +42,7 @@ struct Header {
     int vertices = 0, faces = 0;
 };
 
-/// "OFF", "COFF", "STCNOFF", ...; vertices of other dimensions (4OFF, nOFF) are not for us.
+/// "OFF", "COFF", "STCNOFF", ...; not vertices of other dimensions (4OFF, nOFF).
 bool is_keyword(std::string_view word)
 {
     for (const std::string_view prefix : { "ST", "C", "N" })
@@ -56,8 +56,9 @@ int count_in(const FileBytes& file, Words& words)
     const Span word = words.next();
     const long long count = integer_in(file, word);
     if (count < 0 || count > INT_MAX || static_cast<std::size_t>(count) > file.bytes.size())
-        file.fail_at_line_of(word.begin, "a count of " + std::to_string(count)
-                                             + " is more than the file can hold; it is truncated or mangled");
+        file.fail_at_line_of(word.begin,
+                             "a count of " + std::to_string(count)
+                                 + " is more than the file can hold; it is truncated or mangled");
     return static_cast<int>(count);
 }
 
@@ -135,7 +136,8 @@ ContentPtr read_off(FileBytes file)
         fans.add(corners_in(content->file, words, header.vertices));
     }
     content->triangles = fans.triangles();
-    content->normal_corners = header.has_normals ? content->triangles : Triangles::Constant(content->triangles.rows(), 3, -1);
+    content->normal_corners
+        = header.has_normals ? content->triangles : Triangles::Constant(content->triangles.rows(), 3, -1);
     return content;
 }
 

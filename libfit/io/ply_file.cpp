@@ -21,9 +21,14 @@ struct ScalarName {
     int bytes;
 };
 
-constexpr std::array<ScalarName, 8> k_scalars { { { "char", "int8", 1 }, { "uchar", "uint8", 1 }, { "short", "int16", 2 },
-                                                  { "ushort", "uint16", 2 }, { "int", "int32", 4 }, { "uint", "uint32", 4 },
-                                                  { "float", "float32", 4 }, { "double", "float64", 8 } } };
+constexpr std::array<ScalarName, 8> k_scalars { { { "char", "int8", 1 },
+                                                  { "uchar", "uint8", 1 },
+                                                  { "short", "int16", 2 },
+                                                  { "ushort", "uint16", 2 },
+                                                  { "int", "int32", 4 },
+                                                  { "uint", "uint32", 4 },
+                                                  { "float", "float32", 4 },
+                                                  { "double", "float64", 8 } } };
 
 int size_of(Scalar type) { return k_scalars[static_cast<int>(type)].bytes; }
 bool is_real(Scalar type) { return type == Scalar::float32 || type == Scalar::float64; }
@@ -31,7 +36,7 @@ bool is_real(Scalar type) { return type == Scalar::float32 || type == Scalar::fl
 struct Property {
     std::string name;
     Scalar type = Scalar::float32;
-    std::optional<Scalar> count;   ///< of a list
+    std::optional<Scalar> count;  ///< of a list
 };
 
 struct Element {
@@ -45,7 +50,7 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
-    std::size_t body = 0;          ///< where the data begins
+    std::size_t body = 0;  ///< where the data begins
 };
 
 Scalar scalar_of(const FileBytes& file, Span word)
@@ -127,9 +132,9 @@ Header read_header(const FileBytes& file)
 /// The data after the header, value by value.
 class Body {
 public:
-    Body(const FileBytes& file, const Header& header)
-        : file_(file), encoding_(header.encoding), at_(header.body),
-          words_(file, { header.body, file.bytes.size() }), place_ { header.body, header.body }
+    Body(const FileBytes& file, const Header& header) :
+        file_(file), encoding_(header.encoding), at_(header.body),
+        words_(file, { header.body, file.bytes.size() }), place_ { header.body, header.body }
     {
     }
 
@@ -142,7 +147,7 @@ public:
             file_.fail_at_byte(file_.bytes.size(), "the file ends too soon; it is truncated");
         place_ = { at_, at_ + bytes };
         at_ += bytes;
-        return decoded(type);
+        return decode(type);
     }
 
     /// Where the last value stood.
@@ -174,7 +179,7 @@ private:
     }
 
     template <class Number>
-    double decoded_as() const
+    double decode_as() const
     {
         std::array<char, sizeof(Number)> raw;
         std::copy_n(file_.bytes.begin() + place_.begin, raw.size(), raw.begin());
@@ -183,17 +188,17 @@ private:
         return static_cast<double>(std::bit_cast<Number>(raw));
     }
 
-    double decoded(Scalar type) const
+    double decode(Scalar type) const
     {
         switch (type) {
-        case Scalar::int8: return decoded_as<std::int8_t>();
-        case Scalar::uint8: return decoded_as<std::uint8_t>();
-        case Scalar::int16: return decoded_as<std::int16_t>();
-        case Scalar::uint16: return decoded_as<std::uint16_t>();
-        case Scalar::int32: return decoded_as<std::int32_t>();
-        case Scalar::uint32: return decoded_as<std::uint32_t>();
-        case Scalar::float32: return decoded_as<float>();
-        default: return decoded_as<double>();
+        case Scalar::int8: return decode_as<std::int8_t>();
+        case Scalar::uint8: return decode_as<std::uint8_t>();
+        case Scalar::int16: return decode_as<std::int16_t>();
+        case Scalar::uint16: return decode_as<std::uint16_t>();
+        case Scalar::int32: return decode_as<std::int32_t>();
+        case Scalar::uint32: return decode_as<std::uint32_t>();
+        case Scalar::float32: return decode_as<float>();
+        default: return decode_as<double>();
         }
     }
 
@@ -215,7 +220,7 @@ void read_list(Body& body, const Property& property, std::vector<double>& values
         value = body.next(property.type);
 }
 
-/// Goes through an element: on_scalar(row, property, value), on_list(row, property, values).
+/// Reads an element: on_scalar(row, property, value), on_list(row, property, values).
 template <class OnScalar, class OnList>
 void walk(Body& body, const Element& element, OnScalar on_scalar, OnList on_list)
 {
@@ -240,7 +245,8 @@ void walk(Body& body, const Element& element, OnScalar on_scalar, OnList on_list
 
 void skip(Body& body, const Element& element)
 {
-    walk(body, element, [](auto...) { }, [](auto&&...) { });
+    walk(
+        body, element, [](auto...) {}, [](auto&&...) {});
 }
 
 int property_named(const Element& element, std::string_view name)
@@ -266,8 +272,8 @@ const Element& vertex_element(const FileBytes& file, const Header& header)
 std::vector<int> columns_of(const FileBytes& file, const Element& vertex)
 {
     constexpr std::array<std::string_view, 6> names { "x", "y", "z", "nx", "ny", "nz" };
-    const bool has_normals = property_named(vertex, "nx") >= 0 && property_named(vertex, "ny") >= 0
-        && property_named(vertex, "nz") >= 0;
+    const bool has_normals
+        = property_named(vertex, "nx") >= 0 && property_named(vertex, "ny") >= 0 && property_named(vertex, "nz") >= 0;
     std::vector<int> columns(vertex.properties.size(), -1);
     for (int column = 0; column < (has_normals ? 6 : 3); ++column) {
         const int p = property_named(vertex, names[column]);
@@ -278,7 +284,7 @@ std::vector<int> columns_of(const FileBytes& file, const Element& vertex)
     return columns;
 }
 
-using Table = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;   // x y z nx ny nz
+using Table = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;  // x y z nx ny nz
 
 Table read_vertices(Body& body, const Element& element, const std::vector<int>& columns)
 {
@@ -291,7 +297,7 @@ Table read_vertices(Body& body, const Element& element, const std::vector<int>& 
             body.fail("vertex " + std::to_string(row) + " is not finite; repair the file", ErrorCode::not_finite);
         table(row, columns[p]) = value;
     };
-    walk(body, element, on_scalar, [](auto&&...) { });
+    walk(body, element, on_scalar, [](auto&&...) {});
     return table;
 }
 
@@ -321,7 +327,8 @@ void read_faces(Body& body, const Element& element, std::size_t vertices, FanBui
         if (static_cast<int>(p) == indices)
             fans.add(corners_of(body, row, list, vertices));
     };
-    walk(body, element, [](auto...) { }, on_list);
+    walk(
+        body, element, [](auto...) {}, on_list);
 }
 
 template <class Number>
@@ -333,7 +340,7 @@ std::string raw_bytes(Number value, bool big_endian)
     return { raw.begin(), raw.end() };
 }
 
-std::string encoded(double value, Scalar type, Encoding encoding)
+std::string encode(double value, Scalar type, Encoding encoding)
 {
     const bool single = type == Scalar::float32;
     if (encoding == Encoding::ascii)
@@ -348,7 +355,8 @@ std::string header_text(Eigen::Index vertices, Eigen::Index faces, const std::ve
     std::string header = "ply\nformat binary_little_endian 1.0\n";
     for (const std::string& comment : comments)
         header += "comment " + comment + '\n';
-    header += "element vertex " + std::to_string(vertices) + "\nproperty double x\nproperty double y\nproperty double z\n";
+    header
+        += "element vertex " + std::to_string(vertices) + "\nproperty double x\nproperty double y\nproperty double z\n";
     for (const VertexProperty& property : properties)
         header += (property.integer ? "property int " : "property double ") + property.name + '\n';
     return header + "element face " + std::to_string(faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -364,7 +372,7 @@ struct PlyContent : MeshFile::Content {
     {
         Table table(moved.rows(), 6);
         table.leftCols<3>() = moved;
-        table.rightCols<3>() = turned_normals(normals, triangles, triangles, positions, moved);
+        table.rightCols<3>() = turn_normals(normals, triangles, triangles, positions, moved);
         return table;
     }
 
@@ -379,11 +387,11 @@ struct PlyContent : MeshFile::Content {
         const auto on_scalar = [&](std::size_t row, std::size_t p, double value) {
             const int column = columns[p];
             if (column >= 0 && after(row, column) != before(row, column) && !std::isnan(value))
-                rewriter.replace(body.place(), encoded(after(row, column), vertex.properties[p].type, header.encoding));
+                rewriter.replace(body.place(), encode(after(row, column), vertex.properties[p].type, header.encoding));
         };
         for (const Element& element : header.elements) {
             if (&element == &vertex) {
-                walk(body, element, on_scalar, [](auto&&...) { });
+                walk(body, element, on_scalar, [](auto&&...) {});
                 break;
             }
             skip(body, element);
@@ -428,8 +436,9 @@ std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& pat
     Body body(file, header);
     for (const Element& element : header.elements) {
         if (&element == &vertex) {
-            walk(body, element, [&](std::size_t, std::size_t p, double value) { result[p].values.push_back(value); },
-                 [](auto&&...) { });
+            walk(
+                body, element, [&](std::size_t, std::size_t p, double value) { result[p].values.push_back(value); },
+                [](auto&&...) {});
             break;
         }
         skip(body, element);

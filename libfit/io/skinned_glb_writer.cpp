@@ -35,7 +35,8 @@ std::vector<Joint> joints_of(const Skeleton& skeleton)
     return joints;
 }
 
-/// One 4 x 4 matrix a row, column by column as the format has them: from the world to the joint, whose axes are the world's.
+/// One 4 x 4 matrix a row, column by column as the format has them: from the world to the joint, whose axes are the
+/// world's.
 Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const std::vector<Joint>& joints)
 {
     Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> rows(joints.size(), 16);

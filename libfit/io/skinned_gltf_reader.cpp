@@ -19,7 +19,7 @@ constexpr int k_pelvis = -1;
 constexpr std::array k_limb_bones { std::array { lclavicle, rclavicle }, std::array { lhumerus, rhumerus },
                                     std::array { lradius, rradius } };
 
-/// The skin as the file has it.
+/// The skin as it is in the file.
 struct FileSkin {
     std::vector<std::string> names;
     std::vector<int> parents;  ///< rows of the same; -1 none
@@ -82,7 +82,7 @@ private:
                 bind(k % 4, k / 4) = number_at(model_, binds, j, k);
             skin_.places.push_back(bind.inverse().topRightCorner<3, 1>());
             if (!skin_.places.back().allFinite())
-                file_.fail("joint '" + skin_.names.back() + "' has no place; export the skin with its bind pose");
+                file_.fail("joint '" + skin_.names.back() + "' has no position; export the skin with its bind pose");
         }
         for (const int joint : skin.joints)
             skin_.parents.push_back(parent_row(skin, joint));
@@ -113,7 +113,7 @@ private:
             for (int k = 0; k < 4; ++k) {
                 hang[std::size_t(k)] = { int(number_at(model_, joint, v, k)), number_at(model_, weight, v, k) };
                 if (hang[std::size_t(k)].first >= int(skin_.names.size()))
-                    file_.fail("vertex " + std::to_string(v) + " hangs on joint "
+                    file_.fail("vertex " + std::to_string(v) + " refers to joint "
                                + std::to_string(hang[std::size_t(k)].first) + " of "
                                + std::to_string(skin_.names.size()));
             }
@@ -125,7 +125,7 @@ private:
     FileSkin skin_;
 };
 
-/// Our bones among the joints of another rig.
+/// Finds the bones of Skeleton among the joints of another rig.
 class Translation {
 public:
     Translation(const FileBytes& file, const FileSkin& skin) :
@@ -139,7 +139,7 @@ public:
         place_spine();
         place_tips();
         ForeignRig result { skeleton_, {} };
-        std::vector<int> bones;  // k_pelvis where a joint is none of ours
+        std::vector<int> bones;  // k_pelvis for a joint that is none of the bones
         for (std::size_t j = 0; j < skin_.names.size(); ++j)
             bones.push_back(bone_for(int(j)));
         const auto n = Eigen::Index(skin_.hangs.size());
@@ -179,7 +179,8 @@ private:
         }
     }
 
-    /// Rigs have one to five joints in the spine and one or two in the neck: ours stand evenly between its ends.
+    /// Rigs have one to five joints in the spine and one or two in the neck. Those of Skeleton are placed evenly
+    /// between the ends.
     void place_spine()
     {
         const Vec3& neck = place(JointKind::neck, 0, "neck");
@@ -189,12 +190,13 @@ private:
         skeleton_.tails[lowerback] = skeleton_.root + (neck - skeleton_.root) / 3;
         skeleton_.tails[upperback] = skeleton_.root + (neck - skeleton_.root) * 2 / 3;
         skeleton_.tails[lowerneck] = 0.5 * (neck + head);
-        for (std::size_t j = 0; j < skin_.names.size(); ++j)  // a rig of ours: joints are the heads of bones
+        for (std::size_t j = 0; j < skin_.names.size();
+             ++j)  // in a rig that this library wrote, joints are the heads of bones
             if (const int b = bone_of(skin_.names[j]); b == upperback || b == thorax || b == upperneck)
                 skeleton_.tails[parent_of(b)] = skin_.places[j];
     }
 
-    /// The joint farthest beyond the last one, toes and fingertips among them; a little beyond where there is none.
+    /// The joint farthest beyond the last one, toes and fingertips included; half a bone beyond where there is none.
     void place_tips()
     {
         for (int e = 0; e < extremity_count; ++e) {
@@ -235,7 +237,7 @@ private:
         return t < 1.0 / 3 ? lowerback : t < 2.0 / 3 ? upperback : thorax;
     }
 
-    /// Our bone of the joint, or of the nearest one above it that has a name.
+    /// The bone of a joint, or of the nearest joint above it that has a known name.
     int bone_for(int joint) const
     {
         for (std::size_t steps = 0; joint >= 0 && steps <= joints_.size();
@@ -247,7 +249,7 @@ private:
         return k_pelvis;
     }
 
-    /// The pelvis has no bone of its own: it hangs on both hip joints.
+    /// The pelvis has no bone of its own. Its weight is divided between both hip joints.
     void hang(Eigen::Index v, const std::vector<int>& bones, SkinWeights& weights) const
     {
         std::array<std::pair<double, int>, bone_count> sums;
@@ -263,7 +265,7 @@ private:
         std::stable_sort(sums.begin(), sums.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
         const double total = sums[0].first + sums[1].first + sums[2].first + sums[3].first;
         if (!(total > 0) || !std::isfinite(total))
-            file_.fail("vertex " + std::to_string(v) + " hangs on nothing; normalise the weights");
+            file_.fail("vertex " + std::to_string(v) + " has no positive weight; normalise the weights");
         for (int k = 0; k < 4; ++k) {
             weights.bones(v, k) = sums[std::size_t(k)].second;
             weights.weights(v, k) = sums[std::size_t(k)].first / total;

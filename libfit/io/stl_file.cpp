@@ -15,15 +15,16 @@
 namespace garmentfit {
 namespace {
 
-/// STL repeats a vertex in every facet; equal ones become one again.
-class Weld {
+/// Merges equal vertices: STL repeats a vertex in every facet.
+class FacetWeld {
 public:
-    /// Clearance for about as many vertices as a closed surface of so many facets has.
+    /// Reserves memory for the vertices of a closed surface. derived: Euler, two facets a vertex.
     void expect_facets(std::size_t facets) { rows_.reserve(facets / 2 + 2); }
 
     int row_of(const Vec3& position)
     {
-        const auto [entry, is_new] = rows_.try_emplace({ position.x(), position.y(), position.z() }, static_cast<int>(positions_.rows()));
+        const auto [entry, is_new]
+            = rows_.try_emplace({ position.x(), position.y(), position.z() }, static_cast<int>(positions_.rows()));
         if (is_new)
             positions_.add(position);
         return entry->second;
@@ -37,7 +38,8 @@ private:
         {
             std::size_t hash = 0;
             for (const double x : key)
-                hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;   // + 0.0: -0 and 0 are equal
+                hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0))
+                    * 0x9e3779b97f4a7c15u;  // + 0.0: -0 and 0 are equal
             return hash ^ (hash >> 32);
         }
     };
@@ -86,7 +88,7 @@ private:
         const FileBytes& file = content_->file;
         if (key == "facet") {
             if (!words.done())
-                words.next();   // "normal"
+                words.next();  // "normal"
             const Triple normal = next_triple(words, file);
             content_->places.push_back({ normal.span, normals_.rows(), true });
             normals_.add(normal.values);
@@ -96,7 +98,9 @@ private:
             content_->places.push_back({ vertex.span, corners_.back(), false });
         } else if (key == "endfacet") {
             if (corners_.size() != 3 || ++facets_ != normals_.rows())
-                file.fail_at_line_of(words.at(), "the facet has " + std::to_string(corners_.size()) + " vertices; it needs three and a normal");
+                file.fail_at_line_of(words.at(),
+                                     "the facet has " + std::to_string(corners_.size())
+                                         + " vertices; it needs three and a normal");
             fans_.add(corners_);
             corners_.clear();
         } else if (key != "outer" && key != "endloop" && key != "solid" && key != "endsolid") {
@@ -106,17 +110,18 @@ private:
     }
 
     std::shared_ptr<TextContent> content_ = std::make_shared<TextContent>();
-    Weld weld_;
+    FacetWeld weld_;
     RowBuilder normals_;
     FanBuilder fans_;
-    std::vector<int> corners_;     // of the facet being read
+    std::vector<int> corners_;  // of the facet being read
     Eigen::Index facets_ = 0;
     bool at_end_ = false;
 };
 
-constexpr std::size_t k_header_bytes = 84, k_facet_bytes = 50, k_triple_bytes = 12;
+constexpr std::size_t k_header_bytes = 84, k_facet_bytes = 50, k_triple_bytes = 12;  // literature: the format
 
-static_assert(std::endian::native == std::endian::little, "binary STL and glTF are little-endian, and read as they are");
+static_assert(std::endian::native == std::endian::little,
+              "binary STL and glTF are little-endian, and read as they are");
 
 std::uint32_t facet_count(const FileBytes& file)
 {
@@ -139,7 +144,7 @@ struct BinaryStlContent : MeshFile::Content {
 
     std::string bytes_with(const Positions& moved) const override
     {
-        const Positions turned = turned_normals(normals, facet_corners(triangles.rows()), triangles, positions, moved);
+        const Positions turned = turn_normals(normals, facet_corners(triangles.rows()), triangles, positions, moved);
         std::string bytes = file.bytes;
         const auto put = [&](std::size_t offset, const Vec3& before, const Vec3& after) {
             const Eigen::Vector3f triple = after.cast<float>();
@@ -159,13 +164,16 @@ struct BinaryStlContent : MeshFile::Content {
 ContentPtr read_binary(FileBytes file)
 {
     const std::uint32_t facets = facet_count(file);
-    if (file.bytes.size() < k_header_bytes || (file.bytes.size() - k_header_bytes) / k_facet_bytes < facets || facets > INT_MAX / 3)
-        file.fail_at_byte(file.bytes.size(), "the file ends too soon for a binary STL file of " + std::to_string(facets) + " facets; it is truncated or mangled");
+    if (file.bytes.size() < k_header_bytes || (file.bytes.size() - k_header_bytes) / k_facet_bytes < facets
+        || facets > INT_MAX / 3)
+        file.fail_at_byte(file.bytes.size(),
+                          "the file ends too soon for a binary STL file of " + std::to_string(facets)
+                              + " facets; it is truncated or mangled");
     auto content = std::make_shared<BinaryStlContent>();
     content->format = "stl";
     content->normals.resize(facets, 3);
     content->triangles.resize(facets, 3);
-    Weld weld;
+    FacetWeld weld;
     weld.expect_facets(facets);
     for (std::uint32_t f = 0; f < facets; ++f) {
         const std::size_t facet = k_header_bytes + f * k_facet_bytes;
@@ -188,7 +196,7 @@ ContentPtr read_binary(FileBytes file)
 
 ContentPtr read_stl(FileBytes file)
 {
-    // many binary files begin with "solid" too; their size gives them away
+    // many binary files begin with "solid" too; their size tells
     const bool is_binary = file.bytes.size() == k_header_bytes + k_facet_bytes * std::size_t(facet_count(file));
     const Span first_line { 0, std::min<std::size_t>(file.bytes.size(), 5) };
     if (!is_binary && lower_case(file.text(first_line)) == "solid")

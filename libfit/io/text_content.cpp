@@ -7,7 +7,7 @@ namespace garmentfit {
 
 std::string TextContent::bytes_with(const Positions& moved) const
 {
-    const Positions turned = turned_normals(normals, normal_corners, triangles, positions, moved);
+    const Positions turned = turn_normals(normals, normal_corners, triangles, positions, moved);
     Rewriter rewriter(file.bytes);
     for (const Place& place : places) {
         const Vec3 before = (place.is_normal ? normals : positions).row(place.row);

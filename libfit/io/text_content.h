@@ -8,18 +8,18 @@
 
 namespace garmentfit {
 
-/// A mesh in a text whose vertices and normals are three numbers in a row each; all other text is kept verbatim.
+/// A mesh in a text file. Each vertex and normal is three numbers in a row; all other text is kept verbatim.
 struct TextContent : MeshFile::Content {
     struct Place {
         Span span;
-        Eigen::Index row;          ///< of positions or normals
+        Eigen::Index row;  ///< of positions or normals
         bool is_normal;
     };
 
     FileBytes file;
-    std::vector<Place> places;     ///< in the order of the text
+    std::vector<Place> places;  ///< in the order of the text
     Positions normals;
-    Triangles normal_corners;      ///< rows of normals for each corner of the triangles, -1 = none
+    Triangles normal_corners;  ///< rows of normals for each corner of the triangles, -1 = none
 
     std::string bytes_with(const Positions& moved) const override;
 };

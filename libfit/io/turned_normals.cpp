@@ -4,11 +4,13 @@
 namespace garmentfit {
 namespace {
 
-Positions area_normals(Eigen::Index count, const Triangles& corners, const Triangles& triangles, const Positions& positions)
+Positions area_normals(Eigen::Index count, const Triangles& corners, const Triangles& triangles,
+                       const Positions& positions)
 {
     Positions sums = Positions::Zero(count, 3);
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)), c = positions.row(triangles(f, 2));
+        const Vec3 a = positions.row(triangles(f, 0)), b = positions.row(triangles(f, 1)),
+                   c = positions.row(triangles(f, 2));
         const Vec3 area = (b - a).cross(c - a);
         for (int k = 0; k < 3; ++k)
             if (corners(f, k) >= 0)
@@ -19,8 +21,8 @@ Positions area_normals(Eigen::Index count, const Triangles& corners, const Trian
 
 }  // namespace
 
-Positions turned_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
-                         const Positions& before, const Positions& after)
+Positions turn_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
+                       const Positions& before, const Positions& after)
 {
     const Positions from = area_normals(normals.rows(), corners, triangles, before);
     const Positions to = area_normals(normals.rows(), corners, triangles, after);

@@ -5,11 +5,11 @@
 
 namespace garmentfit {
 
-/// Turns a file's normals along with its surface: each by the rotation that takes the mean normal of the faces that use it,
-/// before, to that after. Hard edges stay hard, and a normal whose faces did not turn comes back bit for bit.
-/// `corners` names the normal at each corner of `triangles`, -1 = none; other rows are `triangles` itself where normals
-/// belong to vertices. O(n).
-Positions turned_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
-                         const Positions& before, const Positions& after);
+/// Turns a file's normals with its surface: each by the rotation that takes the mean normal of the faces that use it
+/// from before to after. Hard edges stay hard. A normal whose faces did not turn keeps its bits. `corners` holds the
+/// row of the normal at each corner of `triangles`, or -1; it is `triangles` itself where normals belong to vertices.
+/// O(n).
+Positions turn_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
+                       const Positions& before, const Positions& after);
 
 }  // namespace garmentfit

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "garmentfit/error.h"
-#include "known_units.h"
+#include "tuning.h"
 
 namespace garmentfit {
+
 Eigen::Matrix3d Frame::rotation() const
 {
-    // up along x turns about z; all others turn about x, so that left stays left
+    // an up axis along x turns about z; all others turn about x, which keeps left and right
     Eigen::Matrix3d metres_from_file;
     metres_from_file.row(1) = up;
     if (std::abs(up.x()) > 0.5) {
@@ -27,10 +28,7 @@ Positions Frame::to_metres(const Positions& in_file) const
     return metres_per_unit * in_file * rotation().transpose();
 }
 
-Positions Frame::to_file(const Positions& in_metres) const
-{
-    return in_metres * rotation() / metres_per_unit;
-}
+Positions Frame::to_file(const Positions& in_metres) const { return in_metres * rotation() / metres_per_unit; }
 
 double metres_per(std::string_view unit)
 {

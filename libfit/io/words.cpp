@@ -7,10 +7,7 @@
 namespace garmentfit {
 namespace {
 
-bool is_blank(char c)
-{
-    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
+bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 template <class Number>
 bool parses(std::string_view word, Number& value)
@@ -21,7 +18,7 @@ bool parses(std::string_view word, Number& value)
     return error == std::errc() && end == word.data() + word.size();
 }
 
-/// from_chars calls 1e-400 out of range; to a mesh it is 0.
+/// For from_chars 1e-400 is out of range; for a mesh it is 0.
 bool is_tiny(std::string_view word)
 {
     const std::size_t e = word.find_first_of("eE");

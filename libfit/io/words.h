@@ -12,29 +12,29 @@
 
 namespace garmentfit {
 
-/// Goes through the words of a stretch of text. A backslash before the end of a line is a blank, as in OBJ.
+/// The words of a range of text, one after the other. A backslash before the end of a line is a blank, as in OBJ.
 class Words {
 public:
     Words(const FileBytes& file, Span range) : file_(&file), at_(range.begin), end_(range.end) { }
 
-    bool done();                             ///< no word is left
-    Span next();                             ///< @throws InvalidInput when done
+    bool done();  ///< no word is left
+    Span next();  ///< @throws InvalidInput when done
     std::string_view next_text() { return file_->text(next()); }
-    long long next_integer();                ///< @throws InvalidInput: none left, not an integer
-    std::size_t at() const { return at_; }   ///< where the next word begins, or the blanks before it
+    long long next_integer();  ///< @throws InvalidInput: none left, not an integer
+    std::size_t at() const { return at_; }  ///< where the next word begins, or the blanks before it
 
 private:
     const FileBytes* file_;
     std::size_t at_, end_;
 };
 
-/// Goes through the lines of a file; a backslash at the end of a line joins the next one to it when asked to.
+/// The lines of a file, one after the other. With `joined`, a backslash at the end of a line joins the next one to it.
 class Lines {
 public:
     explicit Lines(const FileBytes& file, std::size_t from = 0) : file_(file), next_(from) { }
 
-    bool advance(bool joined = false);       ///< to the next line; false at the end
-    Span line() const { return line_; }      ///< without its line break
+    bool advance(bool joined = false);  ///< to the next line; false at the end
+    Span line() const { return line_; }  ///< without its line break
 
 private:
     const FileBytes& file_;
@@ -42,7 +42,7 @@ private:
     Span line_;
 };
 
-/// Not-a-number and infinity are numbers here. @throws InvalidInput naming the line.
+/// Not-a-number and infinity count as numbers. @throws InvalidInput with the line.
 double number_in(const FileBytes& file, Span word);
 long long integer_in(const FileBytes& file, Span word);
 

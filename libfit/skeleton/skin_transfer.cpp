@@ -213,7 +213,7 @@ SkinWeights transfer_skin_weights(const TriangleMesh& from, const Eigen::MatrixX
     const double normal_length = k_normal_weight * diagonal(from.positions);
     const OrientedPoints points
         = oriented_points(from.positions, vertex_normals(from.positions, from.triangles), normal_length);
-    const Positions places = brought_to_stumps(to);
+    const Positions places = move_to_stumps(to);
     const OrientedPoints queries = oriented_points(places, outward_normals(to, places), normal_length);
 
     Eigen::MatrixXd transferred = BlendedWeights(points, weights).at(queries);

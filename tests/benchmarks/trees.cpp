@@ -139,7 +139,8 @@ int main(int argc, char** argv)
     add("winding number: ClothTree", [&](auto& s) { ask(s, [&](const Vec3& p) { return cloth.winding(p); }); });
     add("winding number: all triangles",
         [&](auto& s) { ask(s, [&](const Vec3& p) { return winding_number(coat(), p); }); });
-    add("distance: TriangleTree (CGAL)", [&](auto& s) { ask(s, [&](const Vec3& p) { return triangles.distance(p); }); });
+    add("distance: TriangleTree (CGAL)",
+        [&](auto& s) { ask(s, [&](const Vec3& p) { return triangles.distance(p); }); });
     add("distance: ClothTree", [&](auto& s) { ask(s, [&](const Vec3& p) { return cloth.distance(p); }); });
 
     add("close pairs of edges: BoxTree, refitted", pairs_of_box_tree);

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/error.h"
 #include "fixtures.h"
+#include "garmentfit/error.h"
 
 namespace {
 
@@ -112,7 +112,8 @@ TEST(MakeBody, WeldsASoupWhoseCornersWereShaken)
     for (int f = 0; f < int(whole.triangles.rows()); ++f)
         for (int k = 0; k < 3; ++k) {
             soup.triangles(f, k) = 3 * f + k;
-            soup.positions.row(3 * f + k) = whole.positions.row(whole.triangles(f, k)) + 2e-5 * Vec3(f % 3 - 1, k - 1, f % 2).transpose();
+            soup.positions.row(3 * f + k)
+                = whole.positions.row(whole.triangles(f, k)) + 2e-5 * Vec3(f % 3 - 1, k - 1, f % 2).transpose();
         }
     const BodyMesh body = make_body(soup.positions, soup.triangles);
     EXPECT_TRUE(is_closed(body.closed));

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
 #include "garmentfit/error.h"
 #include "garmentfit/rig_body.h"
-#include "fixtures.h"
 
 namespace {
 

@@ -18,7 +18,8 @@ const Triangles k_fan = (Triangles(4, 3) << 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5).
 
 Triangles ball_triangles()
 {
-    return fixtures::polygonise([](const Vec3& p) { return p.norm() - 1; }, Vec3::Constant(-1.5), Vec3::Constant(1.5), 0.3)
+    return fixtures::polygonise([](const Vec3& p) { return p.norm() - 1; }, Vec3::Constant(-1.5), Vec3::Constant(1.5),
+                                0.3)
         .triangles;
 }
 

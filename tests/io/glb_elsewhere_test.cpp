@@ -12,10 +12,10 @@
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
 #include "garmentfit/animated_gltf.h"
 #include "garmentfit/error.h"
 #include "garmentfit/skinned_gltf.h"
-#include "fixtures.h"
 #include "temporary_folder.h"
 
 namespace {

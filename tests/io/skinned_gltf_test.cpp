@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/rig_body.h"
 #include "fixtures.h"
+#include "garmentfit/rig_body.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -63,7 +63,8 @@ TEST_F(SkinnedGltf, NamesTheJointThatItCannotFind)
 
 TEST_F(SkinnedGltf, UnderstandsOtherNamesForJoints)
 {
-    call_joints({ { "lfemur", "LUpLeg" }, { "rtibia", "shin_r" }, { "lhumerus", "arm-left" }, { "lradius", "elbow_l" } });
+    call_joints(
+        { { "lfemur", "LUpLeg" }, { "rtibia", "shin_r" }, { "lhumerus", "arm-left" }, { "lradius", "elbow_l" } });
     const ForeignRig read = read_skinned_gltf(glb);
     for (const int b : { lfemur, rtibia, lhumerus, lradius })
         EXPECT_LT((read.skeleton.head(b) - rig.skeleton.head(b)).norm(), 1e-6) << bone_name(b);

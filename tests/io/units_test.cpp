@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "garmentfit/error.h"
 #include "fixtures.h"
+#include "garmentfit/error.h"
 
 namespace {
 

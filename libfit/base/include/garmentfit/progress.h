@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Progress and cancelling: one value goes down the call tree and every sub-step gets a slice of it.
+// Progress and cancelling: one value goes down the call tree, and every step gets a slice of it.
 
 #include <functional>
 #include <string>

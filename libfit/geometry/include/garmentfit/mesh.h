@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The two meshes that libfit works on, and the makers that check them.
+// The two meshes that libfit works on, and the functions that check and make them.
 
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
 namespace garmentfit {
 
-/// A body: the user's own surface and the repaired closed surface that geometry is read from.
+/// A body: the user's surface, and the repaired closed surface that geometry is measured on.
 struct BodyMesh {
     TriangleMesh surface;  ///< every vertex and face as given
-    TriangleMesh closed;  ///< one closed, oriented, connected 2-manifold: equal to `surface` where that is one already
+    TriangleMesh closed;  ///< a closed, oriented, connected 2-manifold; equal to `surface` where that is one already
     bool repaired = false;  ///< true when `closed` differs from `surface`
 };
 
-/// A garment: triangles with or without thickness, open edges welcome.
+/// A garment: triangles with or without thickness; borders are allowed.
 struct GarmentMesh {
-    Positions positions;  ///< n x 3, metres; also the rest shape: edge lengths and folds come from here
+    Positions positions;  ///< n x 3, metres; also the rest shape, which sets edge lengths and folds
     Triangles triangles;
 };
 
@@ -25,7 +25,8 @@ struct GarmentMesh {
 /// Cost O(n log n). @throws InvalidInput: no faces, not finite, index out of range, nothing that can be closed.
 GARMENTFIT_API BodyMesh make_body(const Positions& positions, const Triangles& triangles);
 
-/// Checks a garment mesh. Cost O(n). @throws InvalidInput: no faces, not finite, index out of range, all faces degenerate.
+/// Checks a garment mesh. Cost O(n). @throws InvalidInput: no faces, not finite, index out of range, all faces
+/// degenerate.
 GARMENTFIT_API GarmentMesh make_garment(const Positions& positions, const Triangles& triangles);
 
 /// Unit vertex normals, area weighted, n x 3; zero where a vertex has no face.

@@ -5,8 +5,8 @@
 //
 // Method   outliers removed, smoothed to a coarser scale [digne_2011_scale_space], joined by an advancing front
 //          [cohensteiner_2004_greedy]. Needs no normals.
-// Cost     O(n log n); some seconds for 50 thousand points; of denser clouds, so many are taken.
-// Promise  the points keep their places and their order; those that are outliers, or one too many, have no triangle.
+// Cost     O(n log n); some seconds for 50 thousand points. Denser clouds are thinned out to that number.
+// Promise  points keep their places and their order; outliers, and points that were thinned out, have no triangle.
 
 #include "garmentfit/export.h"
 #include "garmentfit/progress.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The plain data that libfit speaks.
+// The plain data of libfit.
 //
 // Units and axes: libfit works in metres with +y up, always. Hosts convert at the door (see garmentfit/units.h).
 // Handedness: right. Triangles are counter-clockwise seen from outside.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Moving meshes as one glTF file, so that other programs can play them.
+// Moving meshes as one glTF file that other programs can play.
 
 #include <filesystem>
 #include <string>
@@ -20,10 +20,10 @@ struct MovingMesh {
     Eigen::RowVector3d colour = Eigen::RowVector3d::Constant(0.7);  ///< linear RGB, 0..1
 };
 
-/// Writes a GLB that plays once: each frame is a morph target, frames follow each other at `seconds_per_frame` and are blended in
-/// between. All meshes have the same number of frames. Never leaves a half-written file. Size 12 bytes per vertex and frame.
+/// Writes a GLB. Each frame is a morph target; players blend frames that are `seconds_per_frame` apart. All meshes have the
+/// same number of frames. Never leaves a half-written file. Size 12 bytes per vertex and frame.
 /// @throws InvalidInput when the numbers of frames differ or the place cannot be written.
 GARMENTFIT_API void write_animated_glb(const std::filesystem::path& path, const std::vector<MovingMesh>& meshes,
-                                double seconds_per_frame);
+                                       double seconds_per_frame);
 
 }  // namespace garmentfit

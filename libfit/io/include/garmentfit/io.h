@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Mesh files: OBJ, PLY, OFF, STL, glTF/GLB. What geometry needs is read; all the rest is kept for writing it back.
+// Mesh files: OBJ, PLY, OFF, STL, glTF/GLB. Geometry is read; everything else is kept, to be written back.
 
 #include <filesystem>
 #include <memory>
@@ -14,24 +14,24 @@
 
 namespace garmentfit {
 
-/// A mesh file that can be written again with other positions and nothing else changed: same vertices, order, polygons,
-/// UVs, groups, materials, comments, extra properties. Normals, where the file has some, are turned along.
+/// A mesh file that can be written again with other positions. Vertices, order, polygons, UVs, groups, materials,
+/// comments and extra properties stay as they are. Normals turn with the surface.
 class GARMENTFIT_API MeshFile {
 public:
-    /// The format is told by the content where it has a signature, else by the extension.
+    /// The format follows from the content where it has a signature, else from the extension.
     /// @throws InvalidInput: missing, unreadable, unknown format, truncated, mangled, no faces, index out of range, not
     ///         finite; names file and line or byte.
     static MeshFile read(const std::filesystem::path& path);
 
-    /// The same for what may have no faces: the points of a scanner. @throws InvalidInput.
+    /// The same for files that may have no faces, such as the points of a scanner. @throws InvalidInput.
     static MeshFile read_points(const std::filesystem::path& path);
 
     const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
     const Triangles& triangles() const;  ///< polygons cut into fans
     const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" or "gltf"
 
-    /// Writes the file as it was read but for the positions (n x 3, same order). Never leaves a half-written file:
-    /// written beside, then renamed. @throws InvalidInput when the place cannot be written.
+    /// Writes the file as it was read, with other positions (n x 3, same order). Writes a temporary file and renames
+    /// it, so that no half-written file is left. @throws InvalidInput when the place cannot be written.
     void write(const std::filesystem::path& path, const Positions& positions) const;
 
     struct Content;  ///< one kind for each format, private
@@ -49,13 +49,13 @@ struct VertexProperty {
 
 /// Binary little-endian PLY with double positions. Never leaves a half-written file.
 GARMENTFIT_API void write_ply(const std::filesystem::path& path, const Positions& positions, const Triangles& triangles,
-                       const std::vector<VertexProperty>& properties = {},
-                       const std::vector<std::string>& comments = {});
+                              const std::vector<VertexProperty>& properties = {},
+                              const std::vector<std::string>& comments = {});
 
 /// Scalar vertex properties of a PLY file by name. @throws InvalidInput.
 GARMENTFIT_API std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& path);
 
-/// Writes beside the place, then renames: a reader sees the old file or the whole new one, never a half.
+/// Writes a temporary file in the same folder, then renames it: a reader sees the old file or the new one.
 /// @throws InvalidInput when the place cannot be written.
 GARMENTFIT_API void write_file(const std::filesystem::path& path, std::string_view bytes);
 

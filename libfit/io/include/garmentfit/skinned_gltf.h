@@ -10,12 +10,13 @@
 
 namespace garmentfit {
 
-/// Writes a GLB: metres, +y up, one mesh, one skin. Its joints are called as in Bone and stand at the heads of the bones; head,
-/// hands, feet and their tips follow as joints that carry no weight. Never leaves a half-written file.
+/// Writes a GLB: metres, +y up, one mesh, one skin. Joints have the names of Bone and are at the heads of the bones. Head,
+/// hands, feet and their tips follow as joints without weight. Never leaves a half-written file.
 GARMENTFIT_API void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig);
 
-/// Bones and weights of another's rig, in the file's units and axes, vertices in the order of MeshFile. Joints go by
-/// the names in use: ours, Mixamo's, Unreal's, VRM's, MakeHuman's, SMPL's; what hangs on fingers and toes goes to the bone before.
+/// Bones and weights of a rig by another program, in the file's units and axes, vertices in the order of MeshFile. Joints are
+/// recognised by the names of this library, Mixamo, Unreal, VRM, MakeHuman or SMPL. Weights on fingers and toes go to the
+/// bone before them.
 struct ForeignRig {
     Skeleton skeleton;
     SkinWeights weights;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Between a file's units and axes and libfit's metres with +y up.
+// Conversion between a file's units and axes and libfit's metres with +y up.
 
 #include <string>
 #include <string_view>
@@ -11,16 +11,18 @@
 
 namespace garmentfit {
 
-constexpr double k_degrees_per_radian = 180 / 3.14159265358979323846;
+constexpr double k_degrees_per_radian = 180 / 3.14159265358979323846;  // derived
 
-/// A file's units and axes. Positions in metres = metres_per_unit * (rotation that takes `up` to +y) * positions in the file.
+/// A file's units and axes. Positions in metres = metres_per_unit * (rotation that takes `up` to +y) * positions in the
+/// file.
 struct Frame {
     double metres_per_unit = 1;
     Vec3 up = Vec3::UnitY();  ///< one of the six axis directions, in the file's axes
 
     GARMENTFIT_API Positions to_metres(const Positions& in_file) const;
     GARMENTFIT_API Positions to_file(const Positions& in_metres) const;
-    GARMENTFIT_API Eigen::Matrix3d rotation() const;  ///< metres-from-file; +y up: identity, +z up: (x, y, z) -> (x, z, -y)
+    GARMENTFIT_API Eigen::Matrix3d
+    rotation() const;  ///< metres-from-file; +y up: identity, +z up: (x, y, z) -> (x, z, -y)
 };
 
 /// "m", "dm", "cm", "mm", "in", "ft". @throws InvalidInput listing them.
@@ -30,13 +32,14 @@ GARMENTFIT_API Vec3 axis_of(std::string_view name);
 
 struct FrameGuess {
     Frame frame;
-    double unit_margin = 0, up_margin = 0;  ///< 0 (a toss-up) to 1 (sure)
+    double unit_margin = 0, up_margin = 0;  ///< confidence, from 0 (several are equally likely) to 1 (certain)
     std::string why;  ///< one sentence for the user
 };
 
 /// Guesses units and up axis of a human body from its size and shape. @throws InvalidInput: index out of range.
 GARMENTFIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles);
-/// Guesses those of a garment, given the body's: same frame unless size or shape speak against it.
-GARMENTFIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body);
+/// The same for a garment. It has the frame of the body unless its size or shape contradicts.
+GARMENTFIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles,
+                                              const Frame& body);
 
 }  // namespace garmentfit

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Numbers of geometry that were chosen on data. Lengths in m are metres on a body of human size; bodies of other sizes
+// are scaled to it before anything runs. Most lengths here are shares of the diagonal of the mesh's box, or of a mean
+// spacing.
+
+namespace garmentfit {
+
+// ---- closed_surface.cpp ---------------------------------------------------------------------------------------------
+
+/// Dimensionless, shares of the diagonal. Distances within which vertices become one, tried in turn: 2 micrometres of a
+/// body, up to 1 mm for soups that were rounded or shaken. fitted: guess, on damaged copies of the bodies in
+/// tests/bodies.
+inline constexpr double k_weld_shares[] = { 1e-6, 1e-5, 1e-4, 5e-4 };
+/// Dimensionless, a share of the body's size (Piece::size). A piece of this size beside the body is a limb or somebody
+/// else; smaller ones are islands and go. fitted: guess, on scans with islands and on bodies in parts.
+inline constexpr double k_largest_island = 0.2;
+/// Edges of a hole. Up to here all patches are tried where Delaunay's triangulation finds none. The time grows with the
+/// third power: one second at 300. fitted: by that second.
+inline constexpr int k_largest_cubic_hole = 300;
+/// Vertices of a piece that are tried for whether the piece lies within the body. fitted: guess.
+inline constexpr int k_piece_samples = 9;
+
+// ---- loose_vertices.cpp ---------------------------------------------------------------------------------------------
+
+/// Dimensionless, a share of the diagonal. A head, a hand or a foot that was cut off reaches this far from its stump.
+/// fitted: guess, on bodies of tests/bodies with parts cut off.
+inline constexpr double k_reach_of_stump = 0.15;
+
+// ---- proxy_surface.cpp ----------------------------------------------------------------------------------------------
+
+/// Dimensionless. Above this multiple of the wanted vertices the shortest edges are collapsed first: far cheaper, and
+/// far below the resolution that is wanted. fitted: by time, on scans of 10^6 vertices.
+inline constexpr int k_coarse_multiple = 4;
+/// Dimensionless, a share of the wanted vertices. With fewer, triangles are quartered: on larger ones the contraction
+/// to a curve skeleton fails at wrists and armpits. fitted: on the bodies of tests/bodies, thinned out.
+inline constexpr double k_fewest_proxy_vertices = 0.65;
+
+// ---- short_edges.cpp ------------------------------------------------------------------------------------------------
+
+/// Dimensionless, a share of the edge that an even mesh of the wanted size has. The first sweep takes shorter edges;
+/// each further one takes edges longer by the growth. fitted: guess, by evenness and time on scans of 10^6 vertices.
+inline constexpr double k_first_short_edge = 0.3, k_short_edge_growth = 1.25;
+/// Sweeps. fitted: guess; the last one takes edges of 3.5 times the even length.
+inline constexpr int k_most_sweeps = 12;
+
+// ---- reconstruct.cpp ------------------------------------------------------------------------------------------------
+
+/// Points. Fewer cannot show hands and feet. fitted: guess.
+inline constexpr int k_fewest_points = 500;
+/// Points. Denser clouds are thinned out: the rig reads no more than a fraction. fitted: by time, some seconds.
+inline constexpr double k_most_points = 50000;
+/// Points. The spacing at a point is the mean distance to so many neighbours. fitted: guess.
+inline constexpr int k_spacing_neighbours = 24;
+/// Dimensionless, in spacings. A point whose neighbours are this far on average is an outlier; on the surface it is
+/// about half of that. fitted: guess, on noisy samples of the bodies in tests/bodies.
+inline constexpr double k_outlier = 3;
+/// Rounds of smoothing; noise as large as the spacing goes. fitted: guess, on the same samples.
+inline constexpr int k_scale_steps = 4;
+/// Dimensionless, in spacings. Wider gaps stay open, or an arm would be sewn to the trunk. fitted: guess, on the same
+/// samples.
+inline constexpr double k_longest_bridge = 8;
+
+// ---- wrapped_surface.cpp --------------------------------------------------------------------------------------------
+
+/// Dimensionless, shares of the diagonal. Holes narrower than the first are wrapped over, and the wrap keeps the second
+/// off the surface. fitted: guess, on torn copies of the bodies in tests/bodies.
+inline constexpr double k_wrap_alpha = 0.012, k_wrap_offset = 0.001;
+
+}  // namespace garmentfit

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Numbers of io that were chosen on data: how units and axes of a file are guessed. Lengths are metres here, of a real
+// body or garment, because the guess comes before anything is scaled. docs/files.md tells the method;
+// tests/io/units_test.cpp holds the outcome for the bodies in tests/bodies and for garments made in code.
+
+#include <array>
+#include <string_view>
+
+namespace garmentfit {
+
+/// Dimensionless, a logarithm: how much rarer each axis of k_axes is as "up" than +y. Decides where the shape does not.
+/// fitted: guess, from experience with mesh files.
+inline constexpr std::array<std::string_view, 6> k_axes { "+y", "+z", "-y", "-z", "+x", "-x" };
+inline constexpr std::array<double, 6> k_axis_rarity { 0, 0.2, 1.2, 1.2, 1.5, 1.5 };
+
+struct KnownUnit {
+    std::string_view name;
+    double metres;
+    double log_rarity;  ///< dimensionless: how much rarer than metres in mesh files. fitted: guess, from experience
+};
+inline constexpr std::array<KnownUnit, 6> k_known_units { { { "m", 1, 0 },
+                                                            { "dm", 0.1, 0.5 },
+                                                            { "cm", 0.01, 0.2 },
+                                                            { "mm", 0.001, 0.2 },
+                                                            { "in", 0.0254, 2.2 },
+                                                            { "ft", 0.3048, 3 } } };
+
+/// m. A newborn; the tallest with arms up. Outside of them a unit is impossible. fitted: guess.
+inline constexpr double k_least_stature = 0.4, k_largest_stature = 2.6;
+/// m, and the spread of its logarithm: children are usual too. Weighs units that are possible. fitted: guess.
+inline constexpr double k_usual_stature = 1.65, k_stature_spread = 0.35;
+/// m, longest sides of baby shorts and of a gown. Outside of them a unit is impossible. fitted: guess.
+inline constexpr double k_least_garment = 0.2, k_largest_garment = 3;
+/// m, and the spread of its logarithm. fitted: guess.
+inline constexpr double k_usual_garment = 0.9, k_garment_spread = 0.45;
+/// Dimensionless, a logarithm that no deviation from the usual comes near. unit.
+inline constexpr double k_impossible = 1000;
+
+/// Cells along the longest side by which left and right are compared: 5 cm on an adult, wider than a pose is uneven.
+/// fitted: guess, on the bodies of tests/bodies.
+inline constexpr int k_symmetry_cells = 32;
+/// Dimensionless, a share of the surface. No scan is more even than this. fitted: guess.
+inline constexpr double k_evenness = 0.1;
+/// Dimensionless: how much the longest side counts against evenness. fitted: guess, on the bodies of tests/bodies.
+inline constexpr double k_length_weight = 2;
+/// Dimensionless, a share of the length: how deep the end of a body is looked at for soles. And the cosine of the angle
+/// within which a face counts as flat. fitted: guess, on the bodies of tests/bodies.
+inline constexpr double k_end_depth = 0.025, k_flat_cosine = 0.9;
+/// Dimensionless, a share of the surface; a sole has 0.006. fitted: guess.
+inline constexpr double k_least_sole = 0.002;
+/// Dimensionless: how much the share of surface above the middle counts against soles. fitted: guess, on tests/bodies.
+inline constexpr double k_top_heavy_weight = 30;
+
+/// Dimensionless: how much symmetry counts against height in a garment. fitted: guess.
+inline constexpr double k_symmetry_weight = 2;
+/// Dimensionless, evidence for other axes than the body's. Below it the body's axes are the better evidence. fitted:
+/// guess.
+inline constexpr double k_clear_preference = 0.4;
+
+}  // namespace garmentfit
