@@ -77,11 +77,12 @@ void require_openings(const TriangleMesh& outward)
 {
     const Pieces pieces = count_pieces(outward);
     if (pieces.count > 1 && pieces.largest < k_min_piece)
-        throw InvalidInput(ErrorCode::no_opening,
-                           "garment: " + std::to_string(pieces.count) + " loose pieces, the largest "
-                               + rounded_text(100 * pieces.largest, 3)
-                               + " cm across, such as buttons; none of them goes round a body. Give the cloth that they "
-                                 "belong to, or check its unit");
+        throw InvalidInput(
+            ErrorCode::no_opening,
+            "garment: " + std::to_string(pieces.count) + " loose pieces, the largest "
+                + rounded_text(100 * pieces.largest, 3)
+                + " cm across, such as buttons; none of them goes round a body. Give the cloth that they "
+                  "belong to, or check its unit");
     if (is_sealed(outward))
         throw InvalidInput(ErrorCode::closed_garment,
                            "garment: closed surface; a garment needs openings for head, arms or legs. Remove the caps, "

@@ -9,8 +9,8 @@ namespace garmentfit {
 
 TEST(Version, OfTheLibraryIsThatOfItsHeaders)
 {
-    const std::string numbers = std::to_string(GARMENTFIT_VERSION_MAJOR) + '.' + std::to_string(GARMENTFIT_VERSION_MINOR)
-        + '.' + std::to_string(GARMENTFIT_VERSION_PATCH);
+    const std::string numbers = std::to_string(GARMENTFIT_VERSION_MAJOR) + '.'
+        + std::to_string(GARMENTFIT_VERSION_MINOR) + '.' + std::to_string(GARMENTFIT_VERSION_PATCH);
     EXPECT_EQ(library_version(), numbers);
 }
 
