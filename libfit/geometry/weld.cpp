@@ -37,11 +37,11 @@ Weld::Weld(const GarmentMesh& garment) : cloth_vertex_(garment.positions.rows())
         }
 }
 
-Positions Weld::gathered(const Positions& garment) const { return garment(last_, Eigen::all); }
+Positions Weld::gather(const Positions& garment) const { return garment(last_, Eigen::all); }
 
-GarmentMesh Weld::gathered(const GarmentMesh& garment) const
+GarmentMesh Weld::gather(const GarmentMesh& garment) const
 {
-    GarmentMesh result { gathered(garment.positions), Triangles(garment.triangles.rows(), 3) };
+    GarmentMesh result { gather(garment.positions), Triangles(garment.triangles.rows(), 3) };
     Eigen::Index kept = 0;
     for (const auto& corners : garment.triangles.rowwise()) {
         const int a = cloth_vertex_[corners[0]], b = cloth_vertex_[corners[1]], c = cloth_vertex_[corners[2]];
@@ -54,7 +54,7 @@ GarmentMesh Weld::gathered(const GarmentMesh& garment) const
 
 Positions Weld::spread(const Positions& cloth) const { return cloth(cloth_vertex_, Eigen::all); }
 
-Positions Weld::placed(const Positions& cloth) const
+Positions Weld::place(const Positions& cloth) const
 {
     Positions result = spread(cloth);
     for (const Stray& stray : strays_)

@@ -14,10 +14,10 @@ class Weld {
 public:
     explicit Weld(const GarmentMesh& garment);  ///< O(n log n)
 
-    Positions gathered(const Positions& garment) const;  ///< positions of the cloth
-    GarmentMesh gathered(const GarmentMesh& garment) const;  ///< the cloth, without faces that lose a corner
+    Positions gather(const Positions& garment) const;  ///< positions of the cloth
+    GarmentMesh gather(const GarmentMesh& garment) const;  ///< the cloth, without faces that lose a corner
     Positions spread(const Positions& cloth) const;  ///< values at the garment's vertices, from those of the cloth
-    Positions placed(const Positions& cloth) const;  ///< positions; a stray vertex keeps its offset at rest
+    Positions place(const Positions& cloth) const;  ///< positions; a stray vertex keeps its offset at rest
     int given() const { return int(cloth_vertex_.size()); }  ///< vertices of the garment
 
 private:
