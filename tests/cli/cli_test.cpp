@@ -421,7 +421,7 @@ TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
     fs::remove(draped / "coat.ply");  // as where it is too small
     const Ended without = run({ "recover", draped, "-o", folder / "without" });
     EXPECT_EQ(without.code, 2);
-    EXPECT_NE(without.err.find("coat.ply is missing"), std::string::npos) << without.err;
+    EXPECT_NE(without.err.find("coat.ply: missing"), std::string::npos) << without.err;
     EXPECT_FALSE(fs::exists(folder / "without"));
 }
 

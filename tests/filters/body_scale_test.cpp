@@ -19,8 +19,9 @@ struct Tolerance {
 
 // unit: rounding of lengths that are scaled back
 constexpr Tolerance k_rounding { 1e-9, 1e-9 };
-// derived: this test. Doll and giant are a power of ten from the human, so all are dressed at one size, but for the rounding of
-// p / 10 * 10. Contact and stopping rules enlarge that: folds of a wide skirt settle some millimetres elsewhere.
+// derived: this test. Doll and giant are a power of ten from the human, so all are dressed at one size, but for the
+// rounding of p / 10 * 10. Contact and stopping rules enlarge that: folds of a wide skirt settle some millimetres
+// elsewhere.
 constexpr Tolerance k_other_folds { 0.015, 0.06 };
 constexpr double k_same_joint
     = 1e-6;  // unit: rounding, which the search for joints and pose hardly enlarges; body metres
