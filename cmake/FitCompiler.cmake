@@ -26,7 +26,8 @@ function(fit_target name)
 endfunction()
 
 # fit_precompiled(NAME [EXECUTABLES] LIBRARIES TARGET... [HEADERS <HEADER>...])
-# Precompiles what most sources include, for libraries (or executables) that are compiled with the flags of these libraries.
+# Precompiles what most sources include, for libraries (or executables) that are compiled with the flags of these
+# libraries.
 function(fit_precompiled name)
     if(NOT GARMENTFIT_PCH)
         return()

@@ -11,4 +11,5 @@ configure_package_config_file(cmake/GarmentFitConfig.cmake.in ${PROJECT_BINARY_D
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/GarmentFitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/GarmentFitConfig.cmake ${PROJECT_BINARY_DIR}/GarmentFitConfigVersion.cmake
         DESTINATION ${GARMENTFIT_PACKAGE_DIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/garmentfit RENAME copyright)  # where Debian's packages have it
+# where Debian's packages have it
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/garmentfit RENAME copyright)

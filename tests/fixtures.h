@@ -50,8 +50,8 @@ inline SkinWeights on_bone(Bone bone, Eigen::Index vertices)
 }
 
 /// The zero level of `distance` (negative inside) as a closed surface: marching tetrahedra on a grid of cubes, each cut
-/// into six tetrahedra round its diagonal, left and right of x = 0 like mirror images. Watertight and 2-manifold as long
-/// as the level keeps off the grid's border.
+/// into six tetrahedra round its diagonal, left and right of x = 0 like mirror images. Watertight and 2-manifold as
+/// long as the level keeps off the grid's border.
 inline TriangleMesh polygonise(const std::function<double(const Vec3&)>& distance, const Vec3& low, const Vec3& high,
                                double spacing)
 {
@@ -326,7 +326,8 @@ inline GarmentMesh sleeve_round(const Skeleton& skeleton, Bone bone, double radi
     return result;
 }
 
-/// A garment round a skeleton's capsules, `ease` metres off the skin: the surface where `keep` says so, holes where not.
+/// A garment round a skeleton's capsules, `ease` metres off the skin: the surface where `keep` says so, holes where
+/// not.
 inline TriangleMesh garment_round(const Skeleton& skeleton, double ease, const std::function<bool(const Vec3&)>& keep,
                                   double spacing = 0.03)
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Small files of each format, with as many of its oddities as fit: read by the tests of files and mangled by the fuzz test.
+// Small files of each format, with as many of its oddities as fit: read by the tests of files and mangled by the fuzz
+// test.
 
 #include <array>
 #include <bit>
@@ -107,8 +108,8 @@ inline std::string gltf_buffer()
     return buffer;
 }
 
-/// A node of scale 2, one to the right of its parent; two primitives share their vertices. `buffer` is the member(s) that
-/// say where the 108 bytes are.
+/// A node of scale 2, one to the right of its parent; two primitives share their vertices. `buffer` is the member(s)
+/// that say where the 108 bytes are.
 inline std::string gltf_json(const std::string& buffer)
 {
     return "{\"asset\":{\"version\":\"2.0\",\"generator\":\"by hand\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"

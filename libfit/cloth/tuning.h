@@ -20,7 +20,8 @@ namespace garmentfit {
 inline constexpr double k_least_hinge_area = 0.5;
 /// Stretch of an edge at which strain limiting begins, and how many times as stiff the edge is beyond it.
 /// fitted: the table of docs/decisions/0013-strain-limiting.md, three pairs of the house data, by the largest stretch
-/// and by whether the body reaches its place. Ten times as stiff holds fast what lies folded in a trouser leg or a cuff.
+/// and by whether the body reaches its place. Ten times as stiff holds fast what lies folded in a trouser leg or a
+/// cuff.
 inline constexpr double k_strain_limit = 0.4;
 inline constexpr double k_strain_limit_stiffness = 5;
 

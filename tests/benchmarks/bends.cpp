@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Bends limbs of bodies through their range, to be looked at: `bends FOLDER` writes one PLY for each joint and angle, with
-// a comment that says where the joint is. draw_rig.py makes one picture of them.
+// Bends limbs of bodies through their range, to be looked at: `bends FOLDER` writes one PLY for each joint and angle,
+// with a comment that says where the joint is. draw_rig.py makes one picture of them.
 
 #include <cmath>
 #include <filesystem>

@@ -94,7 +94,8 @@ inline TriangleMesh refined(const TriangleMesh& mesh, std::size_t vertices)
     return result;
 }
 
-/// Edges collapsed by what that costs the shape (Lindstrom and Turk), until there are so many vertices. @pre as to_cgal()
+/// Edges collapsed by what that costs the shape (Lindstrom and Turk), until there are so many vertices.
+/// @pre as to_cgal()
 inline TriangleMesh coarsened(const TriangleMesh& mesh, std::size_t vertices)
 {
     namespace simplification = CGAL::Surface_mesh_simplification;

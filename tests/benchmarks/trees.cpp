@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the trees of libfit cost, side by side: docs/decisions/0016-trees.md has the figures that decided which ones stay.
+// What the trees of libfit cost, side by side: docs/decisions/0016-trees.md has the figures that decided which ones
+// stay.
 
 #include <functional>
 #include <numeric>

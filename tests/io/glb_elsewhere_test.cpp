@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What write_skinned_glb and write_animated_glb write, opened by another library. On its own: assimp brings a tinygltf of another version along, which
-// would be called in place of ours.
+// What write_skinned_glb and write_animated_glb write, opened by another library. An executable of its own: assimp
+// brings a tinygltf of another version along, which would be called in place of ours.
 
 #include <filesystem>
 #include <map>

@@ -14,7 +14,8 @@
 
 namespace garmentfit {
 
-/// Rows of `points`. Holes stay where no points are: make_body closes them. @throws InvalidInput: too few points. Cancelled.
+/// Rows of `points`. Holes stay where no points are: make_body closes them.
+/// @throws InvalidInput: too few points. Cancelled.
 GARMENTFIT_API Triangles reconstruct_surface(const Positions& points, const Progress& progress = {});
 
 }  // namespace garmentfit

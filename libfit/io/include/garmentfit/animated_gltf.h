@@ -20,8 +20,8 @@ struct MovingMesh {
     Eigen::RowVector3d colour = Eigen::RowVector3d::Constant(0.7);  ///< linear RGB, 0..1
 };
 
-/// Writes a GLB. Each frame is a morph target; players blend frames that are `seconds_per_frame` apart. All meshes have the
-/// same number of frames. Never leaves a half-written file. Size 12 bytes per vertex and frame.
+/// Writes a GLB. Each frame is a morph target; players blend frames that are `seconds_per_frame` apart. All meshes have
+/// the same number of frames. Never leaves a half-written file. Size 12 bytes per vertex and frame.
 /// @throws InvalidInput when the numbers of frames differ or the place cannot be written.
 GARMENTFIT_API void write_animated_glb(const std::filesystem::path& path, const std::vector<MovingMesh>& meshes,
                                        double seconds_per_frame);
