@@ -4,9 +4,9 @@
 // The elastic energy of a garment, in the form of projective dynamics [bouaziz_2014_projective_dynamics]: a constant
 // quadratic form minus what springs and hinges, each projected to its own rest, pull with (their loads).
 //
-// Stretch  a spring along each edge that wants its rest length. Beyond a limit it is stiffer; [provot_1995_cloth] moves
+// Stretch  a spring along each edge, with its rest length. Beyond a limit it is stiffer; [provot_1995_cloth] moves
 //          such edges back instead.
-// Bend     quadratic hinges [bergou_2006_quadratic_bending] that want the mean curvature vector they have at rest,
+// Bend     quadratic hinges [bergou_2006_quadratic_bending] that keep the mean curvature vector they have at rest,
 //          turned along with the hinge, so a garment keeps its own folds.
 // Units    metres, kilograms, seconds. Positions and forces are n x 3.
 

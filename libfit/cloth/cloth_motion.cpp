@@ -126,8 +126,8 @@ Positions ClothMotion::move_freely(const Positions& displacements)
     return moved;
 }
 
-// The one place where positions change. Vertices that lie between others are held back although all of them want nearly
-// the same motion (a pinched fold, sheets that cross as given). The rest of their way they go as rigid impact zones.
+// The one place where positions change. Vertices that lie between others are held back although all of them have nearly
+// the same displacement (a pinched fold, sheets that cross as given). They go the rest of it as rigid impact zones.
 void ClothMotion::move(const Positions& displacements)
 {
     const Stopwatch watch(seconds_.detection);

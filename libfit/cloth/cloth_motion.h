@@ -56,7 +56,7 @@ public:
     double advect_obstacle(const Positions& target);
 
     /// Lets the obstacle go to its target and the cloth find its rest around it.
-    /// @return the longest way that an obstacle vertex still has to its target, metres
+    /// @return the longest distance of an obstacle vertex from its target, metres
     double advance(const MotionStep& step);
 
     /// The positions of cloth and obstacle, for restore().

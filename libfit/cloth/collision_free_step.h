@@ -18,7 +18,7 @@ namespace garmentfit {
 std::vector<double> collision_free_fractions(const std::vector<ContactPair>& pairs, const Positions& x,
                                              const Positions& displacements, double min_distance);
 
-/// Displacements in which pairs that cannot go their own ways move as rigid impact zones [provot_1997_collision]: all
+/// Displacements in which pairs that cannot move independently move as rigid impact zones [provot_1997_collision]: all
 /// vertices of a zone get the mean displacement of its members. An obstacle of which no vertex is to move stays where
 /// it is, and so does a zone with one of its vertices. Same bits for any number of threads.
 /// @param cloth_vertices  the vertices from there on belong to the obstacle

@@ -2,7 +2,7 @@
 #pragma once
 
 // A garment made ready to move. What needs its vertices welded and its edges listed takes this value, so both are done
-// once on the way from the file to the dressed garment.
+// once for a garment.
 
 #include "garmentfit/mesh.h"
 #include "topology.h"

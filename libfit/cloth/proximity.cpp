@@ -14,7 +14,7 @@ namespace {
 constexpr double k_parallel = 1e-14;
 // literature: [li_2021_cipc], algorithm 1, whose s is 0.1.
 constexpr double k_advance = 0.9;
-// derived: the part of the way that is free at least doubles in two advances, so no real motion needs more.
+// derived: the part of the path that is free at least doubles in two advances, so no real motion needs more.
 constexpr int k_most_advances = 200;
 
 // Parameter in [0, 1] of the projection of p onto the segment from a along ab; 0 for a segment of no length.

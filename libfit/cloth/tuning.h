@@ -68,7 +68,7 @@ inline constexpr double k_swinging_velocity = 0.9, k_calming_velocity = 0.3, k_s
 
 // ---- waiting for what cloth holds back (cloth_motion) ---------------------------------------------------------------
 
-/// A step that leaves less than this fraction of the way was worth its time.
+/// A step that leaves less than this fraction of the distance to the target counts as progress.
 /// fitted: guess, on the house data.
 inline constexpr double k_progress = 0.95;
 /// Steps without such progress after which the motion counts as stalled.
@@ -91,7 +91,7 @@ inline constexpr double k_kept_below_minimum = 0.9;
 /// vertex is: see "Rounding" in docs/cloth.md for how many motions that lasts.
 /// fitted: guess, on the house data.
 inline constexpr double k_kept_in_rounding_zone = 0.999, k_rounding_zone = 0.01;
-/// Additive CCD advances towards a distance below the one to keep, by this fraction of the way that may be used.
+/// Additive CCD advances towards a distance below the one to keep, by this fraction of the distance that may be used.
 /// fitted: guess; it decides how close to the distance to keep a motion ends, and the seconds.
 inline constexpr double k_floor_below_kept = 0.25;
 /// Rounds in which step fractions are lowered. Then the vertices of a pair that still collides stand still.
@@ -100,7 +100,7 @@ inline constexpr int k_most_fraction_rounds = 30;
 /// The fractions of a pair that collides fall at least to this fraction in a round, so that rounds stay few.
 /// fitted: guess, on the house data.
 inline constexpr double k_least_cut = 0.9;
-/// A pair that cannot go this fraction of its way is merged into one rigid impact zone.
+/// A pair that cannot go this fraction of its displacement is merged into one rigid impact zone.
 /// fitted: guess, on the house data.
 inline constexpr double k_zone_free_fraction = 0.9;
 
@@ -118,7 +118,7 @@ inline constexpr double k_loose_part_distance = 0.02;
 /// Rounds of untangling, and rounds without fewer crossings than ever before after which it has stalled.
 /// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr int k_untangle_rounds = 300, k_untangle_stall_rounds = 60;
-/// Mean edges of the tangled cloth: the longest way of a vertex in one round, and how far round a tangle cloth moves.
+/// Mean edges of the tangled cloth: the longest move of a vertex in one round, and how far round a tangle cloth moves.
 /// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr double k_untangle_step = 0.3, k_untangle_reach = 5;
 /// Length of the contour gradient at which a push is 0.7 of the longest: the g0 of [volino_2006_contours].

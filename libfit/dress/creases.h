@@ -25,7 +25,7 @@ public:
     const Positions& bridged_surface() const { return bridged_; }
 
     /// The surface with the skin in creases drawn part of the way to `core`, where it collapses to: into the body,
-    /// where no cloth is. The skin goes from a bridge to its place by way of this.
+    /// where no cloth is. The skin goes from a bridge to its place through this surface.
     Positions withdrawn_surface(const Positions& core) const;
 
 private:

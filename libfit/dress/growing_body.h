@@ -29,7 +29,7 @@ struct GrowingBody {
     auto body_of(const Positions& positions) const { return positions.topRows(body_vertices); }
 };
 
-/// Who puts on a garment, and in which pose: the same for every way to begin.
+/// Who puts on a garment, and in which pose: the same for every start.
 struct Wearer {
     const Rig& rig;
     const BodyMesh& body;

@@ -31,7 +31,8 @@ public:
     /// The last pose, with the skin in creases drawn back into the body.
     Positions withdrawn_end() const;
 
-    /// m; the length of the longest path of a vertex of cloth (n x 3). Bare hands go further, but they carry nothing.
+    /// m; the length of the longest path of a vertex of cloth (n x 3). Uncovered hands go further, but no cloth moves
+    /// with them.
     double length(const Positions& cloth, const SkinWeights& weights) const;
 
 private:

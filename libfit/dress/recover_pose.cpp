@@ -125,7 +125,7 @@ MotionStep moving_step(const Positions& target)
 
 /// Advects body and cloth by the body's skinning from one share of the path to the next, then lets the cloth find its
 /// rest.
-/// @return m; the longest way that a vertex of the body still has to its place
+/// @return m; the longest distance of a vertex of the body from its place
 double step_along(ClothMotion& motion, const PosePath& path, double from, double to, const MovedWeights& weights,
                   double stuck_lag)
 {

@@ -68,8 +68,8 @@ inline constexpr double k_ball_tolerance = 0.9;
 /// Share of a bridge that is drawn to the crease boundary; the rest is a soap film, so that no face loses its area.
 /// Fitted: guess, on the same five pairs.
 inline constexpr double k_bridge_tautness = 0.9;
-/// m; cloth further from a crease at the start does not get into it on the way. Fitted: guess; without a limit, mouths
-/// and toes were smoothed away.
+/// m; cloth further from a crease at the start does not get into it along the pose path. Fitted: guess; without a
+/// limit, mouths and toes were smoothed away.
 inline constexpr double k_crease_reach = 0.15;
 /// Share of the body's vertices: a patch with fewer is an island in a crease, not a limb beyond it. Fitted: guess.
 inline constexpr double k_enclosed_patch = 0.01;

@@ -82,7 +82,7 @@ struct DrapeResult : DressedBody {
 
 /// Puts one more garment on a body.
 /// @param dressed  the body in the pose of the new garment (FitResult::pose), and the garments that it wears already;
-///                 these give way with the body. A body that wears nothing: `{ fit.pose }`. Another layer: the
+///                 these move with the body. A body that wears nothing: `{ fit.pose }`. Another layer: the
 ///                 DrapeResult of the layer below.
 /// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does.
 ///         Cancelled.
