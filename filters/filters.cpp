@@ -141,7 +141,7 @@ Dressing dressing_of(const DrapeResult& result)
 {
     Dressing dressing;
     static_cast<DressedBody&>(dressing) = result;
-    dressing.size_reached = result.scale_reached;
+    dressing.scale_reached = result.scale_reached;
     dressing.held_back = result.held_back;
     dressing.speed = result.speed;
     dressing.seconds = result.seconds;

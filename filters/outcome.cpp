@@ -61,15 +61,15 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
     const std::vector<TooTight> parts = tight_parts(end);
     std::ostringstream text;
     text << names[parts.empty() ? end.outermost : parts.front().garment] << " is too small"
-         << (end.size_reached < 1 ? "" : " for the input pose");
+         << (end.scale_reached < 1 ? "" : " for the input pose");
     double enlargement = 0;
     for (const TooTight& part : parts) {
         text << (enlargement > 0 ? ", " : ": it lacks ") << millimetres(part.missing_girth) << " of girth at "
              << part.part;
         enlargement = std::max(enlargement, part.enlargement);
     }
-    if (end.size_reached < 1)
-        text << "; a body of " << percent(end.size_reached) << "% of the thickness would fit";
+    if (end.scale_reached < 1)
+        text << "; a body of " << percent(end.scale_reached) << "% of the thickness would fit";
     if (!parts.empty())
         text << "; a garment " << std::ceil(100 * enlargement) << "% larger would not be stretched there";
     return text.str();
@@ -111,7 +111,7 @@ bool all_clean(const std::vector<WornGarment>& garments)
 bool all_put_on(const Scene& scene)
 {
     const auto& draped = scene.draped;
-    return draped && draped->worn().size() == scene.garments.size() && draped->size_reached == 1
+    return draped && draped->worn().size() == scene.garments.size() && draped->scale_reached == 1
         && draped->pose_reached == 1 && all_clean(draped->garments);
 }
 
@@ -119,7 +119,7 @@ Outcome outcome_of(const Dressing& end)
 {
     if (end.certified)
         return Outcome::done;
-    const bool too_small = end.size_reached < 1 || (!end.too_tight.empty() && all_clean(end.garments));
+    const bool too_small = end.scale_reached < 1 || (!end.too_tight.empty() && all_clean(end.garments));
     return too_small ? Outcome::too_small : Outcome::not_certified;
 }
 

@@ -65,7 +65,7 @@ std::vector<NamedArray> certificate_arrays(const Certificate& c, double metres_p
              counts("KeptSelfCrossings", { int(c.kept_self_crossings.size()) }),
              counts("LayerCrossings", { c.layer_crossings }),
              counts("VerticesInside", { c.vertices_inside }),
-             numbers("GarmentGap", { c.min_distance / metres_per_unit }),
+             numbers("GarmentMinDistance", { c.min_distance / metres_per_unit }),
              numbers("StrainMedian", { c.strain.median }),
              numbers("StrainP95", { c.strain.p95 }),
              numbers("StrainMax", { c.strain.max }) };
@@ -147,7 +147,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
              {},
              { { "DressedPose", row_of(pose) },
                counts("Certified", { dressing.certified ? 1 : 0 }),
-               numbers("SizeReached", { dressing.size_reached }),
+               numbers("ScaleReached", { dressing.scale_reached }),
                numbers("PoseReached", { dressing.pose_reached }),
                numbers("Speed", { dressing.speed.value_or(NAN) }),
                { "Note", Texts { note } },

@@ -83,7 +83,7 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
         warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
                            + " mm/s); give more settling steps");
     const auto is_too_small = [&](std::size_t i) {
-        return (i == end.outermost && end.size_reached < 1)
+        return (i == end.outermost && end.scale_reached < 1)
             || std::any_of(end.too_tight.begin(), end.too_tight.end(),
                            [&](const TooTight& part) { return part.garment == int(i); });
     };

@@ -193,7 +193,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
                        { { inside.at(start.scale), inside.full.triangles }, int(inside.body_vertices) }, options.cloth);
 
     DrapeResult result;
-    result.scale_reached = grow_body(motion, start, grading, options.inflation_steps, progress.part(0, 0.7));
+    result.scale_reached = grow_body(motion, start, grading, options.growing_steps, progress.part(0, 0.7));
     if (result.scale_reached < 1)
         result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer, options.cloth.largest_stretch);
     else

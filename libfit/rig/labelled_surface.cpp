@@ -40,6 +40,7 @@ std::vector<Vec3> LabelledSurface::last_vertices(int c, double length) const
         if (place.curve == c && place.row >= int(first))
             points.push_back(mesh.positions.row(v));
     }
+    require_part(!points.empty(), "skin at the end of a limb", nodes.back());
     return points;
 }
 

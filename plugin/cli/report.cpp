@@ -211,7 +211,7 @@ Json json_of(const Call& call, const Session& session)
     Json json { { "command", call.filter->name } };
     if (const Dressing* end = final_dressing(session.scene)) {
         json["certified"] = end->certified;
-        json["size_reached"] = end->size_reached;
+        json["scale_reached"] = end->scale_reached;
         json["pose_reached"] = end->pose_reached;
         json["settled"] = end->speed ? Json(*end->speed < k_at_rest) : Json();
         json["speed"] = end->speed ? Json(*end->speed) : Json();

@@ -32,7 +32,7 @@ void write_rigged(const Session& session, const fs::path& path)
         properties.push_back({ "weight" + std::to_string(k), { values.begin(), values.end() }, false });
     }
     write_ply(path, session.body.file.positions(), session.body.triangles, properties,
-              { "garmentfit: the body in its own pose, joint0..3 are rows of bones in rig.json" });
+              { "garmentfit: the body in its input pose, joint0..3 are rows of bones in rig.json" });
 }
 
 RigFile rig_file_of(const Session& session)
@@ -51,10 +51,10 @@ std::vector<std::string> comments_of(const Dressing& dressing)
         return { "garmentfit: certified" };
     std::ostringstream text;
     text << "garmentfit: NOT certified; last certified state, body at ";
-    if (dressing.size_reached < 1)
-        text << percent(dressing.size_reached) << "% of its size";
+    if (dressing.scale_reached < 1)
+        text << percent(dressing.scale_reached) << "% of its size";
     else if (dressing.pose_reached < 1)
-        text << percent(dressing.pose_reached) << "% of the way between two poses";
+        text << percent(dressing.pose_reached) << "% of the path between two poses";
     else
         text << "its pose, but for parts that cloth holds back";
     return { text.str() };

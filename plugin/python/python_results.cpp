@@ -141,7 +141,7 @@ nb::dict verdict_of(const PythonScene& s)
     made["certified"] = end.certified;
     made["put_on"] = all_put_on(s.scene);
     made["too_small"] = !end.certified && outcome_of(end) == Outcome::too_small;
-    made["size_reached"] = end.size_reached;
+    made["scale_reached"] = end.scale_reached;
     made["pose_reached"] = end.pose_reached;
     made["speed"] = end.speed ? nb::cast(*end.speed) : nb::none();
     made["note"] = end.certified ? std::string() : explain(end, s.names);

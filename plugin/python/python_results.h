@@ -36,7 +36,7 @@ nb::list garments_of(const PythonScene& scene);
 nb::list fits_of(const PythonScene& scene);
 /// [(bone, (garment, garment), degrees), ...]
 nb::list conflicts_of(const PythonScene& scene);
-/// {certified, too_small, note, size_reached, ...}
+/// {certified, too_small, note, scale_reached, ...}
 nb::dict verdict_of(const PythonScene& scene);
 /// [(share of the pose path, body, [garment, ...]), ...]
 nb::list frames_of(const PythonScene& scene);

@@ -591,7 +591,7 @@ TEST_F(Slow, SaysWhereAGarmentIsTooSmallAndMarksTheStateItLeaves)
     ASSERT_EQ(ended.code, 3) << ended.err;
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_FALSE(report.at("certified").get<bool>());
-    EXPECT_LT(report.at("size_reached").get<double>(), 1);
+    EXPECT_LT(report.at("scale_reached").get<double>(), 1);
     EXPECT_TRUE(report.at("settled").is_null() && report.at("speed").is_null()) << "it never settled";
     const auto& tight = report.at("garments").at(0).at("too_tight");
     ASSERT_FALSE(tight.empty());

@@ -22,7 +22,7 @@ TEST(DressingOutcome, NamesThePartsAtWhichAGarmentIsTooSmall)
 {
     Scene scene = draped_scene();
     scene.draped->certified = false;
-    scene.draped->size_reached = 0.876;
+    scene.draped->scale_reached = 0.876;
     scene.draped->too_tight = { { 0, "chest", 0.031, 0.034 } };
     EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::too_small);
     EXPECT_EQ(

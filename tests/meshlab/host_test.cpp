@@ -416,7 +416,7 @@ TEST_F(MeshLab, DrapesInAPoseFittedBeforeTheRigWasSaved)
     meshlab::open_layer(reopened, folder / "man.ply");
     meshlab::open_layer(reopened, k_skirt);
     RichParameterList short_drape = dialog_of("Drape Garment", reopened);
-    short_drape.setValue("inflation_steps", IntValue(4));
+    short_drape.setValue("growing_steps", IntValue(4));
     short_drape.setValue("settling_steps", IntValue(0));
     const Ended draped = run("Drape Garment", reopened, short_drape);
     EXPECT_EQ(draped.message.find("was not fitted into"), std::string::npos) << draped.message;

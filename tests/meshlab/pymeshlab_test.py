@@ -110,9 +110,10 @@ class GarmentFitting(unittest.TestCase):
         dressed = meshes.mesh(worn)
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "dress", SMALL_BODY, SKIRT, "--quiet", "-o", folder + "/out"], check=True)
-            by_program = opened(folder + "/out/skirt.ply").current_mesh()  # a file of floats
+            by_program = opened(folder + "/out/skirt.ply")  # a file of floats; a mesh lives no longer than its set
+            positions = by_program.current_mesh().vertex_matrix()
             numpy.testing.assert_array_equal(
-                dressed.vertex_matrix().astype(numpy.float32), by_program.vertex_matrix().astype(numpy.float32)
+                dressed.vertex_matrix().astype(numpy.float32), positions.astype(numpy.float32)
             )
         ease = dressed.vertex_custom_scalar_attribute_array("ease")
         numpy.testing.assert_allclose(dressed.vertex_scalar_array(), ease, atol=1e-6)

@@ -340,6 +340,13 @@ TEST(RigBody, RefusesBallsAndCubesAsBlocks)
         expect_invalid([&] { rig_body(body_of(block)); }, "isoperimetric quotient");
 }
 
+TEST(RigBody, RefusesATetrahedron)
+{
+    const Positions corners = (Positions(4, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1).finished();
+    const Triangles faces = (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2).finished();
+    EXPECT_THROW(rig_body(make_body(corners, faces)), InvalidInput);
+}
+
 TEST(RigBody, NamesTheNumberOfEndsFound)
 {
     const TriangleMesh rod = shape([](const Vec3& p) {

@@ -34,6 +34,6 @@ plotter.show(screenshot=picture)
 
 # %% The certificate is part of the output.
 dressed = pv.wrap(dress.GetOutput(1)).field_data
-print({name: dressed[name][0] for name in ("BodyCrossings", "SelfCrossings", "GarmentGap", "StrainP95")})
+print({name: dressed[name][0] for name in ("BodyCrossings", "SelfCrossings", "GarmentMinDistance", "StrainP95")})
 for place, skin, cloth in zip(dressed["GirthPlace"], dressed["GirthBody"], dressed["GirthGarment"]):
     print(f"{place}: body {skin:.2f} m, garment {cloth:.2f} m")

@@ -172,7 +172,7 @@ class Dressing(_Result):
         self.too_small: bool = verdict["too_small"]  #: a garment is, for this body or this pose
         self.note: str = verdict["note"]  #: why it is not certified, one line; else empty
         self.warnings: List[str] = verdict["warnings"]  #: what limits the trust in the result, one line each
-        self.size_reached: float = verdict["size_reached"]
+        self.scale_reached: float = verdict["scale_reached"]
         self.pose_reached: float = verdict["pose_reached"]
         #: m/s, of the cloth's fastest vertex at the end; None where the garment is too small and was never settled
         self.speed: Optional[float] = verdict["speed"]

@@ -15,7 +15,7 @@
  *   with +y up; `BodyFrame`: metres per unit and the up axis of the input
  * - field data after a fit of several garments: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle`
  *   (degrees)
- * - field data of a dressed body: `Certified`, `SizeReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest
+ * - field data of a dressed body: `Certified`, `ScaleReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest
  *   vertex; NaN where the garment is too small and was never settled), `HeldBackPart`, `HeldBackDistance`,
  *   `OverlapPart`, `OverlapOther`, `OverlapDepth`; `Note`: one line where it is not certified; `Warnings`: what limits
  *   the trust in the result, one line each
@@ -24,7 +24,8 @@
  * - point data `RestPosition`: the points of the input; `Ease`: gap to the skin; `Strain`: mean stretch of the edges;
  *   `Pressure`: Pa
  * - field data `FoundType`, `FoundTypeMargin`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
- *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentGap`, `StrainMedian`, `StrainP95`, `StrainMax`,
+ *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentMinDistance`, `StrainMedian`, `StrainP95`,
+ *   `StrainMax`,
  *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`,
  *   `GirthBody`, `GirthGarment`
  * - a string `GarmentType` in the field data of an input sets the garment's type

@@ -50,7 +50,7 @@
 #define vtkFitDrapeParametersMacro()                                                                                   \
     vtkFitClothParametersMacro();                                                                                      \
     vtkFitNumberMacro(Enlarge, double, enlarge);                                                                       \
-    vtkFitNumberMacro(InflationSteps, int, inflation_steps);                                                           \
+    vtkFitNumberMacro(GrowingSteps, int, growing_steps);                                                               \
     vtkFitNumberMacro(SettlingSteps, int, settling_steps)
 
 #define vtkFitRecoveryParametersMacro()                                                                                \

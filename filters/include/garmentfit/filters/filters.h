@@ -42,7 +42,7 @@ struct GarmentInput {
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.
 struct Dressing : DressedBody {
     std::size_t outermost = 0;  ///< which garment was put on last, or was to be
-    double size_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
+    double scale_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
     double pose_reached = 1;  ///< share of the last pose path that was covered
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth keeps the body from its place, in the last pose that was tried

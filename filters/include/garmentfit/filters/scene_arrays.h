@@ -41,7 +41,7 @@ MeshArrays arrays_of(const Rig& rig, const Frame& body);
 /// Of the body: FitPoses, FitLayers, and where several garments were asked for one pose: OnePose, ConflictBone,
 /// ConflictGarments, ConflictAngle (degrees).
 MeshArrays arrays_of_fits(const Scene& scene);
-/// Of the body: DressedPose, Certified, SizeReached, PoseReached, Speed, Note, HeldBackPart, HeldBackDistance.
+/// Of the body: DressedPose, Certified, ScaleReached, PoseReached, Speed, Note, HeldBackPart, HeldBackDistance.
 MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& names, const Frame& body);
 
 /// Of a garment: GarmentFrame.

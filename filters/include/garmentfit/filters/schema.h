@@ -107,8 +107,8 @@ template <class Options, class Visitor, IfOptionsOf<Options, DrapeOptions>* = nu
 void describe(Options& o, Visitor&& visit)
 {
     describe(o.cloth, visit);
-    visit(o.inflation_steps,
-          About { "inflation_steps", "Inflation steps", "", 4, 1000,
+    visit(o.growing_steps,
+          About { "growing_steps", "Growing steps", "", 4, 1000,
                   "Steps in which the body grows from its bones to its full size" });
     visit(o.settling_steps,
           About { "settling_steps", "Settling steps", "", 0, 10000,
@@ -121,7 +121,7 @@ void describe_pose_path(Options& o, Visitor&& visit)
 {
     visit(o.largest_steps,
           About { "recovery_steps", "Recovery steps", "", 1, 100000,
-                  "The return to the input pose is given up after this many steps" });
+                  "No more steps than these back to the input pose; they get longer instead" });
     visit(o.step_length,
           About { "recovery_step_length", "Recovery step length", "m", 1e-4, 0.1,
                   "No part of the body near the cloth moves further than this in a step" });

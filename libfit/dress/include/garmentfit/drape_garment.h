@@ -25,7 +25,7 @@ namespace garmentfit {
 /// Defaults are fitted: guesses on the pairs that dress/tuning.h names.
 struct DrapeOptions {
     ClothOptions cloth;
-    int inflation_steps = 24;  ///< in which the body grows from its bones to full size
+    int growing_steps = 24;  ///< in which the body grows from its bones to full size
     int settling_steps = 20;  ///< time steps under gravity
 };
 

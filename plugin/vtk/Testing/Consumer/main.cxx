@@ -40,7 +40,7 @@ bool dresses(const char* body_file, const char* garment_file, const char* type)
     if (dress->GetErrorCode() != vtkErrorCode::NoError || !worn->GetPointData()->HasArray("Ease"))
         return false;
     std::cout << worn->GetNumberOfPoints() << " vertices, gap "
-              << worn->GetFieldData()->GetArray("GarmentGap")->GetComponent(0, 0) << '\n';
+              << worn->GetFieldData()->GetArray("GarmentMinDistance")->GetComponent(0, 0) << '\n';
     return worn->GetNumberOfPoints() == garment->GetOutput()->GetNumberOfPoints()
         && dress->GetOutput()->GetFieldData()->GetArray("Certified")->GetComponent(0, 0) == 1;
 }

@@ -227,7 +227,7 @@ TEST(DressBody, GivesTheNumbersOfTheFilterBehindIt)
     const WornGarment& worn = scene.recovered->garments[0];
     vtkPolyData* garment = polydata(*dress, 1);
     EXPECT_EQ(points_of(garment), worn.positions);
-    EXPECT_EQ(number(garment, "GarmentGap"), worn.certificate.min_distance);
+    EXPECT_EQ(number(garment, "GarmentMinDistance"), worn.certificate.min_distance);
     EXPECT_EQ(number(garment, "BodyCrossings"), 0);
     for (Eigen::Index v = 0; v < worn.positions.rows(); ++v)
         ASSERT_EQ(garment->GetPointData()->GetArray("Ease")->GetComponent(v, 0), scene.recovered->maps[0].ease[v]);
