@@ -44,7 +44,7 @@ def _times_of(filter_: Any) -> List[float]:
 
 def _require_success(filter_: Any) -> None:
     if line := getattr(filter_, "error", None):  # of the filters of garmentfit.vtk
-        raise invalid_input(filter_.error_code, line)
+        raise invalid_input(filter_.error_name, line)
 
 
 def _write(filter_: Any, time: float, file: Path) -> Path:

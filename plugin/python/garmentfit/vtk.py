@@ -217,7 +217,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         #: read only, so that a change is noticed: set all anew
         self.joints: Mapping[str, Sequence[float]] = joints or {}
         self.error: Optional[str] = None  #: message of the last execution; None after success
-        self.error_code: Optional[str] = None  #: for programs: "rig_mismatch", ..., "solver_failure"; None likewise
+        self.error_name: Optional[str] = None  #: for programs: "rig_mismatch", ..., "solver_failure"; None likewise
         self._scenes: Dict[str, Any] = {}  # by step: identity of its inputs, and its result
         for name, value in parameters.items():
             if name not in self._values:
@@ -304,7 +304,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
             if made is None or made.GetClassName() != kind:
                 info.Set(vtkDataObject.DATA_OBJECT(), like.NewInstance() if like is not None else vtkPolyData())
         self.error = next((wrong for wrong in map(_what_is_wrong, range(len(data)), data) if wrong), None)
-        self.error_code = "missing_input" if self.error else None
+        self.error_name = "missing_input" if self.error else None
         if self.error:
             self._empty([outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                          for port in range(self.GetNumberOfOutputPorts())])
@@ -328,7 +328,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 for port in range(self.GetNumberOfInputPorts())]
         made = [outputs.GetInformationObject(port).Get(vtkDataObject.DATA_OBJECT())
                 for port in range(self.GetNumberOfOutputPorts())]
-        self.error = self.error_code = None
+        self.error = self.error_name = None
         if data[0].GetNumberOfPoints() == 0 and _is_aborted_upstream(self):
             self._empty(made)
             return 1
@@ -344,12 +344,12 @@ class _FitFilter(VTKPythonAlgorithmBase):
             self._empty(made)
             return 1
         except (InvalidInput, SolverFailure) as error:
-            self.error, self.error_code = str(error), getattr(error, "code", "solver_failure")
+            self.error, self.error_name = str(error), getattr(error, "code", "solver_failure")
             self._empty(made)
             self._tell("ErrorEvent", self.error)
             return 0
         except BaseException as error:  # VTK prints it: Ctrl-C, a value of the wrong kind
-            self.error, self.error_code = f"{type(error).__name__}: {error}", "invalid_input"
+            self.error, self.error_name = f"{type(error).__name__}: {error}", "invalid_input"
             self._empty(made)
             raise
 

@@ -209,11 +209,11 @@ def test_a_bad_body_raises_an_event_and_the_filter_works_afterwards(part, source
     sources[0].Update()
     rig.SetInputData(BAD_BODIES[part](sources[0].GetOutput()))
     rig.Update()
-    assert heard and part in rig.error and "\n" not in rig.error and rig.error_code
+    assert heard and part in rig.error and "\n" not in rig.error and rig.error_name
     assert rig.GetOutput(0).GetNumberOfPoints() == rig.GetOutput(1).GetNumberOfPoints() == 0
     rig.SetInputConnection(sources[0].GetOutputPort())
     rig.Update()
-    assert rig.error is None and rig.error_code is None and rig.GetOutput(1).GetNumberOfLines() == 22
+    assert rig.error is None and rig.error_name is None and rig.GetOutput(1).GetNumberOfLines() == 22
 
 
 @pytest.mark.parametrize("part", BAD_GARMENTS)
