@@ -95,6 +95,6 @@ def test_a_filter_that_fails_writes_nothing(tmp_path):
         write_series(dress, tmp_path / "none.pvd")
     dress.SetInputData(0, pyvista.read(BODY))
     dress.AddObserver("ProgressEvent", lambda o, e: o.SetAbortExecute(1))
-    with pytest.raises(InvalidInput, match="nothing to show at time 0"):
+    with pytest.raises(InvalidInput, match="has no output at time 0"):
         write_series(dress, tmp_path / "none.pvd")
     assert not list(tmp_path.iterdir())
