@@ -10,6 +10,10 @@ namespace garmentfit {
 /// fitted: guess, on the twelve pairs of the house data
 inline constexpr double k_low_confidence = 0.2;
 
+/// Guesses of a smaller probability get a warning. derived: of what is said with more, four in five at least are right
+/// (libfit/fit/facing.h)
+inline constexpr double k_low_probability = 0.8;
+
 /// Body metres. A garment that slipped down by more gets a warning.
 /// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a coat by nine
 inline constexpr double k_slipped = 0.15;

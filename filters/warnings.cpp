@@ -20,6 +20,14 @@ void warn_of_type(std::vector<std::string>& warnings, const std::string& name, c
                            + "; if it is wrong, " + set("type"));
 }
 
+void warn_of_front(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit)
+{
+    if (fit.front_probability < k_low_probability)
+        warnings.push_back("the front of " + name + " is uncertain (probability "
+                           + std::to_string(std::lround(100 * fit.front_probability))
+                           + "%); look whether it is worn back to front");
+}
+
 void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment,
                      double to_human_size)
 {
@@ -111,8 +119,10 @@ std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vec
     if (scene.rig && scene.rig->side_margin < k_low_confidence)
         warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));
-    for (std::size_t i = 0; i < scene.fits.size(); ++i)
+    for (std::size_t i = 0; i < scene.fits.size(); ++i) {
         warn_of_type(warnings, names[i], scene.fits[i], set);
+        warn_of_front(warnings, names[i], scene.fits[i]);
+    }
     const std::vector<std::string> layers = warnings_about_layers(scene, names, set);
     warnings.insert(warnings.end(), layers.begin(), layers.end());
     if (const Dressing* end = final_dressing(scene)) {

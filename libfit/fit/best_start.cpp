@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "coordinate_ascent.h"
+#include "facing.h"
 #include "limb_search.h"
 #include "parallel.h"
 #include "posture_moves.h"
@@ -167,8 +168,8 @@ std::optional<Candidate> find_promising(const FitEnergy& energy, const Candidate
     return is_promising ? std::optional<Candidate>(*most) : std::nullopt;
 }
 
-// The best start, the best that faces the other way, and the best rotated by half a turn: most garments have as much
-// clearance then.
+// The best start, the best that faces the other way, the best rotated by half a turn, because most garments have as much
+// clearance then, and the best that faces as the input body does.
 Candidates choose_for_ascent(const FitEnergy& energy, const Candidates& sorted)
 {
     Candidates chosen { sorted[0] };
@@ -179,6 +180,11 @@ Candidates choose_for_ascent(const FitEnergy& energy, const Candidates& sorted)
         chosen.push_back(*other);
     chosen.push_back(
         search_limbs_widely(energy, rotate_about_trunk(energy, sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
+    const auto like_input = std::find_if(sorted.begin(), sorted.end(), [&](const Candidate& s) {
+        return (s.posture.turn * energy.rig().front).dot(energy.rig().front) > std::cos(k_same_heading);
+    });
+    if (like_input != sorted.end() && like_input != sorted.begin() && like_input != other)
+        chosen.push_back(*like_input);
     if (const auto promising = find_promising(energy, sorted))
         chosen.push_back(*promising);
     return chosen;
@@ -210,12 +216,9 @@ Candidates replace_failed(const FitEnergy& energy, const Candidates& ascended, c
     return others;
 }
 
-double front_margin_of(const Rig& rig, const Candidates& sorted)
+HypothesisScore score_of(const FitEnergy& energy, const Posture& posture)
 {
-    const auto other = std::find_if(sorted.begin(), sorted.end(),
-                                    [&](const Candidate& s) { return face_apart(rig, s.posture, sorted[0].posture); });
-    const double margin = other == sorted.end() ? k_clear_front : sorted[0].score - other->score;
-    return std::clamp(margin / k_clear_front, 0.0, 1.0);
+    return { posture, energy.total(posture), energy.clearance_share(posture), energy.bones_through_cloth(posture) };
 }
 
 // ---------------------------------------------------------------- refinement
@@ -267,8 +270,8 @@ std::vector<StartHypothesis> facing_hypotheses(const FitEnergy& energy)
     return hypotheses;
 }
 
-BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                          const Progress& progress)
+std::vector<HypothesisScore> find_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                                         const Progress& progress)
 {
     const MinMaxPyramid clearance = pyramid_of(energy.metric().cloth());
     Candidates sorted = keep_distinct(find_places(energy, clearance, hypotheses), k_starts_searched);
@@ -283,7 +286,25 @@ BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypoth
     ascended.insert(ascended.end(), others.begin(), others.end());
     progress.at(0.8);
     sort_best_first(ascended);
-    return { ascended[0].posture, front_margin_of(energy.rig(), ascended) };
+    std::vector<HypothesisScore> starts;
+    for (const Candidate& candidate : ascended)
+        starts.push_back(score_of(energy, candidate.posture));
+    return starts;
+}
+
+BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                          const Progress& progress)
+{
+    const std::vector<HypothesisScore> starts = find_starts(energy, hypotheses, progress);
+    std::vector<Posture> postures;
+    std::vector<double> energies;
+    for (const HypothesisScore& start : starts) {
+        postures.push_back(start.posture);
+        energies.push_back(start.energy);
+    }
+    const std::vector<double> probabilities = facing_probabilities(facing_evidence(energy, postures, energies));
+    const auto most = std::max_element(probabilities.begin(), probabilities.end());
+    return { postures[std::size_t(most - probabilities.begin())], *most };
 }
 
 std::vector<HypothesisScore> score_hypotheses(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
@@ -299,8 +320,7 @@ std::vector<HypothesisScore> score_hypotheses(const FitEnergy& energy, const std
         search_limbs_widely(energy, candidates);
         ascend_roughly(energy, candidates);
         sort_best_first(candidates);
-        const Posture& best = candidates[0].posture;
-        scores.push_back({ best, energy.total(best), energy.clearance_share(best), energy.bones_through_cloth(best) });
+        scores.push_back(score_of(energy, candidates[0].posture));
     }
     return scores;
 }

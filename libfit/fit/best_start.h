@@ -22,21 +22,26 @@ Eigen::Quaterniond upright_turn(const Rig& rig, double heading);
 /// pairs: along and across the garment, and as the input body faces.
 std::vector<StartHypothesis> facing_hypotheses(const FitEnergy& energy);
 
-struct BestStart {
-    Posture posture;
-    double front_margin;  // 0 (the opposite facing is as good) to 1
-};
-
-/// The best start over all hypotheses. They compete from the first step, so that most are dropped early.
-BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                          const Progress& progress);
-
 struct HypothesisScore {
     Posture posture;  ///< the best of this hypothesis
     double energy = 0;  ///< m; less the cost of crossings
     double clearance_share = 0;  ///< of the clearance that covered bones need
     int bones_through_cloth = 0;
 };
+
+/// The starts that are left of all hypotheses, best first. They compete from the first step, so that most are dropped early;
+/// the best of each facing is kept.
+std::vector<HypothesisScore> find_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                                         const Progress& progress);
+
+struct BestStart {
+    Posture posture;
+    double front_probability;  // that the body faces this way, of all facings that were searched
+};
+
+/// The best of find_starts that has the most probable facing (facing.h).
+BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
+                          const Progress& progress);
 
 /// Each hypothesis by itself, in the given order: all of them are searched to the same depth.
 /// Cost: about a third of find_best_start for each hypothesis.

@@ -180,7 +180,7 @@ public:
         FitResult result;
         result.type = guess_.type;
         result.type_margin = guess_.margin;
-        result.front_margin = start_.front_margin;
+        result.front_probability = start_.front_probability;
         result.covered = bones_inside(energy, fitted, k_mostly_inside);
         result.pose = pose_of(rig_.skeleton, rotate(fitted, back));
         result.scores = energy.bone_scores(fitted);

@@ -131,10 +131,8 @@ double FitEnergy::tip_value(int extremity, const PlacedBones& bones) const
 
 double FitEnergy::stance_value(const Posture& posture) const
 {
-    const Vec3 front = posture.turn * rig_.front;
     const double tilt = angle_between(posture.turn * rig_.up.normalized(), Vec3::UnitY());
-    const double facing = weights_.facing * front.dot(cues_.front) + weights_.input_facing * front.dot(rig_.front);
-    return hang_slope() * posture.root.y() - weights_.upright * tilt * tilt + facing;
+    return hang_slope() * posture.root.y() - weights_.upright * tilt * tilt;
 }
 
 CoverageDistances FitEnergy::coverage_distances(int bone, const Vec3& head, const Vec3& tail) const

@@ -142,12 +142,12 @@ Json overlaps_of(const Dressing& dressing, double metres_per_unit)
     return pairs;
 }
 
-/// E_B of each covered bone before and after, its clearance, and the margins of the garment's up and front.
+/// E_B of each covered bone before and after, its clearance, the confidence in the garment's up and the probability of its front.
 void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
 {
     json["up"] = vector_of(file_from_metres * fit.up);
     json["up_margin"] = fit.up_margin;
-    json["front_margin"] = fit.front_margin;
+    json["front_probability"] = fit.front_probability;
     Json bones;
     for (const Bone bone : fit.covered)
         bones[std::string(bone_name(bone))] = { { "before", fit.scores_before[bone] / metres_per_unit },

@@ -47,6 +47,14 @@ TEST(Warnings, SayWhichParameterSettlesThem)
                  "the up axis of coat is guessed with low confidence (it is wide); if it is wrong, set garment_up" }));
 }
 
+TEST(Warnings, SayThatAFrontIsUncertain)
+{
+    Scene scene = worn_scene();
+    scene.fits[0].front_probability = 0.62;
+    EXPECT_EQ(warnings_of(scene),
+              (Lines { "the front of skirt is uncertain (probability 62%); look whether it is worn back to front" }));
+}
+
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
 {
     Scene scene = worn_scene();

@@ -41,7 +41,7 @@ struct FitResult {
     Pose pose;  ///< from the input pose of the body into the garment
     GarmentType type = GarmentType::automatic;  ///< as given, or as found
     double type_margin = 1;  ///< confidence, 0 (another type is as likely) to 1; 1 when the type was given
-    double front_margin = 1;  ///< confidence, 0 (the opposite facing is as good) to 1; always 1 for paper and tisserand
+    double front_probability = 1;  ///< that the garment faces as it is worn here; always 1 for paper and tisserand
     Vec3 up = Vec3::UnitY();  ///< the garment's upward direction, as it was given
     double up_margin = 1;  ///< confidence, 0 (another way up is as good) to 1
     std::vector<Bone> covered;
