@@ -168,8 +168,8 @@ std::optional<Candidate> find_promising(const FitEnergy& energy, const Candidate
     return is_promising ? std::optional<Candidate>(*most) : std::nullopt;
 }
 
-// The best start, the best that faces the other way, the best rotated by half a turn, because most garments have as much
-// clearance then, and the best that faces as the input body does.
+// The best start, the best that faces the other way, the best rotated by half a turn, because most garments have as
+// much clearance then, and the best that faces as the input body does.
 Candidates choose_for_ascent(const FitEnergy& energy, const Candidates& sorted)
 {
     Candidates chosen { sorted[0] };

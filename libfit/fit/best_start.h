@@ -29,8 +29,8 @@ struct HypothesisScore {
     int bones_through_cloth = 0;
 };
 
-/// The starts that are left of all hypotheses, best first. They compete from the first step, so that most are dropped early;
-/// the best of each facing is kept.
+/// The starts that are left of all hypotheses, best first. They compete from the first step, so that most are dropped
+/// early; the best of each facing is kept.
 std::vector<HypothesisScore> find_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
                                          const Progress& progress);
 

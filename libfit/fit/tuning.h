@@ -116,10 +116,10 @@ inline constexpr double k_same_way_up = 0.7;  ///< cosine; ways up nearer to eac
 
 // ---------------------------------------------------------------- facing
 
-/// Weights of the evidence for a facing (facing.h): log odds per unit. Fitted on 100 generated garments, 25 of them also
-/// placed anew, and 27 modelled ones, of known facing, on one to three bodies each. On the half that the weights had not
-/// seen, 240 of 247 facings were right, and 222 of 223 of those said with more than 0.9. scripts/fit-facing fits them
-/// again.
+/// Weights of the evidence for a facing (facing.h): log odds per unit. Fitted on 100 generated garments, 25 of them
+/// also placed anew, and 27 modelled ones, of known facing, on one to three bodies each. On the half that the weights
+/// had not seen, 240 of 247 facings were right, and 222 of 223 of those said with more than 0.9. scripts/fit-facing
+/// fits them again.
 struct FacingWeights {
     double energy = 0.67;  ///< 1/m
     double input_front = 2.2;  ///< 1

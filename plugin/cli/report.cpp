@@ -142,7 +142,8 @@ Json overlaps_of(const Dressing& dressing, double metres_per_unit)
     return pairs;
 }
 
-/// E_B of each covered bone before and after, its clearance, the confidence in the garment's up and the probability of its front.
+/// E_B of each covered bone before and after, its clearance, the confidence in the garment's up and the probability of
+/// its front.
 void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
 {
     json["up"] = vector_of(file_from_metres * fit.up);
