@@ -149,7 +149,7 @@ Json garment_of(const Frame& body_frame, const Skeleton& own, const FittedGarmen
 {
     Json json { { "file", garment.file },
                 { "type", name_of(garment.fit.type) },
-                { "type_margin", garment.fit.type_margin },
+                { "type_probability", garment.fit.type_probability },
                 { "layer", garment.fit.layer } };
     put_frame(json, garment.frame);
     json["covered"] = Json::array();
@@ -166,7 +166,7 @@ FittedGarment garment_of(const Frame& body_frame, const Json& json, int place)
 {
     FittedGarment garment { json.at("file").get<std::string>(), frame_of(json), {} };
     garment.fit.type = garment_type_of(json.at("type").get<std::string>());
-    garment.fit.type_margin = json.at("type_margin").get<double>();
+    garment.fit.type_probability = json.at("type_probability").get<double>();
     garment.fit.layer = json.value("layer", place);
     garment.fit.pose = pose_of(body_frame, json.at("pose"));
     for (const Json& name : json.at("covered"))

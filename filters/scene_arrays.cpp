@@ -169,7 +169,7 @@ MeshArrays arrays_of(const FitResult& fit)
     return { {},
              {},
              { { "FoundType", Texts { std::string(name_of(fit.type)) } },
-               numbers("FoundTypeMargin", { fit.type_margin }) } };
+               numbers("FoundTypeProbability", { fit.type_probability }) } };
 }
 
 MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const Frame& body)

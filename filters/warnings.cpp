@@ -12,20 +12,23 @@ namespace {
 
 constexpr const char* k_guess = " is guessed with low confidence";
 
-void warn_of_type(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit,
-                  const HowToSet& set)
+std::string percent_text(double probability)
 {
-    if (fit.type_margin < k_low_confidence)
-        warnings.push_back("the type of " + name + k_guess + ": " + std::string(name_of(fit.type))
-                           + "; if it is wrong, " + set("type"));
+    return " (probability " + std::to_string(std::lround(100 * probability)) + "%)";
 }
 
-void warn_of_front(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit)
+void warn_of_guesses(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit,
+                     const HowToSet& set)
 {
+    if (fit.type_probability < k_low_probability)
+        warnings.push_back("the type of " + name + " is uncertain: " + std::string(name_of(fit.type))
+                           + percent_text(fit.type_probability) + "; if it is wrong, " + set("type"));
     if (fit.front_probability < k_low_probability)
-        warnings.push_back("the front of " + name + " is uncertain (probability "
-                           + std::to_string(std::lround(100 * fit.front_probability))
-                           + "%); look whether it is worn back to front");
+        warnings.push_back("the front of " + name + " is uncertain" + percent_text(fit.front_probability)
+                           + "; if it is worn back to front, " + set("garment_front"));
+    if (fit.up_probability < k_low_probability)
+        warnings.push_back("which end of " + name + " is up is uncertain" + percent_text(fit.up_probability)
+                           + "; if it is worn upside down or on its side, " + set("garment_up"));
 }
 
 void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment,
@@ -119,10 +122,8 @@ std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vec
     if (scene.rig && scene.rig->side_margin < k_low_confidence)
         warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));
-    for (std::size_t i = 0; i < scene.fits.size(); ++i) {
-        warn_of_type(warnings, names[i], scene.fits[i], set);
-        warn_of_front(warnings, names[i], scene.fits[i]);
-    }
+    for (std::size_t i = 0; i < scene.fits.size(); ++i)
+        warn_of_guesses(warnings, names[i], scene.fits[i], set);
     const std::vector<std::string> layers = warnings_about_layers(scene, names, set);
     warnings.insert(warnings.end(), layers.begin(), layers.end());
     if (const Dressing* end = final_dressing(scene)) {

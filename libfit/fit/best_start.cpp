@@ -10,7 +10,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "coordinate_ascent.h"
-#include "facing.h"
 #include "limb_search.h"
 #include "parallel.h"
 #include "posture_moves.h"
@@ -134,16 +133,20 @@ Candidates keep_distinct(Candidates candidates, std::size_t count)
 }
 
 // Second stage: limbs on the wide grid. The ascent may free bones from the cloth, so crossings cost less before it.
-Candidate search_limbs_widely(const FitEnergy& energy, const Posture& start)
-{
-    const Posture posture = search_covered_limbs(energy, start, k_wide_grid);
-    return { posture, energy.value(posture) - k_early_crossing * energy.crossing_cost(posture) };
-}
-
 void search_limbs_widely(const FitEnergy& energy, Candidates& candidates)
 {
-    parallel_for<std::size_t>(
-        candidates.size(), [&](std::size_t i) { candidates[i] = search_limbs_widely(energy, candidates[i].posture); });
+    parallel_for<std::size_t>(candidates.size(), [&](std::size_t i) {
+        const Posture posture = search_covered_limbs(energy, candidates[i].posture, k_wide_grid);
+        candidates[i] = { posture, energy.value(posture) - k_early_crossing * energy.crossing_cost(posture) };
+    });
+}
+
+std::vector<Posture> postures_of(const Candidates& candidates)
+{
+    std::vector<Posture> postures;
+    for (const Candidate& candidate : candidates)
+        postures.push_back(candidate.posture);
+    return postures;
 }
 
 // Third stage: all degrees of freedom together. The refinement frees hands and feet, so their crossings still cost
@@ -159,29 +162,30 @@ void ascend_roughly(const FitEnergy& energy, Candidates& candidates)
 // ---------------------------------------------------------------- what the third stage looks at
 
 // The best but for bones that pass through cloth, if that makes a clear difference.
-std::optional<Candidate> find_promising(const FitEnergy& energy, const Candidates& sorted)
+std::optional<Posture> find_promising(const FitEnergy& energy, const std::vector<Posture>& sorted)
 {
-    const auto most = std::max_element(sorted.begin(), sorted.end(), [&](const Candidate& a, const Candidate& b) {
-        return energy.value(a.posture) < energy.value(b.posture);
+    const auto most = std::max_element(sorted.begin(), sorted.end(), [&](const Posture& a, const Posture& b) {
+        return energy.value(a) < energy.value(b);
     });
-    const bool is_promising = energy.value(most->posture) > energy.value(sorted[0].posture) + k_promising;
-    return is_promising ? std::optional<Candidate>(*most) : std::nullopt;
+    const bool is_promising = energy.value(*most) > energy.value(sorted[0]) + k_promising;
+    return is_promising ? std::optional<Posture>(*most) : std::nullopt;
 }
 
 // The best start, the best that faces the other way, the best rotated by half a turn, because most garments have as
 // much clearance then, and the best that faces as the input body does.
-Candidates choose_for_ascent(const FitEnergy& energy, const Candidates& sorted)
+std::vector<Posture> choose_for_ascent(const FitEnergy& energy, const std::vector<Posture>& sorted)
 {
-    Candidates chosen { sorted[0] };
-    const auto other = std::find_if(sorted.begin(), sorted.end(), [&](const Candidate& s) {
-        return face_apart(energy.rig(), s.posture, sorted[0].posture);
-    });
+    if (sorted.empty())
+        return {};
+    std::vector<Posture> chosen { sorted[0] };
+    const auto other = std::find_if(sorted.begin(), sorted.end(),
+                                    [&](const Posture& s) { return face_apart(energy.rig(), s, sorted[0]); });
     if (other != sorted.end())
         chosen.push_back(*other);
-    chosen.push_back(
-        search_limbs_widely(energy, rotate_about_trunk(energy, sorted[0].posture, std::numbers::pi * Vec3::UnitY())));
-    const auto like_input = std::find_if(sorted.begin(), sorted.end(), [&](const Candidate& s) {
-        return (s.posture.turn * energy.rig().front).dot(energy.rig().front) > std::cos(k_same_heading);
+    const Posture turned = rotate_about_trunk(energy, sorted[0], std::numbers::pi * Vec3::UnitY());
+    chosen.push_back(search_covered_limbs(energy, turned, k_wide_grid));
+    const auto like_input = std::find_if(sorted.begin(), sorted.end(), [&](const Posture& s) {
+        return (s.turn * energy.rig().front).dot(energy.rig().front) > std::cos(k_same_heading);
     });
     if (like_input != sorted.end() && like_input != sorted.begin() && like_input != other)
         chosen.push_back(*like_input);
@@ -204,21 +208,17 @@ bool has_failed(const FitEnergy& energy, const Posture& posture)
 }
 
 // The other starts that face as one does whose ascent failed.
-Candidates replace_failed(const FitEnergy& energy, const Candidates& ascended, const Candidates& sorted)
+Candidates replace_failed(const FitEnergy& energy, const Candidates& ascended, const std::vector<Posture>& sorted)
 {
     Candidates failed, others;
     std::copy_if(ascended.begin(), ascended.end(), std::back_inserter(failed),
                  [&](const Candidate& one) { return has_failed(energy, one.posture); });
-    std::copy_if(sorted.begin() + 1, sorted.end(), std::back_inserter(others), [&](const Candidate& start) {
-        return std::any_of(failed.begin(), failed.end(),
-                           [&](const Candidate& one) { return !face_apart(energy.rig(), one.posture, start.posture); });
-    });
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (std::any_of(failed.begin(), failed.end(), [&](const Candidate& one) {
+                return !face_apart(energy.rig(), one.posture, sorted[i]);
+            }))
+            others.push_back({ sorted[i] });
     return others;
-}
-
-HypothesisScore score_of(const FitEnergy& energy, const Posture& posture)
-{
-    return { posture, energy.total(posture), energy.clearance_share(posture), energy.bones_through_cloth(posture) };
 }
 
 // ---------------------------------------------------------------- refinement
@@ -270,59 +270,28 @@ std::vector<StartHypothesis> facing_hypotheses(const FitEnergy& energy)
     return hypotheses;
 }
 
-std::vector<HypothesisScore> find_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                                         const Progress& progress)
+std::vector<Posture> find_rough_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses)
 {
     const MinMaxPyramid clearance = pyramid_of(energy.metric().cloth());
-    Candidates sorted = keep_distinct(find_places(energy, clearance, hypotheses), k_starts_searched);
-    progress.at(0.4);
-    search_limbs_widely(energy, sorted);
-    progress.at(0.6);
-    sort_best_first(sorted);
-    Candidates ascended = choose_for_ascent(energy, sorted);
+    Candidates candidates = keep_distinct(find_places(energy, clearance, hypotheses), k_starts_searched);
+    search_limbs_widely(energy, candidates);
+    sort_best_first(candidates);
+    return postures_of(candidates);
+}
+
+std::vector<Posture> ascend_starts(const FitEnergy& energy, const std::vector<Posture>& rough,
+                                   const std::vector<Posture>& others)
+{
+    Candidates ascended;
+    for (const auto& postures : { choose_for_ascent(energy, rough), others })
+        for (const Posture& posture : postures)
+            ascended.push_back({ posture });
     ascend_roughly(energy, ascended);
-    Candidates others = replace_failed(energy, ascended, sorted);
-    ascend_roughly(energy, others);
-    ascended.insert(ascended.end(), others.begin(), others.end());
-    progress.at(0.8);
+    Candidates more = replace_failed(energy, ascended, rough);
+    ascend_roughly(energy, more);
+    ascended.insert(ascended.end(), more.begin(), more.end());
     sort_best_first(ascended);
-    std::vector<HypothesisScore> starts;
-    for (const Candidate& candidate : ascended)
-        starts.push_back(score_of(energy, candidate.posture));
-    return starts;
-}
-
-BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                          const Progress& progress)
-{
-    const std::vector<HypothesisScore> starts = find_starts(energy, hypotheses, progress);
-    std::vector<Posture> postures;
-    std::vector<double> energies;
-    for (const HypothesisScore& start : starts) {
-        postures.push_back(start.posture);
-        energies.push_back(start.energy);
-    }
-    const std::vector<double> probabilities = facing_probabilities(facing_evidence(energy, postures, energies));
-    const auto most = std::max_element(probabilities.begin(), probabilities.end());
-    return { postures[std::size_t(most - probabilities.begin())], *most };
-}
-
-std::vector<HypothesisScore> score_hypotheses(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                                              const Progress& progress)
-{
-    const MinMaxPyramid clearance = pyramid_of(energy.metric().cloth());
-    std::vector<HypothesisScore> scores;
-    for (const StartHypothesis& hypothesis : hypotheses) {
-        progress.at(double(scores.size()) / double(hypotheses.size()));
-        Candidates candidates = keep_distinct(find_places(energy, clearance, { hypothesis }), k_starts_searched);
-        if (candidates.empty())
-            candidates.push_back({ comfort_posture(energy, energy.metric().cloth().barycentre(), hypothesis.turn) });
-        search_limbs_widely(energy, candidates);
-        ascend_roughly(energy, candidates);
-        sort_best_first(candidates);
-        scores.push_back(score_of(energy, candidates[0].posture));
-    }
-    return scores;
+    return postures_of(ascended);
 }
 
 Posture refine_posture(const FitEnergy& energy, const Posture& start)

@@ -22,31 +22,13 @@ Eigen::Quaterniond upright_turn(const Rig& rig, double heading);
 /// pairs: along and across the garment, and as the input body faces.
 std::vector<StartHypothesis> facing_hypotheses(const FitEnergy& energy);
 
-struct HypothesisScore {
-    Posture posture;  ///< the best of this hypothesis
-    double energy = 0;  ///< m; less the cost of crossings
-    double clearance_share = 0;  ///< of the clearance that covered bones need
-    int bones_through_cloth = 0;
-};
+/// Places of the body with its covered limbs searched, best energy first. Bones may still pass through cloth.
+std::vector<Posture> find_rough_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses);
 
-/// The starts that are left of all hypotheses, best first. They compete from the first step, so that most are dropped
-/// early; the best of each facing is kept.
-std::vector<HypothesisScore> find_starts(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                                         const Progress& progress);
-
-struct BestStart {
-    Posture posture;
-    double front_probability;  // that the body faces this way, of all facings that were searched
-};
-
-/// The best of find_starts that has the most probable facing (facing.h).
-BestStart find_best_start(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                          const Progress& progress);
-
-/// Each hypothesis by itself, in the given order: all of them are searched to the same depth.
-/// Cost: about a third of find_best_start for each hypothesis.
-std::vector<HypothesisScore> score_hypotheses(const FitEnergy& energy, const std::vector<StartHypothesis>& hypotheses,
-                                              const Progress& progress);
+/// The ascents from the best rough start, from the best of each facing, and from `others`; best energy first. Where one
+/// fails, other rough starts of its facing are tried. Cost: about ten times find_rough_starts.
+std::vector<Posture> ascend_starts(const FitEnergy& energy, const std::vector<Posture>& rough,
+                                   const std::vector<Posture>& others);
 
 /// Searches all limbs of a start once more, frees them from the cloth, and ascends over all degrees of freedom.
 Posture refine_posture(const FitEnergy& energy, const Posture& start);

@@ -2,35 +2,23 @@
 #include "fast_fit.h"
 
 #include <algorithm>
-#include <array>
-#include <memory>
+#include <exception>
 #include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "best_start.h"
 #include "coordinate_ascent.h"
 #include "garmentfit/error.h"
 #include "number_text.h"
 #include "outward_cloth.h"
+#include "hypotheses.h"
 #include "parallel.h"
 #include "posture_moves.h"
-#include "type_guess.h"
-#include "way_up.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
-
-// The covered bones that have at least so many of their five samples inside.
-std::vector<Bone> bones_inside(const FitEnergy& energy, const Posture& posture, int samples)
-{
-    const Skeleton joints = place_bones(energy.rest(), posture).joints;
-    std::vector<Bone> inside;
-    for (int b = 0; b < bone_count; ++b)
-        if (energy.metric().covers(b) && energy.metric().samples_inside(joints.head(b), joints.tail(b)) >= samples)
-            inside.push_back(Bone(b));
-    return inside;
-}
 
 std::string describe_sizes(const Rig& rig, const ClearanceField& cloth)
 {
@@ -41,21 +29,17 @@ std::string describe_sizes(const Rig& rig, const ClearanceField& cloth)
         + rounded_text(100 * (rest.length(lfemur) + rest.length(ltibia)), 3) + " cm long";
 }
 
-// Half of the covered bones must be inside, with some clearance: next to a flat sheet everything is half inside. The
-// refinement may free one bone from the cloth; among scraps of cloth it cannot.
-void require_fit(const FitEnergy& energy, const Posture& posture, const std::string& sizes)
+InvalidInput no_fit(const Hypothesis& hypothesis)
 {
-    const std::vector<Bone> inside = bones_inside(energy, posture, k_mostly_inside);
-    const auto& covered_bones = energy.metric().limbs().covered;
-    const auto covered = std::size_t(std::count(covered_bones.begin(), covered_bones.end(), true));
-    const int crossing = energy.bones_through_cloth(posture);
-    if (2 * inside.size() < covered || energy.clearance_share(posture) < k_min_clearance_share
-        || crossing > k_max_crossing_bones)
-        throw InvalidInput(ErrorCode::no_fit,
-                           "garment: no pose brings the body into it: of the " + std::to_string(covered)
-                               + " bones that it should cover, " + std::to_string(inside.size())
-                               + " can be put inside, and " + std::to_string(crossing) + " bones pass through cloth; "
-                               + sizes + "; check the garment's unit and give its type");
+    const FitEnergy& energy = hypothesis.attempt->energy();
+    const Posture& posture = hypothesis.wearing.posture;
+    return { ErrorCode::no_fit,
+             "garment: no pose brings the body into it: of the "
+                 + std::to_string(hypothesis.attempt->coverage().bones.size()) + " bones that it should cover, "
+                 + std::to_string(bones_inside(energy, posture, k_mostly_inside).size()) + " can be put inside, and "
+                 + std::to_string(energy.bones_through_cloth(posture)) + " bones pass through cloth; "
+                 + describe_sizes(hypothesis.attempt->rig(), energy.metric().cloth())
+                 + "; check the garment's unit and give its type" };
 }
 
 void require_clear(const FitEnergy& energy, const Posture& posture)
@@ -71,6 +55,13 @@ void require_clear(const FitEnergy& energy, const Posture& posture)
     for (int b = 0; b < bone_count; ++b)
         require(std::string(bone_name(b)), joints.head(b), joints.tail(b));
     require("the head", joints.tail(upperneck), joints.tips[head_top]);
+}
+
+bool is_clear(const FitEnergy& energy, const Posture& posture)
+{
+    const Skeleton joints = place_bones(energy.rest(), posture).joints;
+    return energy.bones_through_cloth(posture) == 0
+        && !energy.metric().cloth().crosses(joints.tail(upperneck), joints.tips[head_top]);
 }
 
 void require_openings(const TriangleMesh& outward)
@@ -125,162 +116,96 @@ Posture ascend_fully(const FitEnergy& energy, const Posture& start, const Triang
     return ascend_where_wide(energy, *posture, *paper);
 }
 
-// A garment in one orientation.
-struct OrientedGarment {
-    TriangleMesh outward;
-    std::vector<Opening> openings;
-    std::unique_ptr<const ClearanceField> clearance;
-};
-
-OrientedGarment measure_garment(const TriangleMesh& outward)
+// The sum over the hypotheses that agree with one in something.
+template <class Agrees>
+double probability_of(const std::vector<Hypothesis>& all, const Agrees& agrees)
 {
-    OrientedGarment result { outward, {}, {} };
-    parallel_for<int>(2, [&](int part) {
-        if (part == 0)
-            result.clearance = std::make_unique<const ClearanceField>(outward);
-        else
-            result.openings = openings_of(outward);
+    double sum = 0;
+    for (const Hypothesis& hypothesis : all)
+        sum += hypothesis.wearing.rank == 0 && agrees(hypothesis) ? hypothesis.probability : 0;
+    return std::min(1.0, sum);
+}
+
+void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::vector<Hypothesis>& all)
+{
+    const Coverage& coverage = chosen.attempt->coverage();
+    result.type_probability = probability_of(
+        all, [&](const Hypothesis& other) { return other.attempt->coverage().kind == coverage.kind; });
+    result.front_probability = probability_of(all, [&](const Hypothesis& other) {
+        return other.wearing.front.dot(chosen.wearing.front) > k_same_direction;
     });
+    result.up_probability
+        = probability_of(all, [&](const Hypothesis& other) { return other.up().dot(chosen.up()) > k_same_direction; });
+}
+
+// The pose of a hypothesis. @throws InvalidInput when no body fits in like that; SolverFailure when bones pass through
+// cloth in the end
+FitResult finish(const Hypothesis& hypothesis)
+{
+    if (!hypothesis.is_possible())
+        throw no_fit(hypothesis);
+    const Attempt& attempt = *hypothesis.attempt;
+    const Posture& start = hypothesis.wearing.posture;
+    // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
+    const BoneMetric metric(
+        attempt.energy().metric().cloth(),
+        limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
+    const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues());
+    const bool keeps_input = hypothesis.wearing.is_in_place && is_clear(energy, start);
+    const Posture fitted = keeps_input ? start : ascend_fully(energy, start, attempt.garment().outward);
+    require_clear(energy, fitted);
+
+    FitResult result;
+    result.type = attempt.coverage().type;
+    result.up = hypothesis.up();
+    result.covered = bones_inside(energy, fitted, k_mostly_inside);
+    result.pose = pose_of(attempt.rig().skeleton, rotate(fitted, attempt.garment().turn.conjugate()));
+    result.scores = energy.bone_scores(fitted);
+    result.clearance = metric.clearance_shares(place_bones(attempt.rig().skeleton, fitted).joints);
+    result.scores_before = energy.bone_scores(start_at_barycentre(energy));
     return result;
 }
 
-OrientedGarment rotate(const OrientedGarment& garment, const Eigen::Quaterniond& turn)
+// The most probable hypothesis in which a body fits, `skipped` of those left out.
+FitResult choose(const std::vector<Hypothesis>& all, int skipped)
 {
-    OrientedGarment result { rotate(garment.outward, turn), {}, {} };
-    result.openings = rotate(garment.openings, result.outward, turn);
-    result.clearance = std::make_unique<const ClearanceField>(result.outward);
-    return result;
-}
-
-// One way up of a garment, and the best start of the body in it.
-class Attempt {
-public:
-    /// @throws InvalidInput when no body fits into the garment held like this.
-    Attempt(const Rig& rig, OrientedGarment garment, GarmentType given, const Progress& progress) :
-        rig_(rig), garment_(std::move(garment)), cloth_(*garment_.clearance),
-        guess_(resolve_type(given, garment_.openings)), cues_(cues_of(garment_.openings)), limits_(rig),
-        metric_(cloth_, limb_radii_of(rig, bones_covered_by(guess_.type, garment_.openings))),
-        energy_(rig_, limits_, metric_, cues_), start_(find_best_start(energy_, facing_hypotheses(energy_), progress))
-    {
-        require_fit(energy_, start_.posture, describe_sizes(rig_, cloth_));
-    }
-
-    /// The energy without the part that is due to the height of the garment, m.
-    double merit() const { return energy_.total(start_.posture) - energy_.hang_slope() * cloth_.barycentre().y(); }
-
-    /// @param back  rotates the garment back to how it was given
-    FitResult finish(const Eigen::Quaterniond& back) const
-    {
-        // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
-        const BoneMetric metric(cloth_, limb_radii_of(rig_, bones_inside(energy_, start_.posture, k_partly_inside)));
-        const FitEnergy energy(rig_, limits_, metric, cues_);
-        const Posture fitted = ascend_fully(energy, start_.posture, garment_.outward);
-        require_clear(energy, fitted);
-
-        FitResult result;
-        result.type = guess_.type;
-        result.type_margin = guess_.margin;
-        result.front_probability = start_.front_probability;
-        result.covered = bones_inside(energy, fitted, k_mostly_inside);
-        result.pose = pose_of(rig_.skeleton, rotate(fitted, back));
-        result.scores = energy.bone_scores(fitted);
-        result.clearance = metric.clearance_shares(place_bones(rig_.skeleton, fitted).joints);
-        result.scores_before = energy.bone_scores(start_at_barycentre(energy));
-        return result;
-    }
-
-private:
-    const Rig& rig_;
-    OrientedGarment garment_;
-    const ClearanceField& cloth_;
-    TypeGuess guess_;
-    GarmentCues cues_;
-    JointLimits limits_;
-    BoneMetric metric_;
-    FitEnergy energy_;
-    BestStart start_;
-};
-
-struct RankedAttempt {
-    std::unique_ptr<const Attempt> attempt;
-    Eigen::Quaterniond turn;
-    double merit = 0;  // m
-    double evidence = 0;  // of the openings for this way up
-    double margin = 1;  // 0 (another way up is as good) to 1
-
-    Vec3 up() const { return turn.conjugate() * Vec3::UnitY(); }
-};
-
-bool is_as_given(const WayUp& way) { return way.turn.w() == 1; }
-
-// What the openings tell is worth that much energy, m.
-double prior_of(const WayUp& way)
-{
-    return is_as_given(way) && way.evidence <= 0 ? k_prior_as_given : k_evidence_for_up * way.evidence;
-}
-
-bool has_evidence(const RankedAttempt& best) { return best.attempt && best.evidence > 0; }
-
-// How much better the best is than any other way up, 0 to 1.
-double margin_of(const RankedAttempt& best, const std::vector<std::pair<Vec3, double>>& merits)
-{
-    double margin = 1;
-    for (const auto& [up, merit] : merits)
-        if (up.dot(best.up()) < k_same_way_up)
-            margin = std::min(margin, (best.merit - merit) / k_clear_up);
-    return std::max(0.0, margin);
-}
-
-// The way up with the greatest merit, of those with evidence; of the others only where no body fits in those.
-RankedAttempt choose_way_up(const Rig& rig, const OrientedGarment& garment, const std::vector<WayUp>& ways,
-                            GarmentType given, const Progress& progress)
-{
-    RankedAttempt best;
-    std::vector<std::pair<Vec3, double>> merits;
-    std::optional<InvalidInput> refusal;
-    for (std::size_t i = 0; i < ways.size() && (ways[i].evidence > 0 || !has_evidence(best)); ++i) {
-        const double from = double(i) / double(ways.size());
+    std::vector<Rejected> rejected;
+    std::exception_ptr first;
+    const auto reject = [&](const Hypothesis& hypothesis, const std::string& reason) {
+        if (!first)
+            first = std::current_exception();
+        rejected.push_back({ hypothesis.attempt->coverage().type, hypothesis.up(), hypothesis.wearing.front,
+                             hypothesis.probability, reason });
+    };
+    for (const Hypothesis& hypothesis : all)
         try {
-            auto attempt
-                = std::make_unique<const Attempt>(rig, rotate(garment, ways[i].turn), given, progress.part(from, from));
-            const double merit = attempt->merit() + prior_of(ways[i]);
-            merits.emplace_back(ways[i].turn.conjugate() * Vec3::UnitY(), merit);
-            if (!best.attempt || merit > best.merit)
-                best = { std::move(attempt), ways[i].turn, merit, ways[i].evidence };
+            FitResult result = finish(hypothesis);
+            if (skipped-- > 0)
+                continue;
+            add_probabilities(result, hypothesis, all);
+            result.rejected = rejected;
+            return result;
         } catch (const InvalidInput& error) {
-            if (!refusal)
-                refusal = error;
+            reject(hypothesis, error.what());
+        } catch (const SolverFailure& error) {
+            reject(hypothesis, error.what());
         }
-    }
-    if (!best.attempt)
-        throw *refusal;
-    best.margin = std::min(margin_of(best, merits), best.evidence > 0 ? best.evidence : 1);
-    return best;
-}
-
-RankedAttempt find_way_up(const Rig& rig, const TriangleMesh& outward, GarmentType given, const Progress& progress)
-{
-    OrientedGarment garment = measure_garment(outward);
-    const std::vector<WayUp> ways = ways_up(outward, garment.openings);
-    if (ways.size() > 1)
-        return choose_way_up(rig, garment, ways, given, progress);
-    return { std::make_unique<const Attempt>(rig, std::move(garment), given, progress), ways[0].turn, 0,
-             ways[0].evidence, ways[0].evidence };
+    if (!first)
+        throw InvalidInput(ErrorCode::no_fit, "garment: there is no other way in which the body fits into it");
+    std::rethrow_exception(first);
 }
 
 }  // namespace
 
-FitResult fit_fast(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress)
+FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
+                   const Progress& progress)
 {
     const Progress stage = progress.part(0, 1, "fit the skeleton");
     const TriangleMesh outward = outward_cloth(garment);
     require_openings(outward);
-    const RankedAttempt best = find_way_up(rig, outward, given, stage.part(0, 0.8));
+    const std::vector<Hypothesis> hypotheses = find_hypotheses(rig, body, outward, options, stage.part(0, 0.8));
     stage.at(0.8);
-    FitResult result = best.attempt->finish(best.turn.conjugate());
-    result.up = best.up();
-    result.up_margin = best.margin;
-    return result;
+    return choose(hypotheses, options.skipped);
 }
 
 }  // namespace garmentfit

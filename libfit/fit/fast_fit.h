@@ -6,6 +6,7 @@
 namespace garmentfit {
 
 /// The fast method (docs/fit.md).
-FitResult fit_fast(const Rig& rig, const GarmentMesh& garment, GarmentType given, const Progress& progress);
+FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,
+                   const Progress& progress);
 
 }  // namespace garmentfit

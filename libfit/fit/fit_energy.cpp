@@ -70,6 +70,10 @@ FitEnergy::FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric
     coverage_points_(spread_points(metric.cloth(), k_coverage_cells)), cues_(cues),
     hangs_from_shoulders_(metric.covers(lclavicle))
 {
+    const Skeleton& rest = rig.skeleton;
+    const double trunk = rest.length(lowerback) + rest.length(upperback) + rest.length(thorax);
+    lowest_root_ = metric.cloth().low().y() - (hangs_from_shoulders_ ? k_hem_reach * trunk : 0);
+    highest_root_ = metric.cloth().high().y();
 }
 
 // Covered bones and the trunk prefer comfort, uncovered limbs the input pose. All keep within the range of their
@@ -132,7 +136,7 @@ double FitEnergy::tip_value(int extremity, const PlacedBones& bones) const
 double FitEnergy::stance_value(const Posture& posture) const
 {
     const double tilt = angle_between(posture.turn * rig_.up.normalized(), Vec3::UnitY());
-    return hang_slope() * posture.root.y() - weights_.upright * tilt * tilt;
+    return hang_slope() * std::clamp(posture.root.y(), lowest_root_, highest_root_) - weights_.upright * tilt * tilt;
 }
 
 CoverageDistances FitEnergy::coverage_distances(int bone, const Vec3& head, const Vec3& tail) const
@@ -154,6 +158,12 @@ CoverageDistances FitEnergy::coverage_distances(const PlacedBones& bones, const 
         if (metric_.covers(b) && b != without.bones[0] && b != without.bones[1])
             distances = distances.min(coverage_distances(b, bones.joints.head(b), bones.joints.tail(b)));
     return distances;
+}
+
+double FitEnergy::mean_coverage_distance(const Posture& posture) const
+{
+    constexpr Limb none { { bone_count, bone_count }, head_top };
+    return double(coverage_distances(place_bones(rig_.skeleton, posture), none).mean());
 }
 
 // lower(distances, b) takes the minimum with a covered bone's distances. The order of the sum is fixed: it decides the

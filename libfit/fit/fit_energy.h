@@ -68,6 +68,9 @@ public:
         return weights_.coverage * double(distances.mean());
     }
 
+    /// Of the cloth from the nearest covered limb, m; larger distances than the cutoff count as that.
+    double mean_coverage_distance(const Posture& posture) const;
+
     /// The value of a metre of height of the root, m/m: positive for garments that hang from the shoulders.
     double hang_slope() const { return hangs_from_shoulders_ ? weights_.hang : -weights_.hang; }
     bool hangs_from_shoulders() const { return hangs_from_shoulders_; }
@@ -96,6 +99,7 @@ private:
     Eigen::ArrayX3f coverage_points_;  // m, spread over the garment
     GarmentCues cues_;
     bool hangs_from_shoulders_;
+    double lowest_root_, highest_root_;  // m, y: beyond the cloth the root gains nothing, or it would move on for ever
 };
 
 }  // namespace garmentfit

@@ -72,7 +72,7 @@ FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMe
                                + " triangles, too few to go round a body; give a garment of at least "
                                + std::to_string(k_min_triangles));
     require_wearable_size(rig, garment);
-    FitResult result = options.method == FitMethod::fast ? fit_fast(rig, garment, options.type, progress)
+    FitResult result = options.method == FitMethod::fast ? fit_fast(rig, body, garment, options, progress)
                                                          : fit_baseline(rig, body, garment, options, progress);
     result.score_before = std::accumulate(result.scores_before.begin(), result.scores_before.end(), 0.0);
     result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);

@@ -33,6 +33,14 @@ Posture comfort_posture(const FitEnergy& energy, const Vec3& root, const Eigen::
     return posture;
 }
 
+Posture input_posture(const Skeleton& rest)
+{
+    Posture posture { rest.root, Eigen::Quaterniond::Identity(), {} };
+    for (int b = 0; b < bone_count; ++b)
+        posture.directions[b] = rest.direction(b);
+    return posture;
+}
+
 std::vector<Place> find_trunk_places(const FitEnergy& energy, const MinMaxPyramid& clearance, const Posture& posture)
 {
     const BoneMetric& metric = energy.metric();

@@ -13,6 +13,9 @@ namespace garmentfit {
 /// The body in comfort, turned by `turn`, its root at `root`.
 Posture comfort_posture(const FitEnergy& energy, const Vec3& root, const Eigen::Quaterniond& turn);
 
+/// The body as it was given.
+Posture input_posture(const Skeleton& rest);
+
 /// The best places of the root, where the trunk has most clearance in this posture. The posture's own root does not
 /// count.
 std::vector<Place> find_trunk_places(const FitEnergy& energy, const MinMaxPyramid& clearance, const Posture& posture);

@@ -109,24 +109,23 @@ inline constexpr double k_same_heading = 0.25;  ///< rad; nearer headings are on
 /// Share of a crossing's cost before the ascent, which may still free bones. guess
 inline constexpr double k_early_crossing = 0.1;
 inline constexpr double k_promising = 0.3;  ///< m of energy; worth the work of freeing bones. guess
-inline constexpr double k_clear_up = 1;  ///< m of energy between two ways up: up_margin 1. guess
-inline constexpr double k_evidence_for_up = 0.5;  ///< m of energy; worth of clear openings for a way up. guess
-inline constexpr double k_prior_as_given = 1;  ///< m of energy; most garments are given the way they are worn. guess
-inline constexpr double k_same_way_up = 0.7;  ///< cosine; ways up nearer to each other do not compete. guess
+/// cosine; nearer ways up, or facings, are one: between quarter turns and noise. derived
+inline constexpr double k_same_direction = 0.5;
 
-// ---------------------------------------------------------------- facing
+// ---------------------------------------------------------------- evidence
 
-/// Weights of the evidence for a facing (facing.h): log odds per unit. Fitted on 100 generated garments, 25 of them
-/// also placed anew, and 27 modelled ones, of known facing, on one to three bodies each. On the half that the weights
-/// had not seen, 240 of 247 facings were right, and 222 of 223 of those said with more than 0.9. scripts/fit-facing
-/// fits them again.
-struct FacingWeights {
-    double energy = 0.67;  ///< 1/m
-    double input_front = 2.2;  ///< 1
-    double openings = 1.19;  ///< 1
+/// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit.
+inline constexpr std::array<double, 30> k_evidence_weights {
+    0.08, 4, -4.54, -0.37, 4.81, -2.55, 6.76,  // energy, clearance, uncovered_cloth, crossing, covered_inside, uncovered_inside, as_given
+    -2.45, -3.65, -2.45, -0.05, -4.23, -3.54, -3.43,  // upright, legs, skirt, dress, jumpsuit, legs_height, skirt_height
+    0.42, 0.81, 3.73, 1.2, -2.64, 3.3, -2.15,  // dress_height, jumpsuit_height, legs_hems, skirt_hems, dress_hems, jumpsuit_hems, legs_arms
+    -2.42, -1.82, 1.84, 1.82, 1.52, 0.88, 1.43,  // skirt_arms, dress_arms, jumpsuit_arms, type, input_front, openings, near_input
+    2.8, -1.16,  // in_place, in_place_inside
 };
-inline constexpr FacingWeights k_facing_weights;
-inline constexpr double k_max_energy_evidence = 3;  ///< m; larger differences say no more. guess
+inline constexpr double k_hopeless = 8;  ///< log odds behind the best, before the ascent: not looked at closely. guess
+inline constexpr int k_max_crossing_evidence = 3;  ///< bones; more say no more. guess
+inline constexpr int k_wearings_of_a_facing = 3;  ///< where the best leads through cloth, the next are tried. guess
+inline constexpr double k_max_inside_evidence = 0.2;  ///< share of vertices; likewise. guess
 inline constexpr double k_max_opening_evidence = 2;  ///< dimensionless; likewise. guess
 
 // ---------------------------------------------------------------- ascent

@@ -50,14 +50,25 @@ struct Piece {
     }
 };
 
-/// Whether two openings are mirror images: equal girths, equal heights, on two sides of the piece.
-bool are_pair(const Opening& a, const Opening& b)
+Vec3 level_between(const Opening& a, const Opening& b)
 {
     Vec3 across = b.centre - a.centre;
-    const double lift = std::exchange(across.y(), 0);
+    across.y() = 0;
+    return across;
+}
+
+/// Whether two openings have equal girths and equal heights, on two sides of the piece.
+bool are_alike(const Opening& a, const Opening& b)
+{
     return std::max(a.girth, b.girth) < k_pair_girths * std::min(a.girth, b.girth)
-        && std::abs(lift) < k_pair_lift * a.piece_height && across.norm() > k_pair_distance * std::max(a.girth, b.girth)
-        && face_alike(a, b, across.normalized());
+        && std::abs(b.centre.y() - a.centre.y()) < k_pair_lift * a.piece_height
+        && level_between(a, b).norm() > k_pair_distance * std::max(a.girth, b.girth);
+}
+
+/// Whether two openings are mirror images.
+bool are_pair(const Opening& a, const Opening& b)
+{
+    return are_alike(a, b) && face_alike(a, b, level_between(a, b).normalized());
 }
 
 std::vector<Opening> take_pair(std::vector<Opening>& from, std::size_t i, std::size_t j)
@@ -114,16 +125,36 @@ std::vector<Opening> take_sleeve_and_armhole(std::vector<Opening>& from, std::si
     return take_pair(from, std::min(sleeve, armhole), std::max(sleeve, armhole));
 }
 
+bool face_apart(const Opening& a, const Opening& b)
+{
+    const Vec3 across = b.centre - a.centre;
+    return a.facing.dot(across) < 0 && b.facing.dot(across) > 0;
+}
+
+/// Whether two openings lie beyond both sides of all others. Sleeves that hang may face anywhere.
+bool are_beyond(const Opening& a, const Opening& b, const Piece& piece)
+{
+    const Vec3 across = level_between(a, b), axis = across.stableNormalized();
+    return std::all_of(piece.others.begin(), piece.others.end(), [&](const Opening& other) {
+        const Eigen::VectorXd along = other.rim * axis;
+        return &other == &a || &other == &b
+            || across.norm() > k_arms_beyond * (along.maxCoeff() - along.minCoeff());
+    });
+}
+
+bool are_sleeves(const Opening& a, const Opening& b, const Piece& piece)
+{
+    return are_narrow(a, b, piece)
+        && ((are_pair(a, b) && face_apart(a, b)) || (are_alike(a, b) && are_beyond(a, b, piece)));
+}
+
 void take_sleeves(Piece& piece)
 {
     auto& all = piece.others;
     for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
-        for (std::size_t j = i + 1; j < all.size() && piece.sleeves.empty(); ++j) {
-            const Vec3 across = all[j].centre - all[i].centre;
-            if (are_pair(all[i], all[j]) && all[i].facing.dot(across) < 0 && all[j].facing.dot(across) > 0
-                && are_narrow(all[i], all[j], piece))
+        for (std::size_t j = i + 1; j < all.size() && piece.sleeves.empty(); ++j)
+            if (are_sleeves(all[i], all[j], piece))
                 piece.sleeves = take_pair(all, i, j);
-        }
     for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
         for (std::size_t j = 0; j < all.size() && piece.sleeves.empty(); ++j)
             if (i != j && are_sleeve_and_armhole(all[i], all[j], piece) && are_narrow(all[i], all[j], piece))
@@ -416,6 +447,7 @@ GarmentCues cues_of(const std::vector<Opening>& openings)
     double longest = 0, tallest = 0;
     for (const Piece& piece : pieces_of(openings)) {
         cues.front += front_of(piece);
+        cues.has_arms |= !piece.sleeves.empty();
         if (!piece.legs.empty())
             cues.hems = { piece.legs[0].centre, piece.legs[1].centre };
         const auto& pair = piece.legs.empty() ? piece.sleeves : piece.legs;

@@ -24,6 +24,7 @@ struct GarmentCues {
     Vec3 across = Vec3::Zero();  // horizontal: from sleeve to sleeve or leg to leg of the tallest piece that has two
     Vec3 front = Vec3::Zero();  // horizontal: sum of the normals of openings, longer the better they agree
     std::vector<Vec3> hems;  // centroids of the two leg openings, or empty
+    bool has_arms = false;  // two openings are sleeves or armholes
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
 };
 GarmentCues cues_of(const std::vector<Opening>& openings);

@@ -142,13 +142,20 @@ Json overlaps_of(const Dressing& dressing, double metres_per_unit)
     return pairs;
 }
 
-/// E_B of each covered bone before and after, its clearance, the confidence in the garment's up and the probability of
-/// its front.
+/// E_B of each covered bone before and after, its clearance, the probabilities of the garment's up and front, and which
+/// ways of wearing were tried in vain.
 void put_fit(Json& json, const FitResult& fit, double metres_per_unit, const Eigen::Matrix3d& file_from_metres)
 {
     json["up"] = vector_of(file_from_metres * fit.up);
-    json["up_margin"] = fit.up_margin;
+    json["up_probability"] = fit.up_probability;
     json["front_probability"] = fit.front_probability;
+    json["rejected"] = Json::array();
+    for (const Rejected& one : fit.rejected)
+        json["rejected"].push_back({ { "type", name_of(one.type) },
+                                     { "up", vector_of(file_from_metres * one.up) },
+                                     { "front", vector_of(file_from_metres * one.front) },
+                                     { "probability", one.probability },
+                                     { "reason", one.reason } });
     Json bones;
     for (const Bone bone : fit.covered)
         bones[std::string(bone_name(bone))] = { { "before", fit.scores_before[bone] / metres_per_unit },
@@ -186,7 +193,7 @@ Json garment_of(const Session& session, std::size_t i)
     if (i < scene.fits.size()) {
         const FitResult& fit = scene.fits[i];
         json["type"] = name_of(fit.type);
-        json["type_margin"] = fit.type_margin;
+        json["type_probability"] = fit.type_probability;
         json["layer"] = fit.layer;
         json["covered"] = Json::array();
         for (const Bone bone : fit.covered)

@@ -113,7 +113,7 @@ nb::list fits_of(const PythonScene& s)
     for (const FitResult& result : s.scene.fits) {
         nb::dict fit;
         fit["type"] = std::string(name_of(result.type));
-        fit["type_margin"] = result.type_margin;
+        fit["type_probability"] = result.type_probability;
         nb::list covered;
         for (const Bone bone : result.covered)
             covered.append(nb::str(bone_name(bone).data()));

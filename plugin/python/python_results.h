@@ -32,7 +32,7 @@ private:
 
 /// [{name, positions, triangles, certificate: {...}, ease, strain, pressure, girths: [...], too_tight: [...]}, ...]
 nb::list garments_of(const PythonScene& scene);
-/// [{type, type_margin, covered: [bone, ...]}, ...]
+/// [{type, type_probability, covered: [bone, ...]}, ...]
 nb::list fits_of(const PythonScene& scene);
 /// [(bone, (garment, garment), degrees), ...]
 nb::list conflicts_of(const PythonScene& scene);

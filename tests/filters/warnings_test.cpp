@@ -17,7 +17,7 @@ Scene worn_scene()
     scene.rig.emplace().side_margin = 1;
     scene.fits.resize(2);
     for (FitResult& fit : scene.fits)
-        fit.type_margin = 1;
+        fit.type_probability = 1;
     scene.draped.emplace().garments.resize(2);
     for (WornGarment& garment : scene.draped->garments)
         garment.positions.setZero(3, 3);
@@ -37,7 +37,7 @@ TEST(Warnings, SayWhichParameterSettlesThem)
     Scene scene = worn_scene();
     scene.rig->side_margin = 0.1;
     scene.fits[1].type = GarmentType::coat;
-    scene.fits[1].type_margin = 0.1;
+    scene.fits[1].type_probability = 0.1;
     EXPECT_EQ(warnings_of(scene),
               (Lines { "which side of the body is left is guessed with low confidence; if it is wrong, set swap_sides",
                        "the type of coat is guessed with low confidence: coat; if it is wrong, set type" }));

@@ -350,7 +350,7 @@ TEST(FitSkeleton, AGarmentAtAnyAngleIsFound)
         const FitResult expected = fit_skeleton(rig, garment), result = fit_skeleton(rig, rotate(garment, turn));
         EXPECT_EQ(result.type, expected.type);
         EXPECT_LT(angle(result.up, turn * Vec3::UnitY()), 8) << name_of(expected.type);
-        EXPECT_GT(result.up_margin, 0.5);
+        EXPECT_GT(result.up_probability, 0.5);
         const Skeleton joints = pose_skeleton(rig.skeleton, result.pose),
                        wanted = pose_skeleton(rig.skeleton, expected.pose);
         for (const Bone b : expected.covered)

@@ -2,6 +2,7 @@
 
 // The energy of the fast method, its moves, and starting hypotheses that a caller gives.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -85,9 +86,8 @@ TEST_F(Shirt, AnAscentNeverLowersTheEnergy)
 
 TEST_F(Shirt, ALimbIsSearchedWithoutPassingThroughCloth)
 {
-    const BestStart best = find_best_start(energy, facing_hypotheses(energy), {});
     const Limb& arm = k_limbs[2];
-    Posture lowered = best.posture;
+    Posture lowered = ascend_starts(energy, find_rough_starts(energy, facing_hypotheses(energy)), {}).front();
     for (const int b : arm.bones)
         lowered.directions[b] = -Vec3::UnitY();
     const Posture found = search_limb(energy, lowered, arm, { std::numbers::pi, 0.2, 8, true });
@@ -97,22 +97,35 @@ TEST_F(Shirt, ALimbIsSearchedWithoutPassingThroughCloth)
         EXPECT_EQ(found.directions[b], lowered.directions[b]) << "other limbs keep their directions";
 }
 
-TEST_F(Shirt, EachHypothesisIsScoredByItself)
+TEST_F(Shirt, AscentsKeepTheBestOfEachFacing)
 {
-    const std::vector<StartHypothesis> hypotheses { { upright_turn(rig, 0) }, { upright_turn(rig, std::numbers::pi) } };
-    const std::vector<HypothesisScore> scores = score_hypotheses(energy, hypotheses, {});
-    ASSERT_EQ(scores.size(), 2u);
-    EXPECT_GT(front_z(scores[0].posture), 0.8) << "the first faces the front";
-    EXPECT_LT(front_z(scores[1].posture), -0.8) << "the second faces the back";
-    EXPECT_GT(scores[0].energy, scores[1].energy) << "elbows bend forwards";
-    for (const HypothesisScore& score : scores) {
-        EXPECT_EQ(score.energy, energy.total(score.posture));
-        EXPECT_EQ(score.clearance_share, energy.clearance_share(score.posture));
-        EXPECT_EQ(score.bones_through_cloth, energy.bones_through_cloth(score.posture));
-        EXPECT_GT(score.clearance_share, 0.3);
-    }
-    const std::vector<HypothesisScore> alone = score_hypotheses(energy, { hypotheses[1] }, {});
-    EXPECT_EQ(alone[0].energy, scores[1].energy) << "no hypothesis depends on the others";
+    const std::vector<Posture> rough = find_rough_starts(energy, facing_hypotheses(energy)),
+                               starts = ascend_starts(energy, rough, {});
+    const auto is_forwards = [&](const Posture& posture) { return front_z(posture) > 0.8; };
+    const auto is_backwards = [&](const Posture& posture) { return front_z(posture) < -0.8; };
+    const auto forwards = std::find_if(starts.begin(), starts.end(), is_forwards),
+               backwards = std::find_if(starts.begin(), starts.end(), is_backwards);
+    ASSERT_NE(forwards, starts.end());
+    ASSERT_NE(backwards, starts.end());
+    EXPECT_GT(energy.total(*forwards), energy.total(*backwards)) << "elbows bend forwards";
+    EXPECT_EQ(energy.total(starts.front()), energy.total(*forwards)) << "the best comes first";
+    EXPECT_GE(energy.total(*forwards), energy.total(*std::find_if(rough.begin(), rough.end(), is_forwards)));
+}
+
+TEST_F(Shirt, OtherPosturesAreAscendedToo)
+{
+    const Posture input = input_posture(rig.skeleton);
+    const std::vector<Posture> alone = ascend_starts(energy, {}, { input });
+    ASSERT_EQ(alone.size(), 1u);
+    EXPECT_GT(energy.total(alone[0]), energy.total(input));
+}
+
+TEST_F(Shirt, FarFromTheClothAPostureGainsNothingByHeight)
+{
+    const Posture high = comfort_posture(energy, cloth.barycentre() + Vec3(5, 5, 0), upright_turn(rig, 0));
+    Posture higher = high;
+    higher.root.y() += 5;
+    EXPECT_LE(energy.value(higher), energy.value(high)) << "an ascent would never end";
 }
 
 TEST_F(Shirt, SleevesTellTwoFacings)

@@ -47,7 +47,6 @@ FitResult fit_baseline(const Rig& rig, const TriangleMesh& body, const GarmentMe
     const TypeGuess guess = resolve_type(options.type, openings);
     FitResult result;
     result.type = guess.type;
-    result.type_margin = guess.margin;
     result.covered = bones_covered_by(guess.type, openings);
     const auto metric = make_metric(rig, body, garment, result.covered, options);
     const Relaxation relaxation = relaxation_of(rig, garment, guess.type, options.iterations);

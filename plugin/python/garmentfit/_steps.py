@@ -47,7 +47,7 @@ class Overstretch(NamedTuple):
 
 class FitOfGarment(NamedTuple):
     type: str
-    type_margin: float  #: confidence: 0 (two types are equally likely) to 1 (certain, or given)
+    type_probability: float  #: that the type is right; 1 where it was given
     covered: List[str]  #: names of bones
     layer: int  #: 0 for the innermost of several garments
 

@@ -23,7 +23,7 @@
  * port 1, the garments, of the data type of the input (not of vtkRigBody)
  * - point data `RestPosition`: the points of the input; `Ease`: gap to the skin; `Strain`: mean stretch of the edges;
  *   `Pressure`: Pa
- * - field data `FoundType`, `FoundTypeMargin`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
+ * - field data `FoundType`, `FoundTypeProbability`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
  *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentMinDistance`, `StrainMedian`, `StrainP95`,
  *   `StrainMax`,
  *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`,

@@ -46,7 +46,7 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
 
 /// Of a garment: GarmentFrame.
 MeshArrays arrays_of(const Frame& garment);
-/// Of a garment: FoundType, FoundTypeMargin.
+/// Of a garment: FoundType, FoundTypeProbability.
 MeshArrays arrays_of(const FitResult& fit);
 /// Of a garment: Worn; and if it is, the certificate, girths and where it is too tight.
 MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const Frame& body);

@@ -11,6 +11,8 @@
 //          100,000 evaluations e.
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,15 +37,30 @@ struct FitOptions {
     FitMethod method = FitMethod::fast;
     int iterations = 6;  ///< of paper and tisserand: rounds, each of which halves spacing and extent of the grids
     NearestSearch nearest = NearestSearch::kd_tree;
+    /// Where the garment's front faces, as it is given: a unit vector in libfit's frame (metres, +y up). Empty: to be
+    /// found. Read by the fast method, like the next two.
+    std::optional<Vec3> front = {};
+    /// Body and garment come from one scene, and the garment lies round the body already: it is worn there.
+    bool as_placed = false;
+    int skipped = 0;  ///< takes the next probable way of wearing after so many in which the body fits
+};
+
+/// A way of wearing a garment in which the body does not fit.
+struct Rejected {
+    GarmentType type = GarmentType::automatic;
+    Vec3 up, front;  ///< unit, in the garment as it was given
+    double probability = 0;  ///< before it was tried
+    std::string reason;
 };
 
 struct FitResult {
     Pose pose;  ///< from the input pose of the body into the garment
     GarmentType type = GarmentType::automatic;  ///< as given, or as found
-    double type_margin = 1;  ///< confidence, 0 (another type is as likely) to 1; 1 when the type was given
-    double front_probability = 1;  ///< that the garment faces as it is worn here; always 1 for paper and tisserand
+    /// Probabilities that the type, the side that is the front, and the upward direction are right, given how the
+    /// body fits; 1 where there was no choice, and for paper and tisserand.
+    double type_probability = 1, front_probability = 1, up_probability = 1;
     Vec3 up = Vec3::UnitY();  ///< the garment's upward direction, as it was given
-    double up_margin = 1;  ///< confidence, 0 (another way up is as good) to 1
+    std::vector<Rejected> rejected;  ///< what was more probable at first
     std::vector<Bone> covered;
     int layer = 0;  ///< of several garments worn together: 0 for the innermost
     /// E_B of equation (1) by the method's own metric, m, at the start and at the end; 0 for uncovered bones.
@@ -76,7 +93,8 @@ GARMENTFIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& gar
 GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
                                       const Progress& progress = {});
 
-/// The same for any method: tisserand reads the body's surface, whose vertices are those of the rig's weights.
+/// The same for any method. The body's surface, whose vertices are those of the rig's weights, tells whether the garment
+/// lies round it already; tisserand cannot do without.
 GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment,
                                       const FitOptions& options = {}, const Progress& progress = {});
 

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+// Of the joints at both ends of the covered bones, in tenths of a leg.
+double distance_from_input(const FitEnergy& energy, const Posture& posture, double leg)
+{
+    const Skeleton fitted = place_bones(energy.rest(), posture).joints;
+    double sum = 0;
+    int joints = 0;
+    for (int b = 0; b < bone_count; ++b)
+        if (energy.metric().covers(b)) {
+            sum += (fitted.head(b) - energy.rest().head(b)).norm() + (fitted.tail(b) - energy.rest().tail(b)).norm();
+            joints += 2;
+        }
+    return sum / std::max(joints, 1) / (0.1 * leg);
+}
+
+struct InsideShares {
+    double covered = 0, uncovered = 0;
+};
+
+InsideShares shares_inside(const FitEnergy& energy, const Posture& posture)
+{
+    const Skeleton joints = place_bones(energy.rest(), posture).joints;
+    InsideShares sum;
+    int covered = 0, uncovered = 0;
+    for (int b = 0; b < bone_count; ++b) {
+        const int samples = energy.metric().samples_inside(joints.head(b), joints.tail(b));
+        if (energy.metric().covers(b)) {
+            sum.covered += samples >= k_mostly_inside;
+            ++covered;
+        } else if (b != lowerneck && b != upperneck) {
+            sum.uncovered += double(samples) / k_samples;
+            ++uncovered;
+        }
+    }
+    return { sum.covered / std::max(covered, 1), sum.uncovered / std::max(uncovered, 1) };
+}
+
+WearEvidence evidence_of(const WearingContext& context, const Posture& posture, const Vec3& front, bool is_in_place)
+{
+    const FitEnergy& energy = context.energy;
+    const Skeleton& rest = energy.rest();
+    const double leg = rest.length(lfemur) + rest.length(ltibia);
+    const InsideShares inside = shares_inside(energy, posture);
+    const Posture given = rotate(posture, context.turn.conjugate());
+    const Vec3 upright_front = posture.turn * energy.rig().front;
+    const Vec3 level = Vec3(upright_front.x(), 0, upright_front.z()).stableNormalized();
+
+    WearEvidence e {};
+    e[energy_evidence] = energy.total(posture) - energy.hang_slope() * energy.metric().cloth().barycentre().y();
+    e[clearance_evidence] = energy.clearance_share(posture);
+    e[uncovered_cloth_evidence] = energy.mean_coverage_distance(posture) / (0.1 * leg);
+    e[crossing_evidence] = std::min(energy.bones_through_cloth(posture), k_max_crossing_evidence);
+    e[covered_inside_evidence] = inside.covered;
+    e[uncovered_inside_evidence] = inside.uncovered;
+    e[as_given_evidence] = context.turn.w() == 1;
+    e[upright_evidence] = context.uprightness;
+    e[type_evidence] = context.coverage.is_guessed;
+    if (const int kind = int(context.coverage.kind) - 1; kind >= 0) {
+        const ClearanceField& cloth = energy.metric().cloth();
+        e[legs_evidence + kind] = 1;
+        e[legs_height_evidence + kind] = std::log((cloth.high().y() - cloth.low().y()) / leg);
+        e[legs_hems_evidence + kind] = !energy.cues().hems.empty();
+        e[legs_arms_evidence + kind] = energy.cues().has_arms;
+    }
+    e[input_front_evidence] = front.dot(energy.rig().front);
+    e[openings_evidence]
+        = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
+    e[in_place_evidence] = is_in_place;
+    e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / 0.1 : 0;
+    e[near_input_evidence] = std::exp(-distance_from_input(energy, given, leg));
+    return e;
+}
+
+bool is_same_facing(const Wearing& a, const Wearing& b)
+{
+    return a.front.dot(b.front) > k_same_direction;
+}
+
+}  // namespace
+
+const std::array<std::string_view, evidence_count>& evidence_names()
+{
+    static constexpr std::array<std::string_view, evidence_count> names {
+        "energy",      "clearance",    "uncovered_cloth", "crossing",        "covered_inside", "uncovered_inside",
+        "as_given",    "upright",      "legs",            "skirt",           "dress",          "jumpsuit",
+        "legs_height", "skirt_height", "dress_height",    "jumpsuit_height", "legs_hems",      "skirt_hems",
+        "dress_hems",  "jumpsuit_hems", "legs_arms",      "skirt_arms",      "dress_arms",     "jumpsuit_arms",
+        "type",        "input_front",  "openings",        "near_input",      "in_place",       "in_place_inside",
+    };
+    return names;
+}
+
+std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,
+                                 const std::vector<Posture>& in_place)
+{
+    std::vector<Wearing> all;
+    const auto add = [&](const Posture& posture, bool is_in_place) {
+        const Vec3 front = context.turn.conjugate() * (posture.turn * context.energy.rig().front);
+        all.push_back({ posture, is_in_place, front, 0, evidence_of(context, posture, front, is_in_place) });
+    };
+    for (const Posture& posture : postures)
+        add(posture, false);
+    for (const Posture& posture : in_place)
+        add(posture, true);
+    std::stable_sort(all.begin(), all.end(), [](const Wearing& a, const Wearing& b) {
+        return log_odds(a.evidence) > log_odds(b.evidence);
+    });
+    std::vector<Wearing> best;
+    for (Wearing& wearing : all) {
+        wearing.rank = int(std::count_if(best.begin(), best.end(),
+                                         [&](const Wearing& other) { return is_same_facing(wearing, other); }));
+        if (wearing.rank < k_wearings_of_a_facing)
+            best.push_back(wearing);
+    }
+    return best;
+}
+
+double log_odds(const WearEvidence& evidence)
+{
+    return std::inner_product(evidence.begin(), evidence.end(), k_evidence_weights.begin(), 0.0);
+}
+
+std::vector<double> probabilities(const std::vector<double>& log_odds)
+{
+    std::vector<double> result;
+    if (log_odds.empty())
+        return result;
+    const double most = *std::max_element(log_odds.begin(), log_odds.end());
+    for (const double one : log_odds)
+        result.push_back(std::exp(one - most));
+    const double sum = std::accumulate(result.begin(), result.end(), 0.0);
+    for (double& one : result)
+        one /= sum;
+    return result;
+}
+
+}  // namespace garmentfit

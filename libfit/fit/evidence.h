@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How probable it is that a garment is worn in some way: this way up, on these bones, facing there.
+//
+// Method  conditional logit [mcfadden_1974_conditional_logit]: the probability of a hypothesis is proportional to the
+//         exponential of its weighted evidence. The weights are fitted on garments of which it is known how they are
+//         worn (tuning.h, scripts/fit-evidence).
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "coverage.h"
+#include "fit_energy.h"
+
+namespace garmentfit {
+
+/// What speaks for a hypothesis, by its best posture. "Leg": length of the body's own, from hip to ankle.
+enum Evidence {
+    // The pose
+    energy_evidence,  ///< m, less the cost of crossings, and without the part that is due to the garment's height
+    clearance_evidence,  ///< share of the clearance that covered bones need, 0 to about 1
+    uncovered_cloth_evidence,  ///< mean distance of the cloth from the covered limbs, in tenths of a leg
+    crossing_evidence,  ///< bones that pass through cloth, at most 3
+    covered_inside_evidence,  ///< share of the covered bones that lie inside
+    uncovered_inside_evidence,  ///< share of the other bones, neck apart, that lies inside
+    // The way up
+    as_given_evidence,  ///< 1 where the garment is held as its file has it
+    upright_evidence,  ///< of the openings, 0 to 1 (uprightness)
+    // The coverage: 1 for its kind, and what the shape says of it; tops have 0 in all of these
+    legs_evidence,
+    skirt_evidence,
+    dress_evidence,
+    jumpsuit_evidence,
+    legs_height_evidence,  ///< logarithm of the garment's height in legs
+    skirt_height_evidence,
+    dress_height_evidence,
+    jumpsuit_height_evidence,
+    legs_hems_evidence,  ///< 1 where two openings are those of legs
+    skirt_hems_evidence,
+    dress_hems_evidence,
+    jumpsuit_hems_evidence,
+    legs_arms_evidence,  ///< 1 where two openings are sleeves or armholes
+    skirt_arms_evidence,
+    dress_arms_evidence,
+    jumpsuit_arms_evidence,
+    type_evidence,  ///< 1 where it is that of the type guessed by the openings; tops, too
+    // The facing
+    input_front_evidence,  ///< cosine to the front of the input body: most garments come in the frame of their body
+    openings_evidence,  ///< openings that face forwards less those that face backwards (cues_of)
+    near_input_evidence,  ///< 1 where the covered joints lie where the input body has them, 0 a tenth of a leg away
+    // As it lies: 0 unless the posture is the input pose itself
+    in_place_evidence,  ///< 1
+    in_place_inside_evidence,  ///< share of the garment's vertices inside the body, at most 0.2, as a multiple of 0.1
+    evidence_count
+};
+using WearEvidence = std::array<double, evidence_count>;
+/// "energy", "clearance", ... in the order of Evidence.
+const std::array<std::string_view, evidence_count>& evidence_names();
+
+/// One way in which a garment may be worn.
+struct Wearing {
+    Posture posture;  ///< in the garment as it is held upright
+    bool is_in_place = false;  ///< it is the input pose
+    Vec3 front;  ///< unit, of the body; in the garment as it was given
+    int rank = 0;  ///< among those that face alike: 0 for the one with most evidence
+    WearEvidence evidence {};
+};
+
+/// A garment held in one way, with one coverage.
+struct WearingContext {
+    const FitEnergy& energy;
+    const Coverage& coverage;
+    Eigen::Quaterniond turn;  ///< that makes the garment upright
+    double uprightness = 0;  ///< of its openings
+    double inside_share = 0;  ///< of the garment's vertices in the input body
+};
+
+/// The best wearings of each facing among the postures, at most three, best evidence first. Facings less than 60 degrees
+/// apart are one.
+/// @param in_place  the input pose, or none
+std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,
+                                 const std::vector<Posture>& in_place);
+
+double log_odds(const WearEvidence& evidence);
+
+/// Of hypotheses with these log odds, in the same order; they sum to 1.
+std::vector<double> probabilities(const std::vector<double>& log_odds);
+
+}  // namespace garmentfit

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "best_start.h"
+#include "outward_cloth.h"
+#include "posture_moves.h"
+#include "tuning.h"
+#include "way_up.h"
+#include "winding_number.h"
+
+namespace garmentfit {
+namespace {
+
+constexpr Eigen::Index k_vertices_looked_at = 1000;  // derived: a share of 1 % is known to a third of it
+
+std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const Eigen::Quaterniond& turn)
+{
+    auto held = std::make_shared<HeldGarment>();
+    held->turn = turn;
+    held->outward = rotate(given.outward, turn);
+    held->openings = rotate(given.openings, held->outward, turn);
+    held->clearance = std::make_unique<const ClearanceField>(held->outward);
+    return held;
+}
+
+bool is_as_given(const WayUp& way) { return way.turn.w() == 1; }
+
+// A body that faces as the garment does, according to the user; the garment is held upright.
+StartHypothesis facing_like(const Rig& rig, const Vec3& front)
+{
+    const Vec3 level = upright_turn(rig, 0) * rig.front;
+    return { upright_turn(rig, std::atan2(front.x(), front.z()) - std::atan2(level.x(), level.z())) };
+}
+
+std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& options)
+{
+    if (options.as_placed)
+        return {};
+    if (options.front)
+        return { facing_like(attempt.rig(), attempt.garment().turn * *options.front) };
+    return facing_hypotheses(attempt.energy());
+}
+
+// A garment as it was given.
+struct Garment {
+    HeldGarment held;
+    bool may_lie_in_place = false;  // the body's surface is known
+    double inside_share = 0;  // of the garment's vertices in the body
+};
+
+// One coverage of a held garment, before and after the ascent of its postures.
+struct Search {
+    std::shared_ptr<const Attempt> attempt;
+    std::vector<Posture> rough, in_place;  // the latter: where the garment lies round the body
+    std::vector<Wearing> wearings;
+
+    double best_log_odds() const
+    {
+        return wearings.empty() ? FitEnergy::k_any : log_odds(wearings[0].evidence);
+    }
+};
+
+std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture>& postures, const Garment& given,
+                                 const FitOptions& options)
+{
+    const HeldGarment& garment = search.attempt->garment();
+    const WearingContext context { search.attempt->energy(), search.attempt->coverage(), garment.turn,
+                                   uprightness(garment.openings), given.inside_share };
+    std::vector<Wearing> wearings = garmentfit::wearings_of(context, postures, search.in_place);
+    std::erase_if(wearings, [&](const Wearing& wearing) {
+        return options.front && wearing.front.dot(*options.front) < k_same_direction;
+    });
+    return wearings;
+}
+
+Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garment& given, const FitOptions& options)
+{
+    Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {} };
+    const Posture input = input_posture(attempt->energy().rest());
+    if (given.may_lie_in_place && attempt->garment().turn.w() == 1
+        && !bones_inside(attempt->energy(), input, k_partly_inside).empty())
+        search.in_place.push_back(input);
+    search.wearings = wearings_of(search, search.rough, given, options);
+    return search;
+}
+
+std::vector<Search> search_roughly(const Rig& rig, const Garment& given, const Eigen::Quaterniond& turn,
+                                   const FitOptions& options)
+{
+    const std::shared_ptr<const HeldGarment> held = hold(given.held, turn);
+    std::vector<Search> searches;
+    for (const Coverage& coverage : possible_coverages(options.type, held->openings))
+        searches.push_back(search_roughly(std::make_shared<const Attempt>(rig, held, coverage), given, options));
+    return searches;
+}
+
+// Only what the rough postures leave in the running is worth an ascent.
+void search_closely(std::vector<Search>& searches, const Garment& given, const FitOptions& options,
+                    const Progress& progress)
+{
+    double best = FitEnergy::k_any;
+    for (const Search& search : searches)
+        best = std::max(best, search.best_log_odds());
+    for (std::size_t i = 0; i < searches.size(); ++i) {
+        progress.at(double(i) / double(searches.size()));
+        Search& search = searches[i];
+        if (search.best_log_odds() < best - k_hopeless)
+            continue;
+        const auto ascended = ascend_starts(search.attempt->energy(), search.rough, search.in_place);
+        search.wearings = wearings_of(search, ascended, given, options);
+    }
+}
+
+std::vector<Hypothesis> search(const Rig& rig, const Garment& given, const std::vector<WayUp>& ways,
+                               const FitOptions& options, const Progress& progress)
+{
+    std::vector<Search> searches;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        progress.at(0.4 * double(i) / double(ways.size()));
+        for (Search& found : search_roughly(rig, given, ways[i].turn, options))
+            searches.push_back(std::move(found));
+    }
+    search_closely(searches, given, options, progress.part(0.4, 1));
+    std::vector<Hypothesis> hypotheses;
+    for (const Search& found : searches)
+        for (const Wearing& wearing : found.wearings)
+            hypotheses.push_back({ found.attempt, wearing });
+    return hypotheses;
+}
+
+// As the file has it, and as the openings would have it. The rest are tried only where no body fits in those.
+std::vector<WayUp> likely_ways(std::vector<WayUp>& ways, const FitOptions& options)
+{
+    const bool is_settled = options.as_placed || options.front;
+    const auto rest = std::stable_partition(ways.begin(), ways.end(), [&](const WayUp& way) {
+        return is_as_given(way) || (!is_settled && way.evidence > 0);
+    });
+    std::vector<WayUp> likely(ways.begin(), rest);
+    ways.erase(ways.begin(), is_settled ? ways.end() : rest);
+    return likely;
+}
+
+bool any_possible(const std::vector<Hypothesis>& hypotheses)
+{
+    return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& h) { return h.is_possible(); });
+}
+
+const Hypothesis& first_of_its_facing(const std::vector<Hypothesis>& all, const Hypothesis& one)
+{
+    return *std::find_if(all.begin(), all.end(), [&](const Hypothesis& other) {
+        return other.attempt == one.attempt && other.wearing.rank == 0
+            && other.wearing.front.dot(one.wearing.front) > k_same_direction;
+    });
+}
+
+void sort_by_probability(std::vector<Hypothesis>& hypotheses)
+{
+    std::vector<double> odds;
+    for (const Hypothesis& hypothesis : hypotheses)
+        if (hypothesis.wearing.rank == 0)
+            odds.push_back(log_odds(hypothesis.wearing.evidence));
+    const std::vector<double> p = probabilities(odds);
+    auto next = p.begin();
+    for (Hypothesis& hypothesis : hypotheses)
+        if (hypothesis.wearing.rank == 0)
+            hypothesis.probability = *next++;
+    for (Hypothesis& hypothesis : hypotheses)
+        if (hypothesis.wearing.rank > 0)
+            hypothesis.probability = first_of_its_facing(hypotheses, hypothesis).probability;
+    std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) {
+        return std::make_pair(-a.probability, a.wearing.rank) < std::make_pair(-b.probability, b.wearing.rank);
+    });
+}
+
+// Of some vertices, evenly spread over the list.
+double inside_share(const TriangleMesh& garment, const TriangleMesh& body)
+{
+    const WindingNumber winding(body);
+    const Eigen::Index step = std::max<Eigen::Index>(1, garment.positions.rows() / k_vertices_looked_at);
+    int inside = 0, count = 0;
+    for (Eigen::Index v = 0; v < garment.positions.rows(); v += step, ++count)
+        inside += winding(garment.positions.row(v)) > 0.5;
+    return double(inside) / std::max(count, 1);
+}
+
+Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
+{
+    const bool has_body = body.positions.rows() > 0;
+    return { { Eigen::Quaterniond::Identity(), outward, openings_of(outward), {} }, has_body,
+             has_body ? inside_share(outward, body) : 0 };
+}
+
+}  // namespace
+
+Attempt::Attempt(const Rig& rig, std::shared_ptr<const HeldGarment> garment, const Coverage& coverage) :
+    rig_(rig), garment_(std::move(garment)), coverage_(coverage), cues_(cues_of(garment_->openings)), limits_(rig),
+    metric_(*garment_->clearance, limb_radii_of(rig, coverage.bones)), energy_(rig_, limits_, metric_, cues_)
+{
+}
+
+// Next to a flat sheet everything is half inside. The refinement may free one bone from the cloth; among scraps of
+// cloth it cannot. Where the cloth lies round the body, the body's bones are known to be inside.
+bool Hypothesis::is_possible() const
+{
+    const FitEnergy& energy = attempt->energy();
+    return 2 * bones_inside(energy, wearing.posture, k_mostly_inside).size() >= attempt->coverage().bones.size()
+        && energy.clearance_share(wearing.posture) >= k_min_clearance_share
+        && (wearing.is_in_place || energy.bones_through_cloth(wearing.posture) <= k_max_crossing_bones);
+}
+
+std::vector<Bone> bones_inside(const FitEnergy& energy, const Posture& posture, int samples)
+{
+    const Skeleton joints = place_bones(energy.rest(), posture).joints;
+    std::vector<Bone> inside;
+    for (int b = 0; b < bone_count; ++b)
+        if (energy.metric().covers(b) && energy.metric().samples_inside(joints.head(b), joints.tail(b)) >= samples)
+            inside.push_back(Bone(b));
+    return inside;
+}
+
+std::vector<Hypothesis> find_hypotheses(const Rig& rig, const TriangleMesh& body, const TriangleMesh& outward,
+                                        const FitOptions& options, const Progress& progress)
+{
+    const Garment given = measure(outward, body);
+    std::vector<WayUp> rest = ways_up(outward, given.held.openings);
+    const std::vector<WayUp> likely = likely_ways(rest, options);
+    std::vector<Hypothesis> all = search(rig, given, likely, options, progress.part(0, 0.5));
+    if (!any_possible(all))
+        for (Hypothesis& hypothesis : search(rig, given, rest, options, progress.part(0.5, 1)))
+            all.push_back(std::move(hypothesis));
+    sort_by_probability(all);
+    return all;
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coverage.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "garmentfit/error.h"
+
+namespace garmentfit {
+namespace {
+
+constexpr std::size_t k_min_openings = 2;  // derived: a body goes in by one and looks out of another
+
+bool has(const std::vector<Bone>& bones, Bone bone)
+{
+    return std::find(bones.begin(), bones.end(), bone) != bones.end();
+}
+
+bool is_on_legs(Bone bone)
+{
+    return bone == lhipjoint || bone == rhipjoint || bone == lfemur || bone == rfemur || bone == ltibia
+        || bone == rtibia;
+}
+
+bool is_on_shins(Bone bone) { return bone == ltibia || bone == rtibia; }
+
+bool covers(CoverageKind kind, Bone bone)
+{
+    const bool trunk = kind != CoverageKind::legs && kind != CoverageKind::skirt,
+               thighs = kind != CoverageKind::top, shins = kind == CoverageKind::legs || kind == CoverageKind::jumpsuit;
+    return is_on_shins(bone) ? shins : is_on_legs(bone) ? thighs : trunk;
+}
+
+GarmentType name_top(const std::vector<Bone>& bones)
+{
+    return has(bones, lradius) ? GarmentType::longsleeve
+        : has(bones, lhumerus) ? GarmentType::tshirt
+                               : GarmentType::vest;
+}
+
+GarmentType name_coverage(CoverageKind kind, const std::vector<Bone>& bones, const std::vector<Opening>& openings)
+{
+    switch (kind) {
+    case CoverageKind::top: return name_top(bones);
+    case CoverageKind::legs: return GarmentType::trousers;
+    case CoverageKind::skirt: return cues_of(openings).hems.empty() ? GarmentType::skirt : GarmentType::shorts;
+    case CoverageKind::dress: return GarmentType::dress;
+    case CoverageKind::jumpsuit: return GarmentType::jumpsuit;
+    }
+    return GarmentType::automatic;
+}
+
+// The sleeves are those of the openings.
+Coverage coverage_of(CoverageKind kind, const std::vector<Opening>& openings)
+{
+    Coverage coverage { kind, GarmentType::automatic, {} };
+    for (const Bone bone : bones_covered_by(GarmentType::suit, openings))
+        if (covers(kind, bone))
+            coverage.bones.push_back(bone);
+    coverage.type = name_coverage(kind, coverage.bones, openings);
+    return coverage;
+}
+
+void require_two_openings(const std::vector<Opening>& openings)
+{
+    if (openings.size() < k_min_openings)
+        throw InvalidInput(ErrorCode::no_opening,
+                           std::string("garment: its type cannot be guessed, because it has ")
+                               + (openings.size() == 1 ? "only one opening" : "no openings")
+                               + " large enough for a body; give its type, or a garment with openings");
+}
+
+}  // namespace
+
+CoverageKind coverage_kind_of(GarmentType type)
+{
+    switch (type) {
+    case GarmentType::trousers: return CoverageKind::legs;
+    case GarmentType::shorts:
+    case GarmentType::skirt: return CoverageKind::skirt;
+    case GarmentType::coat:
+    case GarmentType::dress: return CoverageKind::dress;
+    case GarmentType::jumpsuit:
+    case GarmentType::suit: return CoverageKind::jumpsuit;
+    default: return CoverageKind::top;
+    }
+}
+
+std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Opening>& openings)
+{
+    const GarmentType guess = given == GarmentType::automatic ? guess_type(openings).type : given;
+    std::vector<Coverage> coverages;
+    if (guess != GarmentType::automatic)
+        coverages.push_back({ coverage_kind_of(guess), guess, bones_covered_by(guess, openings), true });
+    else
+        require_two_openings(openings);
+    for (int kind = 0; kind < int(k_coverage_kind_names.size()) && given == GarmentType::automatic; ++kind)
+        if (coverages.empty() || coverages[0].kind != CoverageKind(kind))
+            coverages.push_back(coverage_of(CoverageKind(kind), openings));
+    return coverages;
+}
+
+}  // namespace garmentfit

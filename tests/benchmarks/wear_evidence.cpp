@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Prints the evidence for each way of wearing garments on a body, one line of JSON for each garment: scripts/fit-evidence
+// fits the weights of libfit/fit/evidence.h on them.
+//   wear_evidence BODY GARMENT...
+
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "garmentfit/io.h"
+#include "garmentfit/rig_body.h"
+#include "garmentfit/units.h"
+#include "hypotheses.h"
+#include "outward_cloth.h"
+
+namespace {
+
+using namespace garmentfit;
+using Json = nlohmann::ordered_json;
+
+Json list(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
+
+Json json_of(const Hypothesis& hypothesis)
+{
+    const Attempt& attempt = *hypothesis.attempt;
+    const Skeleton joints = place_bones(attempt.rig().skeleton, hypothesis.wearing.posture).joints;
+    Json inside, evidence;
+    for (int b = 0; b < bone_count; ++b)
+        inside[std::string(bone_name(b))]
+            = attempt.energy().metric().samples_inside(joints.head(b), joints.tail(b));
+    for (int e = 0; e < evidence_count; ++e)
+        evidence[std::string(evidence_names()[e])] = hypothesis.wearing.evidence[e];
+    return { { "kind", k_coverage_kind_names[int(attempt.coverage().kind)] },
+             { "type", name_of(attempt.coverage().type) },
+             { "up", list(hypothesis.up()) },
+             { "front", list(hypothesis.wearing.front) },
+             { "in_place", hypothesis.wearing.is_in_place },
+             { "rank", hypothesis.wearing.rank },
+             { "possible", hypothesis.is_possible() },
+             { "probability", hypothesis.probability },
+             { "inside", inside },
+             { "evidence", evidence } };
+}
+
+Json evidence_of(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path)
+{
+    const MeshFile file = MeshFile::read(path);
+    const Frame frame = guess_garment_frame(file.positions(), file.triangles(), body_frame).frame;
+    const TriangleMesh outward = outward_cloth(make_garment(frame.to_metres(file.positions()), file.triangles()));
+    Json hypotheses = Json::array();
+    for (const Hypothesis& hypothesis : find_hypotheses(rig, body, outward, {}, {}))
+        hypotheses.push_back(json_of(hypothesis));
+    return { { "garment", path }, { "up", list(frame.up) }, { "hypotheses", hypotheses } };
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+try {
+    const MeshFile file = MeshFile::read(argv[1]);
+    const Frame frame = guess_body_frame(file.positions(), file.triangles()).frame;
+    const BodyMesh body = make_body(frame.to_metres(file.positions()), file.triangles());
+    const Rig rig = rig_body(body);
+    for (int i = 2; i < argc; ++i)
+        try {
+            std::cout << evidence_of(rig, body.surface, frame, argv[i]) << std::endl;
+        } catch (const std::exception& error) {
+            std::cerr << argv[i] << ": " << error.what() << std::endl;
+        }
+} catch (const std::exception& error) {
+    std::cerr << "wear_evidence: " << error.what() << std::endl;
+    return 1;
+}
