@@ -25,15 +25,16 @@ FileBytes read_file(const std::filesystem::path& path)
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
-        file.fail("there is no such file");
+        file.fail("there is no such file; check the path");
     if (!std::filesystem::is_regular_file(status))
-        file.fail(std::filesystem::is_directory(status) ? "is a directory; give a mesh file" : "is not a regular file");
+        file.fail(std::filesystem::is_directory(status) ? "is a directory; give a mesh file"
+                                                        : "is not a regular file; give a mesh file");
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
         file.fail("cannot be opened; check its permissions");
     file.bytes.resize(std::filesystem::file_size(path, error));
     if (error || !stream.read(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size())))
-        file.fail("cannot be read to its end");
+        file.fail("cannot be read to its end; check the disk or copy the file again");
     if (file.bytes.empty())
         file.fail("is empty; give a mesh file");
     return file;

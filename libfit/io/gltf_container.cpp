@@ -35,25 +35,27 @@ std::string word_bytes(std::size_t value)
 std::vector<GltfChunk> read_chunks(const FileBytes& file)
 {
     if (file.bytes.size() < k_header_bytes)
-        file.fail_at_byte(file.bytes.size(), "the GLB header is truncated");
+        file.fail_at_byte(file.bytes.size(), "the GLB header is truncated; export or copy the file again");
     if (const std::uint32_t version = word_at(file, 4); version != 2)
-        file.fail_at_byte(4, "is GLB version " + std::to_string(version) + "; this program reads version 2");
+        file.fail_at_byte(4, "is GLB version " + std::to_string(version) + "; export it as version 2");
     const std::size_t length = word_at(file, 8);
     if (length > file.bytes.size() || length < k_header_bytes)
         file.fail_at_byte(8,
                           "the GLB header says " + std::to_string(length) + " bytes, the file has "
-                              + std::to_string(file.bytes.size()) + "; it is truncated or mangled");
+                              + std::to_string(file.bytes.size())
+                              + "; it is truncated or mangled, export or copy it again");
     std::vector<GltfChunk> chunks;
     for (std::size_t at = k_header_bytes; at < length;) {
         const std::size_t left = length - at;
         if (left < k_chunk_header_bytes || word_at(file, at) > left - k_chunk_header_bytes)
-            file.fail_at_byte(at, "a chunk reaches beyond the end of the file; it is truncated or mangled");
+            file.fail_at_byte(
+                at, "a chunk reaches beyond the end of the file; it is truncated or mangled, export or copy it again");
         const std::size_t size = word_at(file, at);
         chunks.push_back({ word_at(file, at + 4), file.bytes.substr(at + k_chunk_header_bytes, size) });
         at += k_chunk_header_bytes + size;
     }
     if (chunks.empty() || chunks.front().type != k_json_type)
-        file.fail_at_byte(k_header_bytes, "the first chunk is not JSON; the file is mangled");
+        file.fail_at_byte(k_header_bytes, "the first chunk is not JSON; export the file again");
     return chunks;
 }
 
@@ -61,18 +63,20 @@ ordered_json parse(const FileBytes& file, const std::string& text)
 {
     const auto limit_depth = [&](int depth, ordered_json::parse_event_t, ordered_json&) {
         if (depth > k_deepest_json)
-            file.fail("its JSON is nested more than " + std::to_string(k_deepest_json) + " levels deep");
+            file.fail("its JSON is nested more than " + std::to_string(k_deepest_json)
+                      + " levels deep; export the file again");
         return true;
     };
     try {
         ordered_json json = ordered_json::parse(text, limit_depth);
         if (!json.is_object())
-            file.fail("its JSON is not an object");
+            file.fail("its JSON is not an object; export the file again as glTF 2.0");
         return json;
     } catch (const ordered_json::parse_error& error) {
-        file.fail("its JSON is mangled or truncated at byte " + std::to_string(error.byte) + " of the text");
+        file.fail("its JSON is mangled or truncated at byte " + std::to_string(error.byte)
+                  + " of the text; export or copy the file again");
     } catch (const ordered_json::out_of_range&) {
-        file.fail("its JSON holds a number too large to read");
+        file.fail("its JSON holds a number too large to read; export the file again");
     }
 }
 

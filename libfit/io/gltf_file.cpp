@@ -34,7 +34,7 @@ void require_sizes(const FileBytes& file, const tinygltf::Node& node)
     const auto is
         = [](const std::vector<double>& values, std::size_t size) { return values.empty() || values.size() == size; };
     if (!is(node.matrix, 16) || !is(node.translation, 3) || !is(node.rotation, 4) || !is(node.scale, 3))
-        file.fail("node '" + first_line(node.name) + "' has a transform of the wrong length");
+        file.fail("node '" + first_line(node.name) + "' has a transform of the wrong length; export the file again");
 }
 
 Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& node)
@@ -80,7 +80,7 @@ public:
             open.pop_back();
             const tinygltf::Node& node = checked(file_, model_.nodes, visit.node, "node");
             if (std::exchange(seen_[visit.node], true))
-                file_.fail("node " + std::to_string(visit.node) + " hangs on two parents; the file is mangled");
+                file_.fail("node " + std::to_string(visit.node) + " has two parents; export the file again");
             const Eigen::Affine3d world_from_node = visit.world_from_parent * parent_from_node(file_, node);
             // the place of a skinned mesh is that of its bones, in whose rest pose it lies as it is stored
             read_mesh(visit.node, node, node.skin >= 0 ? Eigen::Affine3d::Identity() : world_from_node);
@@ -159,9 +159,10 @@ private:
         if (!block.world_from_local.matrix().allFinite() || !std::isnormal(volume))
             file_.fail("node " + std::to_string(block.node) + " flattens its mesh; give it a scale other than 0");
         if (block.normals && block.normals->count != block.positions.count)
-            file_.fail("POSITION and NORMAL have different counts; the file is mangled");
+            file_.fail("POSITION (accessor " + std::to_string(block.positions.accessor)
+                       + ") and NORMAL have different counts; export the file again");
         if (block.positions.count > static_cast<std::size_t>(INT_MAX - rows_))
-            file_.fail("has more vertices than this program can count");
+            file_.fail("has more vertices than this program can count; decimate the mesh");
         blocks.push_back(block);
         rows_ += static_cast<Eigen::Index>(block.positions.count);
     }
@@ -182,14 +183,14 @@ private:
             || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         if (!is_unsigned || accessor.type != TINYGLTF_TYPE_SCALAR)
             file_.fail("indices (accessor " + std::to_string(column.accessor)
-                       + ") are not unsigned integers; the file is mangled");
+                       + ") are not unsigned integers; export the file again");
         for (std::size_t i = 0; i < column.count; ++i) {
             std::uint32_t index = 0;
             std::memcpy(&index, model_.buffers[column.buffer].data.data() + column.offset(i), bytes);
             if (index >= block.positions.count)
                 file_.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i)
                                + ", names vertex " + std::to_string(index) + " of "
-                               + std::to_string(block.positions.count),
+                               + std::to_string(block.positions.count) + "; export the file again",
                            ErrorCode::bad_index);
             indices.push_back(static_cast<int>(index));
         }
@@ -357,7 +358,7 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
     } catch (const InvalidInput&) {
         throw;
     } catch (const std::exception& error) {  // of the JSON library: a member of an unexpected type
-        file.fail("is not valid glTF: " + first_line(error.what()));
+        file.fail("is not valid glTF: " + first_line(error.what()) + "; export the file again");
     }
     return content;
 }

@@ -25,7 +25,7 @@ void require_readable(const FileBytes& file, const ordered_json& json)
 {
     const std::string version = json.value("/asset/version"_json_pointer, std::string());
     if (!version.starts_with("2"))
-        file.fail("is glTF version '" + version.substr(0, 10) + "'; this program reads version 2");
+        file.fail("is glTF version '" + version.substr(0, 10) + "'; export it as version 2");
     for (const ordered_json& extension : json.value("extensionsRequired", ordered_json::array()))
         for (const char* packed : { "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization" })
             if (extension == packed)
@@ -76,7 +76,7 @@ tinygltf::Model load_model(const FileBytes& file, const GltfContainer& container
                                       size, base)
         : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, base);
     if (!loaded || !error.empty())
-        file.fail("is not valid glTF: " + first_line(error));
+        file.fail("is not valid glTF: " + first_line(error) + "; export the file again");
     return model;
 }
 
@@ -93,7 +93,7 @@ Column column_of(const FileBytes& file, const tinygltf::Model& model, int index,
     const int component = tinygltf::GetComponentSizeInBytes(accessor.componentType);
     const int components = tinygltf::GetNumComponentsInType(accessor.type);
     if (component <= 0 || components <= 0)
-        file.fail(name + " has an unknown type");
+        file.fail(name + " has an unknown type; export the file again");
     const std::size_t element = std::size_t(component) * std::size_t(components);
     const Column column { index, view.buffer, view.byteOffset + accessor.byteOffset,
                           view.byteStride ? view.byteStride : element, accessor.count };
@@ -103,7 +103,7 @@ Column column_of(const FileBytes& file, const tinygltf::Model& model, int index,
         && column.count - 1 <= (size - column.begin - element) / column.stride;
     if (!fits)
         file.fail(name + " reaches beyond its buffer of " + std::to_string(size)
-                  + " bytes; the file is truncated or mangled");
+                  + " bytes; it is truncated or mangled, export or copy it again");
     return column;
 }
 

@@ -31,7 +31,7 @@ ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
         return read_obj(std::move(file));
     if (extension == ".stl")
         return read_stl(std::move(file));
-    file.fail("unknown format; known are .obj, .ply, .off, .stl, .glb and .gltf");
+    file.fail("unknown format; export it as .obj, .ply, .off, .stl, .glb or .gltf");
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ void MeshFile::write(const std::filesystem::path& path, const Positions& positio
         throw InvalidInput(ErrorCode::count_mismatch,
                            path.string() + ": cannot write " + std::to_string(positions.rows())
                                + " positions into a mesh of " + std::to_string(content_->positions.rows())
-                               + " vertices");
+                               + " vertices; give a position for each vertex");
     write_file(path, content_->bytes_with(positions));
 }
 

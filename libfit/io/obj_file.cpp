@@ -24,7 +24,7 @@ void read_rows(TextContent& content)
         }
     }
     if (positions.rows() > INT_MAX || normals.rows() > INT_MAX)
-        content.file.fail("has more vertices than this program can count");
+        content.file.fail("has more vertices than this program can count; decimate the mesh");
     content.positions = positions.matrix();
     content.normals = normals.matrix();
 }
@@ -37,7 +37,7 @@ int row_named(const FileBytes& file, Span word, Eigen::Index so_far, Eigen::Inde
     if (row < 0 || row >= all)
         file.fail_at_line_of(word.begin,
                              "the face names " + std::string(what) + " " + std::to_string(index) + " of "
-                                 + std::to_string(all),
+                                 + std::to_string(all) + "; export the file again",
                              ErrorCode::bad_index);
     return static_cast<int>(row);
 }
@@ -56,8 +56,9 @@ public:
         while (!words.done() && content_.file.bytes[words.at()] != '#')
             add_corner(words.next());
         if (corners_.size() < 6)
-            content_.file.fail_at_line_of(
-                words.at(), "the face has " + std::to_string(corners_.size() / 2) + " corners; it needs three");
+            content_.file.fail_at_line_of(words.at(),
+                                          "the face has " + std::to_string(corners_.size() / 2)
+                                              + " corners; give it three or more, or remove it");
         fans_.add(corners_);
     }
 

@@ -29,7 +29,7 @@ public:
     {
         if (std::optional<Words> words = next())
             return *words;
-        file_.fail_at_line_of(file_.bytes.size(), "the file ends too soon; it is truncated");
+        file_.fail_at_line_of(file_.bytes.size(), "the file ends too soon; it is truncated, export or copy it again");
     }
 
 private:
@@ -56,9 +56,10 @@ int count_in(const FileBytes& file, Words& words)
     const Span word = words.next();
     const long long count = integer_in(file, word);
     if (count < 0 || count > INT_MAX || static_cast<std::size_t>(count) > file.bytes.size())
-        file.fail_at_line_of(word.begin,
-                             "a count of " + std::to_string(count)
-                                 + " is more than the file can hold; it is truncated or mangled");
+        file.fail_at_line_of(
+            word.begin,
+            "a count of " + std::to_string(count)
+                + " is more than the file can hold; it is truncated or mangled, export or copy it again");
     return static_cast<int>(count);
 }
 
@@ -68,7 +69,7 @@ Header read_header(const FileBytes& file, Rows& rows)
     Words words = rows.required();
     const std::string_view keyword = words.next_text();
     if (!is_keyword(keyword))
-        file.fail("the first word is not OFF; the header is mangled");
+        file.fail("the first word is not OFF; the header is mangled, export the file again");
     header.has_normals = keyword.find('N') != std::string_view::npos;
     if (words.done())
         words = rows.required();
@@ -101,13 +102,15 @@ std::vector<int> corners_in(const FileBytes& file, Words& words, int vertices)
 {
     const int count = count_in(file, words);
     if (count < 3)
-        file.fail_at_line_of(words.at(), "the face has " + std::to_string(count) + " corners; it needs three");
+        file.fail_at_line_of(words.at(),
+                             "the face has " + std::to_string(count) + " corners; give it three or more, or remove it");
     std::vector<int> corners;
     for (int k = 0; k < count; ++k) {
         const long long index = words.next_integer();
         if (index < 0 || index >= vertices)
             file.fail_at_line_of(words.at(),
-                                 "the face names vertex " + std::to_string(index) + " of " + std::to_string(vertices),
+                                 "the face names vertex " + std::to_string(index) + " of " + std::to_string(vertices)
+                                     + "; export the file again",
                                  ErrorCode::bad_index);
         corners.push_back(static_cast<int>(index));
     }

@@ -59,7 +59,7 @@ Scalar scalar_of(const FileBytes& file, Span word)
     for (std::size_t i = 0; i < k_scalars.size(); ++i)
         if (name == k_scalars[i].name || name == k_scalars[i].alias)
             return static_cast<Scalar>(i);
-    file.fail_at_line_of(word.begin, "unknown property type '" + std::string(name) + "'");
+    file.fail_at_line_of(word.begin, "unknown property type '" + std::string(name) + "'; export the file again");
 }
 
 Encoding encoding_of(const FileBytes& file, Words& words)
@@ -71,7 +71,8 @@ Encoding encoding_of(const FileBytes& file, Words& words)
         return Encoding::little_endian;
     if (file.text(word) == "binary_big_endian")
         return Encoding::big_endian;
-    file.fail_at_line_of(word.begin, "unknown PLY encoding; known are ascii, binary_little_endian, binary_big_endian");
+    file.fail_at_line_of(word.begin,
+                         "unknown PLY encoding; export as ascii, binary_little_endian or binary_big_endian");
 }
 
 Property property_of(const FileBytes& file, Words& words)
@@ -81,7 +82,7 @@ Property property_of(const FileBytes& file, Words& words)
     if (file.text(word) == "list") {
         property.count = scalar_of(file, words.next());
         if (is_real(*property.count))
-            file.fail_at_line_of(word.begin, "the length of a list must be an integer type");
+            file.fail_at_line_of(word.begin, "the length of a list is a real number; export it with an integer type");
         word = words.next();
     }
     property.type = scalar_of(file, word);
@@ -96,7 +97,8 @@ Element element_of(const FileBytes& file, Words& words)
     const Span word = words.next();
     const long long rows = integer_in(file, word);
     if (rows < 0 || rows > INT_MAX)
-        file.fail_at_line_of(word.begin, "element count " + std::to_string(rows) + " is out of range");
+        file.fail_at_line_of(word.begin,
+                             "element count " + std::to_string(rows) + " is out of range; export the file again");
     element.rows = static_cast<std::size_t>(rows);
     return element;
 }
@@ -115,18 +117,18 @@ Header read_header(const FileBytes& file)
             header.elements.push_back(element_of(file, words));
         } else if (key == "property") {
             if (header.elements.empty())
-                file.fail_at_line_of(lines.line().begin, "property before the first element");
+                file.fail_at_line_of(lines.line().begin, "property before the first element; export the file again");
             header.elements.back().properties.push_back(property_of(file, words));
         } else if (key == "end_header") {
             if (!has_format)
-                file.fail("the PLY header has no format line");
+                file.fail("the PLY header has no format line; export the file again");
             header.body = std::min(lines.line().end + 1, file.bytes.size());
             return header;
         } else if (key != "ply" && key != "comment" && key != "obj_info" && !key.empty()) {
-            file.fail_at_line_of(lines.line().begin, "unknown word in the PLY header");
+            file.fail_at_line_of(lines.line().begin, "unknown word in the PLY header; export the file again");
         }
     }
-    file.fail("the PLY header has no end_header line; the file is truncated or mangled");
+    file.fail("the PLY header has no end_header line; the file is truncated or mangled, export or copy it again");
 }
 
 /// The data after the header, value by value.
@@ -144,7 +146,7 @@ public:
             return next_word(type);
         const std::size_t bytes = size_of(type);
         if (file_.bytes.size() - at_ < bytes)
-            file_.fail_at_byte(file_.bytes.size(), "the file ends too soon; it is truncated");
+            file_.fail_at_byte(file_.bytes.size(), "the file ends too soon; it is truncated, export or copy it again");
         place_ = { at_, at_ + bytes };
         at_ += bytes;
         return decode(type);
@@ -157,7 +159,8 @@ public:
     void require(std::size_t count, std::size_t least_bytes) const
     {
         if (count > (file_.bytes.size() - at_) / least_bytes)
-            fail("a count of " + std::to_string(count) + " is more than the file can hold; it is truncated or mangled");
+            fail("a count of " + std::to_string(count)
+                 + " is more than the file can hold; it is truncated or mangled, export or copy it again");
     }
 
     /// The least that a value takes in this file.
@@ -213,7 +216,7 @@ void read_list(Body& body, const Property& property, std::vector<double>& values
 {
     const double count = body.next(*property.count);
     if (count < 0)
-        body.fail("a list has a negative length");
+        body.fail("a list has a negative length; export the file again");
     body.require(static_cast<std::size_t>(count), body.least_bytes(property.type));
     values.resize(static_cast<std::size_t>(count));
     for (double& value : values)
@@ -262,9 +265,9 @@ const Element& vertex_element(const FileBytes& file, const Header& header)
     const Element* found = nullptr;
     for (const Element& element : header.elements)
         if (element.name == "vertex" && std::exchange(found, &element))
-            file.fail("the PLY header has two vertex elements");
+            file.fail("the PLY header has two vertex elements; export the file with one mesh");
     if (!found)
-        file.fail("the PLY header has no vertex element");
+        file.fail("the PLY header has no vertex element; export a mesh");
     return *found;
 }
 
@@ -278,7 +281,8 @@ std::vector<int> columns_of(const FileBytes& file, const Element& vertex)
     for (int column = 0; column < (has_normals ? 6 : 3); ++column) {
         const int p = property_named(vertex, names[column]);
         if (p < 0 || vertex.properties[p].count || !is_real(vertex.properties[p].type))
-            file.fail("the vertices have no property " + std::string(names[column]) + " of type float or double");
+            file.fail("the vertices have no property " + std::string(names[column])
+                      + " of type float or double; export positions as floats");
         columns[p] = column;
     }
     return columns;
@@ -304,12 +308,13 @@ Table read_vertices(Body& body, const Element& element, const std::vector<int>& 
 std::vector<int> corners_of(const Body& body, std::size_t face, const std::vector<double>& list, std::size_t vertices)
 {
     if (list.size() < 3)
-        body.fail("face " + std::to_string(face) + " has " + std::to_string(list.size()) + " corners; it needs three");
+        body.fail("face " + std::to_string(face) + " has " + std::to_string(list.size())
+                  + " corners; give it three or more, or remove it");
     std::vector<int> corners;
     for (const double index : list) {
         if (!(index >= 0 && index < static_cast<double>(vertices)) || index != std::floor(index))
             body.fail("face " + std::to_string(face) + " names vertex " + text_of(index) + " of "
-                          + std::to_string(vertices),
+                          + std::to_string(vertices) + "; export the file again",
                       ErrorCode::bad_index);
         corners.push_back(static_cast<int>(index));
     }
@@ -322,7 +327,7 @@ void read_faces(Body& body, const Element& element, std::size_t vertices, FanBui
     if (indices < 0)
         indices = property_named(element, "vertex_index");
     if (indices < 0 || !element.properties[indices].count)
-        body.fail("the faces have no list vertex_indices or vertex_index");
+        body.fail("the faces have no list vertex_indices or vertex_index; export faces with one of them");
     const auto on_list = [&](std::size_t row, std::size_t p, const std::vector<double>& list) {
         if (static_cast<int>(p) == indices)
             fans.add(corners_of(body, row, list, vertices));

@@ -107,7 +107,7 @@ private:
                      weight = column_of(file_, model_, weights->second, "WEIGHTS_0");
         if (model_.accessors[std::size_t(joint.accessor)].type != TINYGLTF_TYPE_VEC4
             || model_.accessors[std::size_t(weight.accessor)].type != TINYGLTF_TYPE_VEC4 || joint.count != weight.count)
-            file_.fail("has JOINTS_0 and WEIGHTS_0 that are not four numbers a vertex; the file is mangled");
+            file_.fail("has JOINTS_0 and WEIGHTS_0 that are not four numbers a vertex; export the file again");
         for (std::size_t v = 0; v < joint.count; ++v) {
             auto& hang = skin_.hangs.emplace_back();
             for (int k = 0; k < 4; ++k) {
@@ -115,7 +115,7 @@ private:
                 if (hang[std::size_t(k)].first >= int(skin_.names.size()))
                     file_.fail("vertex " + std::to_string(v) + " refers to joint "
                                + std::to_string(hang[std::size_t(k)].first) + " of "
-                               + std::to_string(skin_.names.size()));
+                               + std::to_string(skin_.names.size()) + "; export the file again");
             }
         }
     }

@@ -73,7 +73,8 @@ public:
                 read_line(lower_case(words.next_text()), words);
         }
         if (!at_end_)
-            file.fail_at_line_of(file.bytes.size(), "the file ends without endsolid; it is truncated");
+            file.fail_at_line_of(file.bytes.size(),
+                                 "the file ends without endsolid; it is truncated, export or copy it again");
         content_->format = "stl";
         content_->positions = weld_.positions();
         content_->normals = normals_.matrix();
@@ -100,11 +101,11 @@ private:
             if (corners_.size() != 3 || ++facets_ != normals_.rows())
                 file.fail_at_line_of(words.at(),
                                      "the facet has " + std::to_string(corners_.size())
-                                         + " vertices; it needs three and a normal");
+                                         + " vertices; it needs three and a normal, export the file again");
             fans_.add(corners_);
             corners_.clear();
         } else if (key != "outer" && key != "endloop" && key != "solid" && key != "endsolid") {
-            file.fail_at_line_of(words.at(), "unknown word in the STL file; it is mangled");
+            file.fail_at_line_of(words.at(), "unknown word in the STL file; export the file again");
         }
         at_end_ = key == "endsolid" && corners_.empty() && facets_ == normals_.rows();
     }
@@ -168,7 +169,7 @@ ContentPtr read_binary(FileBytes file)
         || facets > INT_MAX / 3)
         file.fail_at_byte(file.bytes.size(),
                           "the file ends too soon for a binary STL file of " + std::to_string(facets)
-                              + " facets; it is truncated or mangled");
+                              + " facets; it is truncated or mangled, export or copy it again");
     auto content = std::make_shared<BinaryStlContent>();
     content->format = "stl";
     content->normals.resize(facets, 3);

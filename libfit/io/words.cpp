@@ -40,7 +40,7 @@ double number_in(const FileBytes& file, Span word)
 {
     double value = 0;
     if (!parses(file.text(word), value) && !is_tiny(file.text(word)))
-        file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not a number");
+        file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not a number; export the file again");
     return value;
 }
 
@@ -48,7 +48,7 @@ long long integer_in(const FileBytes& file, Span word)
 {
     long long value = 0;
     if (!parses(file.text(word), value))
-        file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not an integer");
+        file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not an integer; export the file again");
     return value;
 }
 
@@ -63,7 +63,8 @@ bool Words::done()
 Span Words::next()
 {
     if (done())
-        file_->fail_at_line_of(end_ ? end_ - 1 : 0, "ends too soon; the file is truncated or mangled");
+        file_->fail_at_line_of(end_ ? end_ - 1 : 0,
+                               "ends too soon; the file is truncated or mangled, export or copy it again");
     const std::size_t begin = at_;
     while (at_ < end_ && !is_blank(file_->bytes[at_]))
         ++at_;

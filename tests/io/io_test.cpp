@@ -41,6 +41,7 @@ protected:
         const std::string complaint = complaint_about(save(name, bytes));
         EXPECT_NE(complaint.find(words), std::string::npos) << complaint;
         EXPECT_NE(complaint.find(name), std::string::npos) << complaint;
+        EXPECT_NE(complaint.find("; "), std::string::npos) << complaint << ": and what to do?";
         EXPECT_EQ(complaint.find('\n'), std::string::npos) << complaint;
     }
 };
@@ -240,7 +241,7 @@ TEST_F(Io, TellsFormatsByTheirContent)
 
 TEST_F(Io, SaysWhatIsWrongAndWhere)
 {
-    EXPECT_NE(complaint_about(folder / "none.ply").find("no such file"), std::string::npos);
+    EXPECT_NE(complaint_about(folder / "none.ply").find("no such file; check the path"), std::string::npos);
     EXPECT_NE(complaint_about(folder).find("directory"), std::string::npos);
     expect_complaint("e.ply", "", "is empty");
     expect_complaint("t.xyz", "hello", "unknown format");
