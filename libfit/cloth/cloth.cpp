@@ -1,25 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/cloth.h"
 
+#include "tuning.h"
+
 namespace garmentfit {
-namespace {
-
-struct NamedMaterial {
-    std::string_view name;
-    Material material;  // density, stretch_stiffness, bend_stiffness, friction
-};
-
-// In the order of Fabric.
-// literature: bending [kawabata_1980_hand], the middle of the ranges of its bending test, 1 gf cm^2/cm being 9.8e-5 N
-// m.
-// fitted: the other columns are guesses, on the house data; docs/cloth.md says more.
-constexpr NamedMaterial k_fabrics[] = {
-    { "cotton", { 0.2, 400, 2e-5, 0.4 } },  { "denim", { 0.4, 800, 8e-5, 0.45 } },
-    { "jersey", { 0.17, 150, 4e-6, 0.4 } }, { "silk", { 0.07, 300, 3e-6, 0.25 } },
-    { "wool", { 0.25, 400, 1.2e-5, 0.5 } },
-};
-
-}  // namespace
 
 const std::vector<std::string_view>& fabric_names()
 {

@@ -9,8 +9,9 @@
 // Score    a pair counts when its result is certified; among those, the smaller largest stretch of an edge is better.
 // A guess  is a number that worked on these data and was not varied against a score.
 //
-// Defaults of DrapeOptions and RecoverOptions stand in their headers, because they are part of the interface. They are
-// fitted, too: guesses on the house pairs, a compromise between time and certified results.
+// Defaults of DrapeOptions and RecoverOptions and k_overstretched stand in their headers, because they are part of the
+// interface. They are fitted, too: guesses on the house pairs, the defaults a compromise between time and certified
+// results.
 
 #include <array>
 #include <numbers>

@@ -18,31 +18,24 @@ struct Anatomy {
     Vec3 up, front, left;
 };
 
-struct Angles {
-    double bend_min, bend_max, across_min, across_max;
-};
-
-// literature: [aaos_1994_joint_motion], ranges of healthy adults. Widened where one bone stands for several joints
-// (fitted: guess). Across is away from the middle of the body; the forearm's range across stands for the twist of the
-// upper arm.
-Angles angles_of(int bone)
+const Angles& angles_of(int bone)
 {
     switch (bone) {
     case lhipjoint:
-    case rhipjoint: return { radians(-5.0), radians(5.0), radians(-5.0), radians(5.0) };
+    case rhipjoint: return k_hip_joint_range;
     case lfemur:
-    case rfemur: return { radians(-25.0), radians(115.0), radians(-8.0), radians(50.0) };
+    case rfemur: return k_thigh_range;
     case ltibia:
-    case rtibia: return { radians(-5.0), radians(140.0), radians(-10.0), radians(10.0) };
+    case rtibia: return k_shin_range;
     case lowerneck:
-    case upperneck: return { radians(-30.0), radians(35.0), radians(-25.0), radians(25.0) };
+    case upperneck: return k_neck_range;
     case lclavicle:
-    case rclavicle: return { radians(-15.0), radians(15.0), radians(-10.0), radians(20.0) };
+    case rclavicle: return k_clavicle_range;
     case lhumerus:
-    case rhumerus: return { radians(-40.0), radians(100.0), radians(-45.0), radians(110.0) };
+    case rhumerus: return k_upper_arm_range;
     case lradius:
-    case rradius: return { radians(-8.0), radians(145.0), radians(-45.0), radians(45.0) };
-    default: return { radians(-15.0), radians(20.0), radians(-15.0), radians(15.0) };
+    case rradius: return k_forearm_range;
+    default: return k_spine_range;
     }
 }
 
@@ -130,7 +123,7 @@ JointLimits::JointLimits(const Rig& rig)
         const bool raises = b == lhumerus || b == rhumerus;
         if (range.across.dot(parent_turn.conjugate() * (raises ? Vec3(away + a.up) : away)) < 0)
             range.across = -range.across;
-        const Angles angles = angles_of(b);
+        const Angles& angles = angles_of(b);
         range.bend_min = angles.bend_min;
         range.bend_max = angles.bend_max;
         range.across_min = angles.across_min;

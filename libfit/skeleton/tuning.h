@@ -65,4 +65,19 @@ inline constexpr double k_neck_lean = 0.2;
 /// flexion.
 inline constexpr double k_arm_to_front = 0.9;
 
+/// Range of a joint, rad: bending, and across, away from the middle of the body.
+struct Angles {
+    double bend_min, bend_max, across_min, across_max;
+};
+/// fitted: guesses, on the pairs, after the ranges of healthy adults in [aaos_1994_joint_motion], but wider where one
+/// bone stands for several joints. The forearm's range across stands for the twist of the upper arm.
+inline constexpr Angles k_hip_joint_range { radians(-5.0), radians(5.0), radians(-5.0), radians(5.0) },
+    k_thigh_range { radians(-25.0), radians(115.0), radians(-8.0), radians(50.0) },
+    k_shin_range { radians(-5.0), radians(140.0), radians(-10.0), radians(10.0) },
+    k_neck_range { radians(-30.0), radians(35.0), radians(-25.0), radians(25.0) },
+    k_clavicle_range { radians(-15.0), radians(15.0), radians(-10.0), radians(20.0) },
+    k_upper_arm_range { radians(-40.0), radians(100.0), radians(-45.0), radians(110.0) },
+    k_forearm_range { radians(-8.0), radians(145.0), radians(-45.0), radians(45.0) },
+    k_spine_range { radians(-15.0), radians(20.0), radians(-15.0), radians(15.0) };
+
 }  // namespace garmentfit::skeleton_tuning

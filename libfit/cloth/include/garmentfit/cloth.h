@@ -26,7 +26,7 @@ struct Material {
 };
 
 /// Units: metres, kilograms, seconds. The default lengths and largest_stretch are fitted: guesses, on the pairs of the
-/// house data (see tuning.h).
+/// house data that cloth/tuning.h describes. They stand here because they are part of the interface.
 struct ClothOptions {
     Fabric fabric = Fabric::cotton;
     double contact_distance = 2.5e-3;  ///< m; contact force begins below this distance
@@ -44,7 +44,8 @@ struct ClothOptions {
 GARMENTFIT_API Material material_of(const ClothOptions& options);
 
 /// m/s. Cloth counts as settled when no vertex is faster than this.
-/// fitted: guess, on the house data, where cloth that looks at rest still creeps by some millimetres a second.
+/// fitted: guess, on the house data, where cloth that looks at rest still creeps by some millimetres a second. It
+/// stands here because programs compare speeds with it, too.
 constexpr double k_at_rest = 0.02;
 
 /// Where the time of moving cloth went, s, by the wall clock.

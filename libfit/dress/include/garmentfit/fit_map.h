@@ -24,7 +24,8 @@ struct FitMap {
 GARMENTFIT_API FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOptions& cloth = {});
 
 /// An edge stretched by more than this share of its length is overstretched: caught somewhere, or drawn round more body
-/// than the garment has girth for. Strain limiting begins below (docs/drape.md). Fitted: guess.
+/// than the garment has girth for. Strain limiting begins below (docs/drape.md).
+/// fitted: guess, on the house pairs that dress/tuning.h names. It stands here because warnings state it.
 constexpr double k_overstretched = 0.5;
 
 /// How many edges are overstretched, and where the worst is.

@@ -31,7 +31,7 @@ struct GivenJoints {
 
 struct RigOptions {
     /// Approximate number of vertices of the decimated surface in which joints are found.
-    int proxy_vertices = 8000;  // fitted: guess, on the bodies of docs/rig.md
+    int proxy_vertices = 8000;  // fitted: guess, on the bodies of docs/rig.md; part of the interface
     bool swap_sides = false;  ///< exchanges left and right, where the classification is wrong
     std::optional<Vec3> front {};  ///< rough direction of the chest, if known: replaces the classification
     GivenJoints joints {};  ///< corrections; joints between them adapt
