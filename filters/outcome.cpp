@@ -13,7 +13,7 @@
 namespace garmentfit {
 namespace {
 
-constexpr std::size_t k_named = 3;  // parts of the body that one line names
+constexpr std::size_t k_named = 3;  // unit: parts of the body that one line of text names
 
 std::string millimetres(double metres)
 {

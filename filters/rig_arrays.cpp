@@ -9,7 +9,7 @@
 namespace garmentfit {
 namespace {
 
-constexpr int k_tips_from = 1 + int(bone_count);
+constexpr int k_tips_from = 1 + int(bone_count);  // derived: after the root and the bones' tails
 
 void require_shape(const Rows& rows, int count, int columns, const char* what)
 {

@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t k_alignment = alignof(std::max_align_t);
+    static constexpr std::size_t k_alignment = alignof(std::max_align_t);  // derived: fits every type
     inline static thread_local OrderedMemory* current_ = nullptr;
 
     std::byte *begin_, *next_, *end_;

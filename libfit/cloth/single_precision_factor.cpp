@@ -11,7 +11,7 @@
 namespace garmentfit {
 namespace {
 
-constexpr int k_stem = k_factor_branches;  // the index of the stem among the branches
+constexpr int k_stem = k_factor_branches;  // derived: the index of the stem, after the branches
 
 /// The elimination tree of a factor: a column's parent is the first row below its diagonal.
 struct EliminationTree {

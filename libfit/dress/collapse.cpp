@@ -8,7 +8,8 @@
 namespace garmentfit {
 namespace {
 
-constexpr int k_segments = int(bone_count) + int(extremity_count);  // bones, then what lies beyond the last joints
+// derived: bones, then what lies beyond the last joints
+constexpr int k_segments = int(bone_count) + int(extremity_count);
 
 /// The skeleton as a tree of segments, distances measured along it.
 class SkeletonTree {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int k_leaf_size = 4;  // unit: decides speed, and single precision of windings
 constexpr int k_parts = 8;  // derived: cubes of 2 x 2 x 2 nodes in a block of 4 x 4 x 4
-constexpr float k_pi = float(std::numbers::pi);
+constexpr float k_pi = float(std::numbers::pi);  // derived
 constexpr int k_largest_parts = 40;  // unit: of a triangle's side; bounds the time for huge triangles
 constexpr double k_largest_grid = 4e6;  // unit: cells; bounds the memory
 

@@ -36,7 +36,7 @@ public:
     float winding(const Vec3& query) const;
 
     /// Both at the k x k x k nodes of a small grid, x fastest, in one walk down the tree; distances here are exact.
-    static constexpr int k = 4;
+    static constexpr int k = 4;  // unit: decides speed, and the precision of windings
     using Values = Eigen::Array<float, k * k * k, 1>;
     struct Block {
         Values distances, windings;

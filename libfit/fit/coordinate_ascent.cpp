@@ -11,6 +11,7 @@ namespace {
 constexpr std::array<int, 15> k_bending { lowerback, upperback, thorax,   lowerneck, upperneck,
                                           lclavicle, rclavicle, lhumerus, rhumerus,  lradius,
                                           rradius,   lfemur,    rfemur,   ltibia,    rtibia };
+// derived: translation and rotation of the root, two directions of each bone that bends
 constexpr int k_root_freedoms = 6, k_freedoms = k_root_freedoms + 2 * int(k_bending.size()),
               k_trunk_freedoms = k_root_freedoms + 2 * 7;  // of the root and the first seven bones
 

@@ -28,7 +28,7 @@ struct EnergyTerms {
 
 class FitEnergy {
 public:
-    static constexpr double k_any = -std::numeric_limits<double>::infinity();  // a bound that everything exceeds
+    static constexpr double k_any = -std::numeric_limits<double>::infinity();  // unit: a bound that everything exceeds
 
     /// Keeps references: rig, limits and metric have to live as long.
     FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues);

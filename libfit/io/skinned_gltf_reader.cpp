@@ -15,7 +15,7 @@
 namespace garmentfit {
 namespace {
 
-constexpr int k_pelvis = -1;
+constexpr int k_pelvis = -1;  // unit: a mark that is no bone
 constexpr std::array k_limb_bones { std::array { lclavicle, rclavicle }, std::array { lhumerus, rhumerus },
                                     std::array { lradius, rradius } };
 

@@ -20,6 +20,7 @@ struct KnownUnit {
     double metres;
     double log_rarity;  ///< dimensionless: how much rarer than metres in mesh files. fitted: guess, from experience
 };
+/// derived: metres by the definitions of the units; an inch is 25.4 mm.
 inline constexpr std::array<KnownUnit, 6> k_known_units { { { "m", 1, 0 },
                                                             { "dm", 0.1, 0.5 },
                                                             { "cm", 0.01, 0.2 },

@@ -18,8 +18,8 @@ namespace {
 
 using namespace rig_tuning;
 
-constexpr int k_ends = 5;  // one less without head
-constexpr int k_parts = 3;
+constexpr int k_ends = 5;  // derived: head, hands and feet; one less without head
+constexpr int k_parts = 3;  // derived: values of Part
 
 enum Part : int { head_end, hand_end, foot_end };
 

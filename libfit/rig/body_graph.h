@@ -8,6 +8,7 @@
 
 namespace garmentfit {
 
+// derived: the places after arms and legs in curve()
 constexpr int k_head_curve = 4, k_trunk_curve = 5;
 
 /// Body part of each curve of a human's curve skeleton. Left and right are not known yet.

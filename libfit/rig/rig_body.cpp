@@ -174,6 +174,7 @@ struct Attempt {
     double from, to;  ///< part of the progress
 };
 
+// unit: shares of the progress bar; those of the proxy are fitted, see tuning.h.
 // At touching hands or deep bends the flow may fail with one triangulation and succeed with another.
 constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { k_coarser_proxy, 0.9, 0.95 }, { k_finer_proxy, 0.95, 1 } };
 

@@ -20,7 +20,7 @@
 namespace garmentfit {
 
 enum class Stage { rig, fit, drape, recover };
-constexpr int k_stage_count = 4;
+constexpr int k_stage_count = 4;  // derived: values of Stage
 /// "rig", "fit", "drape", "recover".
 std::string_view name_of(Stage stage);
 

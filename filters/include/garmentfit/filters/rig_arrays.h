@@ -9,9 +9,10 @@ namespace garmentfit {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr int k_joint_rows = 1 + int(bone_count) + int(extremity_count);  ///< the root, the bones' tails, the tips
-constexpr int k_pose_columns
-    = 3 + 4 + 4 * int(bone_count);  ///< root's translation and rotation, rotations of the bones; w, x, y, z
+/// derived: the root, the bones' tails, the tips.
+constexpr int k_joint_rows = 1 + int(bone_count) + int(extremity_count);
+/// derived: root's translation and rotation, rotations of the bones; w, x, y, z.
+constexpr int k_pose_columns = 3 + 4 + 4 * int(bone_count);
 
 /// k_joint_rows x 3.
 Rows rows_of(const Skeleton& skeleton);
