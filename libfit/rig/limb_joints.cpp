@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bend.h"
 #include "limb_end.h"
@@ -33,6 +34,22 @@ Centreline extend_to_cut(const LabelledSurface& surface, const LimbLine& limb, d
     return line;
 }
 
+/// The line of a limb up to the row of its last joint, wrist or ankle, or the cut of the stump.
+struct LineToJoint {
+    Centreline line;
+    int last;
+};
+
+/// @param narrow  row of the narrowest cut, the last joint of a whole limb. @throws InvalidInput that names the joint.
+LineToJoint find_last_joint(const LabelledSurface& surface, const LimbLine& limb, bool whole, int narrow,
+                            const char* joint, double size)
+{
+    Centreline line = whole ? limb.line : extend_to_cut(surface, limb, size);
+    const int last = whole ? narrow : line.size() - 1;
+    require_part(last > line.first_free + k_fewest_limb_cuts, joint, limb.tip());
+    return { std::move(line), last };
+}
+
 // ---- arms -----------------------------------------------------------------------------------------------------------
 
 /// @param out  towards the side of this arm, unit, square to up
@@ -47,19 +64,15 @@ Vec3 shoulder(const Vec3& ring, const Vec3& elbow, const Vec3& up, const Vec3& o
 
 LimbJoints place_arm(const LabelledSurface& surface, const LimbLine& arm, const Vec3& up, const Vec3& out, double size)
 {
-    Centreline line = arm.line;
-    const Vec3 along = (arm.tip() - line.at(k_last_of_arm * line.length())).normalized();
+    const Vec3 along = (arm.tip() - arm.line.at(k_last_of_arm * arm.line.length())).normalized();
     LimbJoints joints;
     joints.tip = farthest_along(surface.last_vertices(arm.curve, k_hand_skin * size), along);
     const Narrowest narrow = find_narrowest(
-        line, joints.tip, { k_least_hand * size, k_hand * size, k_most_hand * size, k_hand_spread * size });
+        arm.line, joints.tip, { k_least_hand * size, k_hand * size, k_most_hand * size, k_hand_spread * size });
     require_part(narrow.row >= 0, "wrist", arm.tip());
     joints.widens = narrow.widens;
-    joints.whole = has_hand(line, size);
-    if (!joints.whole)
-        line = extend_to_cut(surface, arm, size);
-    const int wrist = joints.whole ? narrow.row : line.size() - 1;
-    require_part(wrist > line.first_free + k_fewest_limb_cuts, "wrist", arm.tip());
+    joints.whole = has_hand(arm.line, size);
+    const auto [line, wrist] = find_last_joint(surface, arm, joints.whole, narrow.row, "wrist", size);
     joints.end = line.points[wrist];
     joints.middle = place_bend(line, line.first_free, wrist, arm.ring(), k_elbow_ratio, size);
     joints.root = shoulder(arm.ring(), joints.middle, up, out, size);
@@ -107,17 +120,13 @@ std::array<Vec3, 2> place_hips(const std::array<LimbLine, 2>& legs, const Vec3& 
 
 LimbJoints place_leg(const LabelledSurface& surface, const LimbLine& leg, const Vec3& hip, double size)
 {
-    Centreline line = leg.line;
     const std::vector<Vec3> foot = surface.last_vertices(leg.curve, k_foot_skin * size);
     const Narrowest narrow = find_narrowest(
-        line, leg.tip(), { k_least_foot * size, k_usual_foot * size, k_most_foot * size, k_foot_spread * size });
+        leg.line, leg.tip(), { k_least_foot * size, k_usual_foot * size, k_most_foot * size, k_foot_spread * size });
     LimbJoints joints;
     joints.widens = narrow.widens;
-    joints.whole = has_foot(line, size);
-    if (!joints.whole)
-        line = extend_to_cut(surface, leg, size);
-    const int shin = joints.whole ? narrow.row : line.size() - 1;
-    require_part(shin > line.first_free + k_fewest_limb_cuts, "ankle", leg.tip());
+    joints.whole = has_foot(leg.line, size);
+    const auto [line, shin] = find_last_joint(surface, leg, joints.whole, narrow.row, "ankle", size);
     joints.root = hip;
     const double knee_ratio = joints.whole ? k_knee_above_shin : k_knee_ratio;
     joints.middle = place_bend(line, line.first_free, shin, joints.root, knee_ratio, size);
