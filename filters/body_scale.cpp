@@ -120,8 +120,8 @@ void restore_rows(Dressing& dressing, const Dressing& human_size, const Scene& s
                      scaled.garments[i].mesh.positions, given.garments[i].mesh.positions);
 }
 
-std::optional<Dressing> back(const std::optional<Dressing>& made, const std::optional<Dressing>& human_size,
-                             const Scene& scaled, const Scene& given)
+std::optional<Dressing> restore_given(const std::optional<Dressing>& made, const std::optional<Dressing>& human_size,
+                                      const Scene& scaled, const Scene& given)
 {
     std::optional<Dressing> result = made;
     if (result)
@@ -168,7 +168,7 @@ GivenJoints scale_joints(GivenJoints joints, double factor)
     return joints;
 }
 
-void put_back(Scene& scene, const Scene& at_human_size, double factor, const std::vector<Data>& outputs)
+void restore_size(Scene& scene, const Scene& at_human_size, double factor, const std::vector<Data>& outputs)
 {
     const Scene made = scale_scene(at_human_size, 1 / factor);
     for (const Data output : outputs)
@@ -180,9 +180,9 @@ void put_back(Scene& scene, const Scene& at_human_size, double factor, const std
             scene.one_pose = made.one_pose;
             scene.conflicts = made.conflicts;
             break;
-        case Data::draped: scene.draped = back(made.draped, at_human_size.draped, at_human_size, scene); break;
+        case Data::draped: scene.draped = restore_given(made.draped, at_human_size.draped, at_human_size, scene); break;
         case Data::recovered:
-            scene.recovered = back(made.recovered, at_human_size.recovered, at_human_size, scene);
+            scene.recovered = restore_given(made.recovered, at_human_size.recovered, at_human_size, scene);
             break;
         case Data::body:
         case Data::garments: break;  // no filter makes them

@@ -327,10 +327,10 @@ void run_scaled(const Filter& filter, Scene& scene, Parameters parameters, const
     try {
         run_stages(filter, copy, parameters, progress);
     } catch (...) {
-        put_back(scene, copy, factor, filter.outputs);
+        restore_size(scene, copy, factor, filter.outputs);
         throw;
     }
-    put_back(scene, copy, factor, filter.outputs);
+    restore_size(scene, copy, factor, filter.outputs);
 }
 
 /// An error's lengths are those of the copy, and say so.

@@ -43,7 +43,7 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, enlargement]
         = ClothOptions();
     EXPECT_EQ(count_of(ClothOptions()), 9u);
-    [[maybe_unused]] const auto [drape_cloth, inflation, settling] = DrapeOptions();
+    [[maybe_unused]] const auto [drape_cloth, growing, settling] = DrapeOptions();
     EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
     [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, frames] = RecoverOptions();
     EXPECT_EQ(count_of(RecoverOptions()), 8u + 4u);  // all of the cloth but how much larger it may be made

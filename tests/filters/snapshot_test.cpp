@@ -11,8 +11,8 @@ namespace {
 using namespace fixtures;
 
 /// A person with a sheet beside it, which is dressed in it on paper only.
-struct Moments : testing::Test {
-    Moments()
+struct Snapshots : testing::Test {
+    Snapshots()
     {
         const Person person = capsule_person();
         scene.body = make_body(person.mesh.positions, person.mesh.triangles);
@@ -36,24 +36,24 @@ struct Moments : testing::Test {
     Scene scene;
 };
 
-TEST_F(Moments, BeginWithTheBodyInItsOwnPoseBitForBit)
+TEST_F(Snapshots, BeginWithTheBodyInTheInputPoseBitForBit)
 {
     const Snapshot now = snapshot_of(scene, 1, {});
     EXPECT_EQ(now.body, scene.body->surface.positions);
     EXPECT_TRUE(now.garments.empty());
 }
 
-TEST_F(Moments, ShowTheNearestFrameAndTheEndAfterIt)
+TEST_F(Snapshots, ShowTheNearestFrameAndTheEndAfterIt)
 {
     recover_in_two_frames();
-    const Positions& own = scene.body->surface.positions;
-    EXPECT_EQ(snapshot_of(scene, 0.4, {}).body, Positions(own.array() + 1));
-    EXPECT_EQ(snapshot_of(scene, 0.6, {}).body, own);
-    EXPECT_EQ(snapshot_of(scene, 1, {}).body, own);
+    const Positions& input = scene.body->surface.positions;
+    EXPECT_EQ(snapshot_of(scene, 0.4, {}).body, Positions(input.array() + 1));
+    EXPECT_EQ(snapshot_of(scene, 0.6, {}).body, input);
+    EXPECT_EQ(snapshot_of(scene, 1, {}).body, input);
     EXPECT_EQ(snapshot_of(scene, 0.4, {}).maps[0].ease.size(), worn().rows());
 }
 
-TEST_F(Moments, OfAFittedBodyShowTheFitsPose)
+TEST_F(Snapshots, OfAFittedBodyShowTheFitsPose)
 {
     scene.fits.push_back({});
     scene.fits[0].pose.root_translation = { 0, 0.25, 0 };
@@ -61,17 +61,17 @@ TEST_F(Moments, OfAFittedBodyShowTheFitsPose)
     EXPECT_NEAR((moved - scene.body->surface.positions).col(1).minCoeff(), 0.25, 1e-12);
 }
 
-TEST_F(Moments, GoOnFromGarmentsAsTheyAreWornIfTheyAreTheSame)
+TEST_F(Snapshots, GoOnFromGarmentsAsTheyAreWornIfTheyAreTheSame)
 {
-    const Positions& own = scene.body->surface.positions;
-    const Dressing dressing = dressing_from(scene, {}, own, { worn() }, { "sheet" });
+    const Positions& input = scene.body->surface.positions;
+    const Dressing dressing = dressing_from(scene, {}, input, { worn() }, { "sheet" });
     EXPECT_TRUE(dressing.certified);
-    EXPECT_EQ(dressing.body, own);
-    expect_invalid([&] { dressing_from(scene, {}, own, { worn().topRows(3) }, { "sheet" }); }, "sheet");
-    expect_invalid([&] { dressing_from(scene, {}, own.topRows(3), { worn() }, { "sheet" }); }, "the body");
+    EXPECT_EQ(dressing.body, input);
+    expect_invalid([&] { dressing_from(scene, {}, input, { worn().topRows(3) }, { "sheet" }); }, "sheet");
+    expect_invalid([&] { dressing_from(scene, {}, input.topRows(3), { worn() }, { "sheet" }); }, "the body");
 }
 
-TEST_F(Moments, GoOnWithTheOutermostGarmentWhereverItWasGiven)
+TEST_F(Snapshots, GoOnWithTheOutermostGarmentWhereverItWasGiven)
 {
     scene.garments.push_back(scene.garments[0]);
     const std::vector<Positions> both { worn(), worn() };
@@ -85,14 +85,14 @@ TEST_F(Moments, GoOnWithTheOutermostGarmentWhereverItWasGiven)
     EXPECT_EQ(outermost_now(), 0u);
 }
 
-TEST_F(Moments, GoOnFromABodyThatClothHeldBack)
+TEST_F(Snapshots, GoOnFromABodyThatClothHeldBack)
 {
-    const Positions& own = scene.body->surface.positions;
-    Positions left = own.cast<float>().cast<double>();  // as a file keeps it
+    const Positions& input = scene.body->surface.positions;
+    Positions left = input.cast<float>().cast<double>();  // as a file keeps it
     left.row(1) += Eigen::RowVector3d(0, -0.005, 0);
     const Dressing dressing = dressing_from(scene, {}, left, { worn() }, { "sheet" });
     EXPECT_EQ(dressing.body.row(1), left.row(1));
-    EXPECT_EQ(dressing.body.row(0), own.row(0));
+    EXPECT_EQ(dressing.body.row(0), input.row(0));
 }
 
 }  // namespace

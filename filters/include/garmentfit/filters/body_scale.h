@@ -19,10 +19,10 @@ Scene scale_scene(Scene scene, double factor);
 /// Joints given by hand, in the same way.
 GivenJoints scale_joints(GivenJoints joints, double factor);
 
-/// Brings what a filter made of scale_scene(scene, factor) back into `scene`. What it left where it was given, vertices
-/// of the body, say, is bit for bit what was given.
+/// Writes what a filter made of scale_scene(scene, factor) into `scene`, scaled back to the size of `scene`. What it
+/// left where it was given, vertices of the body, say, is bit for bit what was given.
 /// @param outputs  of the filter
-void put_back(Scene& scene, const Scene& at_human_size, double factor, const std::vector<Data>& outputs);
+void restore_size(Scene& scene, const Scene& at_human_size, double factor, const std::vector<Data>& outputs);
 
 /// The fit map of a garment on a body as it is posed, measured at human size; ease in metres of the body as given.
 FitMap fit_map_on(const BodyMesh& body, const TriangleMesh& posed, const WornGarment& worn, const ClothOptions& cloth);
