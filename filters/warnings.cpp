@@ -56,6 +56,8 @@ std::string overstretched_edges(const std::string& name, const Overstretch& stre
 
 }  // namespace
 
+std::string set_by_name(std::string_view parameter) { return "set " + std::string(parameter); }
+
 std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
                                               const std::string& prefix, const HowToSet& set)
 {

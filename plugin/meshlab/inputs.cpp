@@ -20,7 +20,7 @@ Fitting new_fitting(const Choice& choice, Report& report)
         fitting.body_frame = guess.frame;
         fitting.scene.body = make_body(guess.frame.to_metres(mesh.positions), mesh.triangles);
         report.lines.push_back(fitting.body_name + ": " + guess.why);
-        report.warn(warnings_about_frame(fitting.body_name, guess, "", set_field));
+        report.warn(warnings_about_frame(fitting.body_name, guess, "", set_by_name));
     });
     if (fitting.scene.body->repaired)
         report.warnings.push_back(fitting.body_name
@@ -45,7 +45,7 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
                 { make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles), choice.types[i] });
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
-            report.warn(warnings_about_frame(fitting.garment_names.back(), guess, "garment_", set_field));
+            report.warn(warnings_about_frame(fitting.garment_names.back(), guess, "garment_", set_by_name));
         });
     fitting.scene = std::move(scene);
 }

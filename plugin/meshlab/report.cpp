@@ -11,12 +11,10 @@ namespace garmentfit::meshlab {
 
 void Report::warn(const std::vector<std::string>& more) { warnings.insert(warnings.end(), more.begin(), more.end()); }
 
-std::string set_field(std::string_view parameter) { return "set " + std::string(parameter); }
-
 void report_scene(Report& report, const Fitting& fitting)
 {
     const Scene& scene = fitting.scene;
-    report.warn(warnings_about_scene(scene, fitting.garment_names, set_field));
+    report.warn(warnings_about_scene(scene, fitting.garment_names, set_by_name));
     report.numbers["side_margin"] = scene.rig->side_margin;
     const Dressing* end = final_dressing(scene);
     for (std::size_t i = 0; i < scene.fits.size(); ++i) {

@@ -5,7 +5,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fitting.h"
@@ -19,9 +18,6 @@ struct Report {
 
     void warn(const std::vector<std::string>& more);
 };
-
-/// "set swap_sides": how warnings name a parameter.
-std::string set_field(std::string_view parameter);
 
 /// Reports the results of fitting and dressing.
 void report_scene(Report& report, const Fitting& fitting);

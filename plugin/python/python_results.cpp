@@ -146,8 +146,7 @@ nb::dict verdict_of(const PythonScene& s)
     made["speed"] = end.speed ? nb::cast(*end.speed) : nb::none();
     made["note"] = end.certified ? std::string() : explain(end, s.names);
     nb::list warnings;
-    const auto set = [](std::string_view parameter) { return "set " + std::string(parameter); };
-    for (const std::string& warning : warnings_about_layers(s.scene, s.names, set))
+    for (const std::string& warning : warnings_about_layers(s.scene, s.names, set_by_name))
         warnings.append(nb::str(warning.c_str()));
     for (const std::string& warning : warnings_about_dressing(end, s.names))
         warnings.append(nb::str(warning.c_str()));

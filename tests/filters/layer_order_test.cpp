@@ -87,9 +87,8 @@ TEST(LayerOrder, FittingFindsItWhereAskedToAndElseOnlyWarns)
     filter_of("fit").run(scene, {});
     EXPECT_EQ(scene.fits[0].layer, 0);
     EXPECT_EQ(scene.fits[1].layer, 1);
-    const HowToSet set = [](std::string_view parameter) { return "set " + std::string(parameter); };
     const auto warns = [&] {
-        const std::vector<std::string> warnings = warnings_about_scene(scene, k_names, set);
+        const std::vector<std::string> warnings = warnings_about_scene(scene, k_names, set_by_name);
         return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
             return warning.find("from the inside out: second, first; give them in this order, or set layer_order auto")
                 != std::string::npos;

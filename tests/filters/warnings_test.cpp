@@ -8,9 +8,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string set(std::string_view parameter) { return "set " + std::string(parameter); }
-
-/// Two garments worn, nothing doubtful about either.
+/// Two garments worn, no warning about either.
 Scene worn_scene()
 {
     Scene scene;
@@ -24,12 +22,12 @@ Scene worn_scene()
     return scene;
 }
 
-Lines warnings_of(const Scene& scene) { return warnings_about_scene(scene, { "skirt", "coat" }, set); }
+Lines warnings_of(const Scene& scene) { return warnings_about_scene(scene, { "skirt", "coat" }, set_by_name); }
 
 TEST(Warnings, AreNoneWhereEverythingIsSure)
 {
     EXPECT_EQ(warnings_of(worn_scene()), Lines());
-    EXPECT_EQ(warnings_about_frame("man", { {}, 1, 1, "" }, "", set), Lines());
+    EXPECT_EQ(warnings_about_frame("man", { {}, 1, 1, "" }, "", set_by_name), Lines());
 }
 
 TEST(Warnings, SayWhichParameterSettlesThem)
@@ -42,7 +40,7 @@ TEST(Warnings, SayWhichParameterSettlesThem)
               (Lines { "which side of the body is left is guessed with low confidence; if it is wrong, set swap_sides",
                        "the type of coat is guessed with low confidence: coat; if it is wrong, set type" }));
     EXPECT_EQ(
-        warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set),
+        warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set_by_name),
         (Lines { "the unit of coat is guessed with low confidence (it is wide); if it is wrong, set garment_unit",
                  "the up axis of coat is guessed with low confidence (it is wide); if it is wrong, set garment_up" }));
 }

@@ -16,6 +16,9 @@ namespace garmentfit {
 /// Tells the users of a host to set a parameter: "give --swap-sides", "set swap_sides".
 using HowToSet = std::function<std::string(std::string_view parameter)>;
 
+/// "set swap_sides": for hosts that show parameters by their names.
+std::string set_by_name(std::string_view parameter);
+
 /// About a mesh's unit and axes. @param prefix  of the parameters that settle them: "" or "garment_"
 std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
                                               const std::string& prefix, const HowToSet& set);
