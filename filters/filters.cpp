@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <string>
 
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/number_text.h"
 #include "garmentfit/stopwatch.h"
 
 namespace garmentfit {
@@ -314,9 +314,7 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
 
 std::string at_human_size(const std::string& line, double factor)
 {
-    std::ostringstream text;
-    text << line << " (lengths as on a body of human size, that is times " << factor << ")";
-    return text.str();
+    return line + " (lengths as on a body of human size, that is times " + rounded_text(factor, 6) + ")";
 }
 
 /// Runs on a copy of the scene at human size. What was made is scaled back, also by the stages before one that fails.

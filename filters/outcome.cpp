@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
 #include <sstream>
 #include <utility>
 
+#include "garmentfit/number_text.h"
 #include "garmentfit/units.h"
 
 namespace garmentfit {
@@ -18,12 +18,7 @@ constexpr std::size_t k_named = 3;  // unit: parts of the body that one line of 
 std::string millimetres(double metres)
 {
     const double value = 1000 * metres;
-    std::ostringstream text;
-    if (value >= 10)
-        text << std::lround(value) << " mm";
-    else
-        text << std::setprecision(2) << value << " mm";  // a doll lacks fractions of one
-    return text.str();
+    return (value >= 10 ? std::to_string(std::lround(value)) : rounded_text(value, 2)) + " mm";  // a doll's are small
 }
 
 /// Those of the garment that has the tightest part.
@@ -133,13 +128,12 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
     const Certificate& c = garment.certificate;
     const std::size_t kept = c.kept_self_crossings.size();
     std::ostringstream text;
-    text << std::setprecision(3) << name << " (" << name_of(type)
-         << "): " << c.body_crossings + c.self_crossings + c.layer_crossings << (kept > 0 ? " new" : "")
-         << " crossings, ";
+    text << name << " (" << name_of(type) << "): " << c.body_crossings + c.self_crossings + c.layer_crossings
+         << (kept > 0 ? " new" : "") << " crossings, ";
     if (kept > 0)
         text << kept << " with itself kept as given, ";
-    text << "minimum distance " << 1000 * c.min_distance << " mm, strain " << 100 * c.strain.p95
-         << "% at the 95th percentile";
+    text << "minimum distance " << rounded_text(1000 * c.min_distance, 3) << " mm, strain "
+         << rounded_text(100 * c.strain.p95, 3) << "% at the 95th percentile";
     return text.str();
 }
 

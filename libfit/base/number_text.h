@@ -1,25 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Numbers as text, for messages and files. Independent of the locale's thousands and of stream state.
+// The name that the header had before hosts used it, too: for sources that still include it.
 
-#include <string>
-
-#include <Eigen/Core>
-
-namespace garmentfit {
-
-/// Shortest text that reads back as the same number.
-std::string text_of(double value);
-std::string text_of(float value);
-/// The same for three numbers, with a blank between them.
-std::string text_of(const Eigen::Vector3d& values);
-
-/// With so many decimals: fixed_text(0.1234, 2) is "0.12".
-std::string fixed_text(double value, int decimals);
-/// With so many significant digits, without zeros at the end: rounded_text(1234.5, 3) is "1.23e+03".
-std::string rounded_text(double value, int digits);
-/// "(0.12, 1.50, -0.03) m", to the centimetre.
-std::string place_text(const Eigen::Vector3d& metres);
-
-}  // namespace garmentfit
+#include "garmentfit/number_text.h"

@@ -9,7 +9,7 @@
 #include "creases.h"
 #include "garmentfit/error.h"
 #include "garmentfit/fit_skeleton.h"
-#include "number_text.h"
+#include "garmentfit/number_text.h"
 #include "skin_weights.h"
 #include "sleeve_retraction.h"
 #include "tuning.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "garmentfit/number_text.h"
 #include "garmentfit/units.h"
 #include "named_vertices.h"
-#include "number_text.h"
 #include "tuning.h"
 
 namespace garmentfit {

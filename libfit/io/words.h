@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "file_bytes.h"
+#include "garmentfit/number_text.h"
 #include "garmentfit/types.h"
-#include "number_text.h"
 
 namespace garmentfit {
 

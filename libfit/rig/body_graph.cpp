@@ -10,7 +10,7 @@
 
 #include "curve_loops.h"
 #include "garmentfit/error.h"
-#include "number_text.h"
+#include "garmentfit/number_text.h"
 #include "tuning.h"
 
 namespace garmentfit {

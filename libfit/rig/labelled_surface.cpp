@@ -5,7 +5,7 @@
 #include <string>
 
 #include "garmentfit/error.h"
-#include "number_text.h"
+#include "garmentfit/number_text.h"
 
 namespace garmentfit {
 

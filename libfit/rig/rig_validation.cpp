@@ -7,7 +7,7 @@
 #include <string>
 
 #include "garmentfit/error.h"
-#include "number_text.h"
+#include "garmentfit/number_text.h"
 #include "surface_measures.h"
 #include "tuning.h"
 #include "winding_number.h"

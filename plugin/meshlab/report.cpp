@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
-#include <iomanip>
-#include <sstream>
-
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/warnings.h"
+#include "garmentfit/number_text.h"
 
 namespace garmentfit::meshlab {
 
@@ -32,13 +30,10 @@ void report_scene(Report& report, const Fitting& fitting)
 
 void report_girths(Report& report, const std::vector<Girth>& girths, double metres_per_unit)
 {
-    std::ostringstream lines;
-    lines << std::fixed << std::setprecision(1);
+    const auto centimetres = [](double metres) { return fixed_text(100 * metres, 1) + " cm"; };
     for (const Girth& girth : girths) {
-        lines.str("");
-        lines << girth.place << ": body " << 100 * girth.body << " cm, garment " << 100 * girth.garment << " cm, ease "
-              << 100 * girth.ease() << " cm";
-        report.lines.push_back(lines.str());
+        report.lines.push_back(girth.place + ": body " + centimetres(girth.body) + ", garment "
+                               + centimetres(girth.garment) + ", ease " + centimetres(girth.ease()));
         report.numbers[girth.place + " body"] = girth.body / metres_per_unit;
         report.numbers[girth.place + " garment"] = girth.garment / metres_per_unit;
     }

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "garmentfit/error.h"
 #include "garmentfit/io.h"
+#include "garmentfit/number_text.h"
 #include "garmentfit/skeleton.h"
 #include "garmentfit/units.h"
 
@@ -70,10 +69,8 @@ std::string verdict_of(const Json& report, const Frame& frame)
         gap = std::min(gap, garment.at("min_distance").get<double>() * frame.metres_per_unit);
         strain = std::max(strain, garment.at("strain").at("p95").get<double>());
     }
-    std::ostringstream text;
-    text << std::setprecision(2) << "certified: no crossing, minimum distance " << 1000 * gap << " mm, strain "
-         << 100 * strain << "% at the 95th percentile";
-    return text.str();
+    return "certified: no crossing, minimum distance " + rounded_text(1000 * gap, 2) + " mm, strain "
+        + rounded_text(100 * strain, 2) + "% at the 95th percentile";
 }
 
 /// Neighbouring bones get colours far apart.

@@ -3,14 +3,13 @@
 // garmentfit-picture: the results of `garmentfit dress`, `fit` or `rig`, side by side.
 
 #include <cstdlib>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 
 #include "dressed_folder.h"
 #include "garmentfit/error.h"
+#include "garmentfit/number_text.h"
 #include "garmentfit/version.h"
 #include "panels.h"
 
@@ -50,12 +49,11 @@ std::vector<Panel> panels_of(const std::vector<FittedGarment>& fitted)
 
 std::string headline_of(const std::vector<FittedGarment>& fitted)
 {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << "bones coloured by clearance; E";
+    std::string text = "bones coloured by clearance; E";
     for (const FittedGarment& garment : fitted)
-        text << (&garment == &fitted.front() ? " " : "; ") << garment.score_before << " -> " << garment.score_after
-             << " m";
-    return text.str();
+        text += (&garment == &fitted.front() ? " " : "; ") + garmentfit::fixed_text(garment.score_before, 2) + " -> "
+            + garmentfit::fixed_text(garment.score_after, 2) + " m";
+    return text;
 }
 
 void draw_folder(const std::string& folder, const std::string& map, int height, const std::string& output)
