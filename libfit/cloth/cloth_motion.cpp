@@ -259,12 +259,15 @@ double ClothMotion::snap_obstacle(const Positions& target)
     return longest_lag;
 }
 
-double step_until_converged(ClothMotion& motion, const MotionStep& step)
+double step_until_converged(ClothMotion& motion, const MotionStep& step, const Progress& progress)
 {
     StallDetector detector(k_most_converging_steps);
     double lag = INFINITY;
-    while (detector.goes_on(lag))
+    while (detector.goes_on(lag)) {
         lag = motion.advance(step);
+        if (progress.is_late())
+            break;
+    }
     return lag;
 }
 
@@ -279,14 +282,15 @@ SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int
     double lag = INFINITY;
     const auto moves = [&](int i) { return i < steps + to_rest && motion.speed() >= k_at_rest; };
     for (int i = 0; i < steps || detector.goes_on(lag) || moves(i); ++i) {
-        progress.at(double(i) / (steps + k_most_extra_settling_steps));
+        if (!progress.goes_on(double(i) / (steps + k_most_extra_settling_steps)))
+            return { motion.advect_obstacle(target) == 0, motion.speed(), true };
         step.velocity_kept = i < k_swinging_steps * steps ? k_swinging_velocity : k_calming_velocity;
         step.contact_stiffness = lag > 0 ? k_pushing_contact_stiffness : k_settling_contact_stiffness;
         lag = motion.advance(step);
         if (lag > 0)
             lag = motion.advect_obstacle(target);
     }
-    return { lag == 0, motion.speed() };
+    return { lag == 0, motion.speed(), false };
 }
 
 }  // namespace garmentfit

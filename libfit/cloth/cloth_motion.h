@@ -97,13 +97,14 @@ private:
     ClothSeconds seconds_;
 };
 
-/// Repeats a step until the whole obstacle is at its target, for as long as that is worth the time. @return as
-/// advance()
-double step_until_converged(ClothMotion& motion, const MotionStep& step);
+/// Repeats a step until the whole obstacle is at its target, for as long as that is worth the time. Ends after one step
+/// when the deadline has passed. @return as advance()
+double step_until_converged(ClothMotion& motion, const MotionStep& step, const Progress& progress);
 
 struct SettleResult {
     bool is_at_target;  ///< the whole obstacle
     double speed;  ///< m/s, of the fastest vertex of the cloth
+    bool out_of_time;  ///< the deadline passed before the cloth was settled
 };
 
 /// Hangs the cloth on the obstacle under gravity, for so many time steps, and some more while parts of the obstacle are

@@ -107,28 +107,36 @@ private:
     double size_ = 1;
 };
 
-/// Lets the body grow inside the garment. @return the scale reached: 1, or less where the cloth would stretch too far.
-double grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading, int steps, const Progress& progress)
+struct Growth {
+    double scale;  ///< 1, or less where the cloth would stretch too far, or the deadline passed
+    bool out_of_time;
+};
+
+/// Lets the body grow inside the garment.
+Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading, int steps, const Progress& progress)
 {
     constexpr double k_just_below = 1 - 1e-3;  // unit: the last step ends at 1, which would say that the garment fits
     const GrowingBody& inside = start.inside;
     MotionStep step;
     step.largest_move = step.largest_obstacle_move = k_growing_move;
+    double reached = start.scale;
     for (int i = 1; i <= steps; ++i) {
-        progress.at(double(i) / steps);
+        if (!progress.goes_on(double(i) / steps))
+            return { reached, true };
         const double scale = start.scale + (1 - start.scale) * i / steps;
         const Positions target = inside.at(scale);
         step.obstacle_target = &target;
         motion.advance(step);
         if (!grading.enlarge_if_tight(motion))
-            return scale < 1 ? scale : k_just_below;
+            return { scale < 1 ? scale : k_just_below, false };
+        reached = scale;
     }
     const Positions bridged = inside.at(1);
     step.obstacle_target = &bridged;
-    step_until_converged(motion, step);
+    step_until_converged(motion, step, progress);
     motion.advect_obstacle(inside.withdrawn);
     motion.advect_obstacle(inside.full.positions);
-    return 1;
+    return { 1, false };
 }
 
 /// Where the garment is too small, on a body that ceased to grow.
@@ -193,11 +201,16 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
                        { { inside.at(start.scale), inside.full.triangles }, int(inside.body_vertices) }, options.cloth);
 
     DrapeResult result;
-    result.scale_reached = grow_body(motion, start, grading, options.growing_steps, progress.part(0, 0.7));
-    if (result.scale_reached < 1)
+    const Growth growth = grow_body(motion, start, grading, options.growing_steps, progress.part(0, 0.7));
+    result.scale_reached = growth.scale;
+    result.out_of_time = growth.out_of_time;
+    if (result.scale_reached == 1) {
+        const SettleResult settled
+            = settle(motion, inside.full.positions, options.settling_steps, 0, progress.part(0.7, 1));
+        result.speed = settled.speed;
+        result.out_of_time = settled.out_of_time;
+    } else if (!result.out_of_time)
         result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer, options.cloth.largest_stretch);
-    else
-        result.speed = settle(motion, inside.full.positions, options.settling_steps, 0, progress.part(0.7, 1)).speed;
     result.seconds = motion.seconds();
     write_dressed_body(result, motion, inside, grading, wearer);
     if (result.scale_reached == 1)

@@ -109,9 +109,10 @@ struct PathOutcome {
     double share = 0;  ///< of the path that was gone: 1, or less where the body got stuck
     double in_place = 0;  ///< the last share at which the whole body was in its place
     Positions state_in_place;  ///< of the motion, there
+    bool out_of_time = false;  ///< the deadline passed before the end of the path
 
-    bool is_stuck() const { return share < 1; }
-    double reached() const { return is_stuck() ? in_place : 1; }
+    bool ended_early() const { return share < 1 || out_of_time; }
+    double reached() const { return ended_early() ? in_place : 1; }
 };
 
 MotionStep moving_step(const Positions& target)
@@ -127,17 +128,18 @@ MotionStep moving_step(const Positions& target)
 /// rest.
 /// @return m; the longest distance of a vertex of the body from its place
 double step_along(ClothMotion& motion, const PosePath& path, double from, double to, const MovedWeights& weights,
-                  double stuck_lag)
+                  double stuck_lag, const Progress& progress)
 {
     const BoneTransforms transforms = relative_transforms(path.transforms(from), path.transforms(to));
     const Positions cloth = motion.cloth(), body = motion.obstacle(), target = path.bridged_at(to);
     motion.advect(skin(cloth, weights.cloth, transforms) - cloth, skin(body, weights.body, transforms) - body);
     const MotionStep step = moving_step(target);
     const double lag = motion.advance(step);
-    return lag > stuck_lag ? step_until_converged(motion, step) : lag;  // it may only be slow
+    return lag > stuck_lag ? step_until_converged(motion, step, progress) : lag;  // it may only be slow
 }
 
-/// Moves body and cloth along the path. Ends early where cloth holds a part of the body back too far.
+/// Moves body and cloth along the path. Ends early where cloth holds a part of the body back too far, and when the
+/// deadline passes.
 PathOutcome follow_path(ClothMotion& motion, const PosePath& path, const MovedWeights& weights,
                         const RecoverOptions& options, FrameRecorder& recorder, const Progress& progress)
 {
@@ -147,9 +149,11 @@ PathOutcome follow_path(ClothMotion& motion, const PosePath& path, const MovedWe
     const double stuck_lag = k_stuck_lag + (motion.obstacle() - path.at(0)).rowwise().norm().maxCoeff();
     PathOutcome outcome { 0, 0, motion.state() };
     for (int i = 1; i <= steps; ++i) {
-        progress.at(double(i) / steps);
+        outcome.out_of_time = !progress.goes_on(double(i) / steps);
+        if (outcome.out_of_time)
+            return outcome;
         outcome.share = double(i) / steps;
-        const double lag = step_along(motion, path, double(i - 1) / steps, outcome.share, weights, stuck_lag);
+        const double lag = step_along(motion, path, double(i - 1) / steps, outcome.share, weights, stuck_lag, progress);
         if (lag < k_in_place) {
             outcome.in_place = outcome.share;
             outcome.state_in_place = motion.state();
@@ -160,7 +164,7 @@ PathOutcome follow_path(ClothMotion& motion, const PosePath& path, const MovedWe
             recorder.record(motion, outcome.share);
     }
     const Positions bridged = path.bridged_at(1);
-    step_until_converged(motion, moving_step(bridged));
+    step_until_converged(motion, moving_step(bridged), progress);
     return outcome;
 }
 
@@ -212,16 +216,18 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     const PathOutcome outcome = follow_path(motion, path, weights, options, recorder, progress.part(0, 0.8));
 
     RecoverResult result;
-    if (outcome.is_stuck()) {
-        result.held_back = list_held_back_parts(motion.obstacle(), path.bridged_at(outcome.share), rig.weights);
+    if (outcome.ended_early()) {
+        if (!outcome.out_of_time)
+            result.held_back = list_held_back_parts(motion.obstacle(), path.bridged_at(outcome.share), rig.weights);
         motion.restore(outcome.state_in_place);
     } else {
         motion.advect_obstacle(path.withdrawn_end());
         motion.advect_obstacle(path.end());
     }
     const Positions end = path.at(outcome.reached());
-    const auto [arrived, speed] = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1));
-    if (!outcome.is_stuck())
+    const auto [arrived, speed, hurried]
+        = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1));
+    if (!outcome.ended_early())
         recorder.record(motion, 1);
 
     result.pose = slerp(dressed.pose, target, outcome.reached());
@@ -231,16 +237,17 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     add_slips(result.garments,
               skin(outfit.cloth.positions, weights.cloth,
                    relative_transforms(path.transforms(0), path.transforms(outcome.reached()))));
-    if (!outcome.is_stuck())
+    if (!outcome.ended_early())
         result.held_back = list_held_back_parts(result.body, end, rig.weights);
     result.frames = std::move(recorder).take();
     result.pose_reached = outcome.reached();
     result.speed = speed;
+    result.out_of_time = outcome.out_of_time || hurried;
     result.seconds = motion.seconds();
     result.too_tight = list_tight_parts(rig, start, result, options.cloth.largest_stretch);
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
-    result.certified = clean && arrived && !outcome.is_stuck() && result.too_tight.empty();
-    if (!result.certified)
+    result.certified = clean && arrived && !outcome.ended_early() && result.too_tight.empty();
+    if (!result.certified && !result.out_of_time)
         result.overlaps = find_overlaps({ path.end(), body.surface.triangles }, rig.weights,
                                         mark_near_cloth(result.body, motion.cloth()));
     return result;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/drape_garment.h"
 
+#include <chrono>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -45,6 +48,18 @@ GarmentMesh trousers(double ease)
 
 // In the pose of the input, with a garment on that keeps its rest shape.
 DressedBody wearing(const GarmentMesh& garment) { return { {}, {}, { { garment, garment.positions, {} } } }; }
+
+/// A progress whose deadline passes at a fraction of the work, or before.
+Progress late_at(double fraction)
+{
+    const Deadline deadline = Deadline::in(0.5);
+    const auto wait = [fraction, deadline](double done, std::string_view) {
+        while (done >= fraction && !deadline.has_passed())
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return true;
+    };
+    return Progress(wait).until(deadline);
+}
 
 DrapeOptions short_settling()
 {
@@ -185,6 +200,29 @@ TEST(DrapeGarment, StopsWhenToldTo)
     EXPECT_THROW(drape_garment(d.rig, d.body, {}, trousers(0.02), {}, stop), Cancelled);
 }
 
+TEST(DrapeGarment, EndsCleanAtTheScaleReachedWhenTimeRunsOut)
+{
+    const Dressing d = person();
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, trousers(0.02), {}, late_at(0.3));
+    EXPECT_TRUE(result.out_of_time);
+    EXPECT_FALSE(result.certified);
+    EXPECT_LT(result.scale_reached, 1);
+    EXPECT_TRUE(result.too_tight.empty()) << "the garment is not too small";
+    ASSERT_EQ(result.garments.size(), 1u);
+    EXPECT_TRUE(result.garments[0].certificate.clean());
+    EXPECT_FALSE(drape_garment(d.rig, d.body, {}, trousers(0.02), short_settling()).out_of_time);
+}
+
+TEST(DrapeGarment, IsCertifiedButNotSettledWhenTimeRunsOutAtFullSize)
+{
+    const Dressing d = person();
+    DrapeOptions endless;
+    endless.settling_steps = 10000;
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, trousers(0.02), endless, late_at(0.701));
+    EXPECT_TRUE(result.out_of_time);
+    EXPECT_TRUE(result.scale_reached < 1 || result.certified) << "a slow machine may be late before";
+}
+
 TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
 {
     const Dressing d = person(35);
@@ -308,6 +346,19 @@ INSTANTIATE_TEST_SUITE_P(Known, RealGarment,
                                          Wearing { "FeetInTrouserLegs", "man_a_pose", "trousers" },
                                          Wearing { "WaistInALap", "old_woman_sitting", "trousers" }),
                          [](const auto& wearing) { return std::string(wearing.param.name); });
+
+TEST(RecoverPose, EndsCleanOnThePathWhenTimeRunsOut)
+{
+    const Dressing d = person();
+    Pose striding;
+    striding.rotations[lfemur] = Eigen::Quaterniond(Eigen::AngleAxisd(30 * k_degree, Vec3::UnitX()));
+    const RecoverResult result = recover_pose(d.rig, d.body, wearing(trousers(0.02)), striding, {}, late_at(0.4));
+    EXPECT_TRUE(result.out_of_time);
+    EXPECT_FALSE(result.certified);
+    EXPECT_LT(result.pose_reached, 1);
+    EXPECT_TRUE(result.garments[0].certificate.clean());
+    EXPECT_TRUE(result.held_back.empty());
+}
 
 TEST(RecoverPose, RefusesGarmentsThatCrossTheBody)
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is thrown. The classes differ by who can repair it: the caller, nobody, or a caller who changed their mind.
+// What is thrown. The classes differ by who can repair it: the caller, nobody, a caller who changed their mind, or one
+// who gives more time.
 
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,13 @@ public:
 class GARMENTFIT_API Cancelled : public std::runtime_error {
 public:
     Cancelled() : std::runtime_error("stopped by the user") { }
+};
+
+/// The deadline of a Progress passed in work that has no result to return yet.
+class GARMENTFIT_API TimeLimitReached : public std::runtime_error {
+public:
+    TimeLimitReached() : TimeLimitReached("the time limit was reached") { }
+    explicit TimeLimitReached(const std::string& line) : std::runtime_error(line) { }
 };
 
 }  // namespace garmentfit

@@ -70,13 +70,16 @@ GARMENTFIT_API bool certify_all(std::vector<WornGarment>& garments, const Triang
 /// The dressed body as draping left it, at the body scale reached. The last garment is the new one. It is left out
 /// where it is too small to be put on over the others. Hands that would stand across a sleeve are stretched out.
 struct DrapeResult : DressedBody {
-    double scale_reached = 1;  ///< of the body's thickness, 1 = full size; less where the garment is too small
+    /// Of the body's thickness, 1 = full size; less where the garment is too small, or where time ran out.
+    double scale_reached = 1;
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< parts that cloth holds back from their places at full size; worst first
-    /// m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None where the garment is too
-    /// small: then nothing settles.
+    /// m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None below full size: then nothing
+    /// settles.
     std::optional<double> speed;
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
+    /// The deadline of the Progress passed: the body is at the scale it had reached, or the cloth is not settled.
+    bool out_of_time = false;
     ClothSeconds seconds;
 };
 

@@ -46,10 +46,12 @@ struct RecoverResult : DressedBody {
     std::vector<Overlap> overlaps;  ///< deepest first; looked for only if the result is not certified
     std::vector<RecoverFrame> frames;  ///< those that are certified; memory 24 bytes per vertex and frame
     /// Share of the path. 1: the target was reached, though parts may be held back. Less: the body got stuck, with some
-    /// part more than 8 cm behind, and was put back to the last share at which all of it was in place.
+    /// part more than 8 cm behind, or time ran out, and it was put back to the last share at which all of it was in
+    /// place.
     double pose_reached = 0;
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
     bool certified = false;  ///< target reached, nothing too tight, every certificate clean
+    bool out_of_time = false;  ///< the deadline of the Progress passed, on the path or before the cloth was settled
     ClothSeconds seconds;
 };
 
