@@ -91,6 +91,9 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
             FitOptions options = p.fit;
             if (garment.type != GarmentType::automatic)
                 options.type = garment.type;
+            if (garment.front)
+                options.front = garment.front;
+            options.as_placed = garment.as_placed.value_or(options.as_placed);
             return fit_skeleton(*scene.rig, scene.body->surface, garment.mesh, options,
                                 progress.part(double(i) / n, double(i + 1) / n));
         }));
@@ -146,14 +149,31 @@ Dressing dressing_of(const DrapeResult& result)
     dressing.speed = result.speed;
     dressing.seconds = result.seconds;
     dressing.certified = result.certified;
+    if (result.out_of_time)
+        dressing.out_of_time = Stage::drape;
+    return dressing;
+}
+
+/// What is left to do at the time limit is left out.
+Dressing end_at_time_limit(Dressing dressing, Stage stage)
+{
+    if (!dressing.out_of_time)
+        dressing.out_of_time = stage;
+    dressing.certified = false;
     return dressing;
 }
 
 /// Moves a dressed body to another pose. Returns the start where the end is not free of crossings.
 /// @param worn  which of the scene's garments those of the dressing are; more may follow
 Dressing move_to_pose(const Scene& scene, const Dressing& from, const std::vector<std::size_t>& worn, const Pose& to,
-                      const RecoverOptions& options, const Progress& progress)
+                      const RecoverOptions& options, Stage stage, const Progress& progress)
 {
+    if (progress.is_late()) {
+        Dressing next = end_at_time_limit(from, stage);
+        next.pose_reached = 0;
+        next.frames_asked = options.frames;
+        return next;
+    }
     const RecoverResult result = recover_pose(*scene.rig, scene.body.value(), from, to, options, progress);
     Dressing next = from;
     next.certified = result.certified;
@@ -163,6 +183,7 @@ Dressing move_to_pose(const Scene& scene, const Dressing& from, const std::vecto
     next.seconds += result.seconds;
     next.frames = result.frames;
     next.frames_asked = options.frames;
+    next.out_of_time = result.out_of_time ? std::optional(stage) : std::nullopt;
     if (!all_clean(result.garments)) {
         next.pose_reached = 0;
         return next;
@@ -212,7 +233,9 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
         const Progress slice = progress.part(double(layer) / n, double(layer + 1) / n);
         const Pose& pose = scene.fits[order[layer]].pose;
         if (layer > 0 && !is_same(dressing.pose, pose))
-            dressing = move_to_pose(scene, dressing, order, pose, between_poses, slice.part(0, 0.3));
+            dressing = move_to_pose(scene, dressing, order, pose, between_poses, Stage::drape, slice.part(0, 0.3));
+        if (layer > 0 && slice.is_late())
+            dressing = end_at_time_limit(std::move(dressing), Stage::drape);
         if (layer > 0 && !dressing.certified)
             break;
         dressing.pose = pose;
@@ -245,7 +268,8 @@ std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
     const std::vector<std::size_t> worn = worn_from_inside_out(scene);
-    Dressing recovered = move_to_pose(scene, select(*scene.draped, worn), worn, Pose(), p.recover, progress);
+    Dressing recovered
+        = move_to_pose(scene, select(*scene.draped, worn), worn, Pose(), p.recover, Stage::recover, progress);
     measure(scene, recovered, p.recover.cloth);
     recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
@@ -292,6 +316,18 @@ void require_inputs(const Filter& filter, const Scene& scene)
         }
 }
 
+/// @throws TimeLimitReached with a line that says which stage takes longer, and what to do
+void run_stage(const StageRow& stage, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    try {
+        progress.goes_on(0);  // draping and recovering return something at any time
+        stage.run(scene, parameters, progress);
+    } catch (const TimeLimitReached&) {
+        throw TimeLimitReached("time_limit: it was reached while " + std::string(stage.progress_name)
+                               + ", before there was anything to show; give more, or 0 for no limit");
+    }
+}
+
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
@@ -303,9 +339,8 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
         const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
         const double next = done + row(stage).share / total;
         const Progress slice = progress.part(done, next, row(stage).progress_name);
-        slice.at(0);
-        row(stage).run(scene, parameters, slice);
-        slice.at(1);
+        run_stage(row(stage), scene, parameters, slice);
+        slice.goes_on(1);
         done = next;
         if (ends_here(scene, stage))
             break;
@@ -431,11 +466,12 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
     describe(*this, parameters, CheckRanges());
     Parameters p = parameters;
     p.recover.cloth = cloth(parameters);
+    const Progress limited = progress.until(Deadline::in(p.time_limit));
     const double factor = factor_to_human_size(*scene.body);
     if (factor == 1)
-        run_stages(*this, scene, p, progress);
+        run_stages(*this, scene, p, limited);
     else
-        run_at_human_size(*this, scene, p, progress, factor);
+        run_at_human_size(*this, scene, p, limited, factor);
 }
 
 }  // namespace garmentfit

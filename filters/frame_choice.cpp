@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/filters/frame_choice.h"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "garmentfit/error.h"
+#include "garmentfit/filters/schema.h"
+
 namespace garmentfit {
 namespace {
 
@@ -18,6 +25,39 @@ FrameGuess apply_choice(FrameGuess guess, const FrameChoice& choice)
     return guess;
 }
 
+/// The frame with its unit replaced by the nearest one that has a name: that of the file, where its body was scaled to
+/// a given height.
+Frame in_named_unit(Frame frame)
+{
+    const auto distance
+        = [&](std::string_view unit) { return std::abs(std::log(metres_per(unit) / frame.metres_per_unit)); };
+    const std::vector<std::string_view>& units = unit_choices();
+    frame.metres_per_unit
+        = metres_per(*std::min_element(units.begin() + 1, units.end(), [&](std::string_view a, std::string_view b) {
+              return distance(a) < distance(b);
+          }));  // the first is "auto"
+    return frame;
+}
+
+std::string text_of_number(double number)
+{
+    std::ostringstream text;
+    text.precision(3);
+    text << number;
+    return text.str();
+}
+
+/// Scales the body to a height.
+void set_height(FrameGuess& guess, const Positions& positions, double height)
+{
+    const double units = height_of(positions, guess.frame) / guess.frame.metres_per_unit;
+    if (!(units > 0))
+        throw InvalidInput(ErrorCode::degenerate_mesh, "height: the body is flat along its up axis; give up, too");
+    guess.frame.metres_per_unit = height / units;
+    guess.unit_margin = 1;
+    guess.why = "the body is " + text_of_number(units) + " units tall, " + text_of_number(height) + " m as given";
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& unit_choices()
@@ -32,15 +72,54 @@ const std::vector<std::string_view>& axis_choices()
     return choices;
 }
 
-FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice)
+FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const BodyChoice& choice)
 {
-    return apply_choice(guess_body_frame(positions, triangles), choice);
+    const BodySizes sizes { choice.height };
+    describe(sizes, CheckRanges());
+    FrameGuess guess = apply_choice(guess_body_frame(positions, triangles), choice);
+    if (choice.height)
+        set_height(guess, positions, *choice.height);
+    return guess;
 }
 
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
-                         const FrameChoice& choice)
+                         const GarmentChoice& choice)
 {
-    return apply_choice(guess_garment_frame(positions, triangles, body), choice);
+    const GarmentSizes sizes { choice.scale };
+    describe(sizes, CheckRanges());
+    FrameGuess guess = guess_garment_frame(positions, triangles, in_named_unit(body));
+    if (choice.as_placed)
+        guess = { body, 1, 1, "the garment lies on the body in its file, in the same units and axes" };
+    guess = apply_choice(guess, choice);
+    guess.frame.metres_per_unit *= choice.scale;
+    if (choice.scale != 1)
+        guess.why += ", scaled by " + text_of_number(choice.scale) + " as given";
+    front_of_garment(guess.frame, choice.front);
+    return guess;
+}
+
+std::optional<Vec3> front_of_body(const Frame& frame, const std::string& axis)
+{
+    if (axis.empty() || axis == "auto")
+        return {};
+    return Vec3(frame.rotation() * axis_of(axis));
+}
+
+std::optional<Vec3> front_of_garment(const Frame& frame, const std::string& axis)
+{
+    const std::optional<Vec3> front = front_of_body(frame, axis);
+    if (front && std::abs(front->y()) > 0.5)
+        throw InvalidInput(ErrorCode::wrong_call,
+                           "garment_front: " + axis
+                               + " lies along the up axis of the garment; give an axis at a right angle to it, or "
+                                 "garment_up, too");
+    return front;
+}
+
+double height_of(const Positions& positions, const Frame& frame)
+{
+    const Eigen::VectorXd heights = positions * frame.up * frame.metres_per_unit;
+    return heights.size() > 0 ? heights.maxCoeff() - heights.minCoeff() : 0;
 }
 
 }  // namespace garmentfit

@@ -70,6 +70,19 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
     return text.str();
 }
 
+std::string why_out_of_time(const Dressing& end, const std::vector<std::string>& names)
+{
+    std::ostringstream text;
+    text << names[end.outermost] << " could not be certified: the time limit was reached while "
+         << (*end.out_of_time == Stage::drape ? "draping" : "recovering the pose");
+    if (end.scale_reached < 1)
+        text << ", with the body at " << percent(end.scale_reached) << "% of its size";
+    else if (end.pose_reached < 1)
+        text << ", at " << percent(end.pose_reached) << "% of the path between two poses";
+    text << "; give more as time_limit, or 0 for no limit";
+    return text.str();
+}
+
 std::string why_not_certified(const Dressing& end, const std::vector<std::string>& names)
 {
     const auto crossing = std::find_if_not(end.garments.begin(), end.garments.end(),
@@ -83,6 +96,8 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
              << c.layer_crossings << " with layers, " << c.vertices_inside << " vertices inside";
         return text.str();
     }
+    if (end.out_of_time)
+        return why_out_of_time(end, names);
     if (end.pose_reached < 1)
         text << "the body stopped at " << percent(end.pose_reached) << "% of the path between two poses";
     else
@@ -114,6 +129,8 @@ Outcome outcome_of(const Dressing& end)
 {
     if (end.certified)
         return Outcome::done;
+    if (end.out_of_time && (end.scale_reached < 1 || end.pose_reached < 1))
+        return Outcome::not_certified;
     const bool too_small = end.scale_reached < 1 || (!end.too_tight.empty() && all_clean(end.garments));
     return too_small ? Outcome::too_small : Outcome::not_certified;
 }

@@ -94,9 +94,10 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
     std::vector<std::string> warnings;
     if (end.speed && *end.speed >= k_at_rest)
         warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
-                           + " mm/s); give more settling steps");
+                           + " mm/s); give more "
+                           + (end.out_of_time ? "time as time_limit: it was reached" : "settling steps"));
     const auto is_too_small = [&](std::size_t i) {
-        return (i == end.outermost && end.scale_reached < 1)
+        return (i == end.outermost && end.scale_reached < 1 && !end.out_of_time)
             || std::any_of(end.too_tight.begin(), end.too_tight.end(),
                            [&](const TooTight& part) { return part.garment == int(i); });
     };
@@ -106,6 +107,8 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
         else if (is_too_small(i))
             warnings.push_back(names[i]
                                + " is left out of the result: it is too small to go over body and garments under it");
+        else if (end.out_of_time)
+            warnings.push_back(names[i] + " was not put on within the time limit");
         else
             warnings.push_back(names[i] + " was not put on, because the garments under it were not certified");
     for (std::size_t i = 0; i < end.overstretches.size(); ++i)

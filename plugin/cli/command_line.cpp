@@ -73,6 +73,13 @@ bool starts_from_meshes(const Filter& filter) { return filter.has(Stage::rig) ||
 /// `fit` also rigs, unless it is given a rig.
 bool takes_a_rig(const Filter& filter) { return filter.has(Stage::fit) && !filter.has(Stage::rig); }
 
+double scale_from(const std::string& text)
+{
+    GarmentSizes sizes;
+    describe(sizes, SetByName { "garment_scale", text });
+    return sizes.scale;
+}
+
 void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
 {
     command.add_option("BODY", call.body, "Body mesh: OBJ, PLY, OFF, STL, glTF, GLB")->required();
@@ -101,6 +108,26 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
         ->default_str("auto");
     command.add_option("--garment-unit", call.garment_frame.unit, "Unit of the garments' files")->default_str("auto");
     command.add_option("--garment-up", call.garment_frame.up, "Up axis of the garments' files")->default_str("auto");
+    command
+        .add_option("--garment-front", call.garment_fronts,
+                    "Where the front of a garment faces in its file, once for all or once for each: auto, +x, -x, +y, "
+                    "-y, +z, -z")
+        ->allow_extra_args(false)
+        ->default_str("auto");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--garment-scale",
+            [&call](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    call.garment_scales.push_back(scale_from(text));
+            },
+            "A garment's file is multiplied by this, after its unit; once for all or once for each (0.001..1000)")
+        ->allow_extra_args(false)
+        ->type_name("")
+        ->default_str("1");
+    command.add_flag("--as-placed", call.as_placed_texts,
+                     "Body and garment come from one scene, and the garment lies round the body already; --as-placed "
+                     "for all, or --as-placed=on or --as-placed=off once for each");
     command.add_option("--rig", call.rig,
                        "Take the rig from this rig.json (weights from rigged.ply beside it, where there is one) or "
                        "from this skinned glTF or GLB of the same vertices");
@@ -136,6 +163,41 @@ std::string one_line(std::string text)
     return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
+/// One value for all garments, or one for each.
+template <class Value>
+void require_one_or_each(const std::vector<Value>& values, const Call& call, const std::string& flag)
+{
+    if (values.size() > 1 && values.size() != call.garments.size())
+        throw InvalidInput(ErrorCode::wrong_call,
+                           std::to_string(values.size()) + " values of " + flag + " for "
+                               + std::to_string(call.garments.size())
+                               + " garments; give it once for all of them, or once for each");
+}
+
+template <class Value>
+Value value_of(const std::vector<Value>& values, std::size_t garment, Value otherwise)
+{
+    return values.empty() ? otherwise : values.size() == 1 ? values.front() : values.at(garment);
+}
+
+/// Of a flag: "true" where it has no value.
+bool is_on(const std::string& text)
+{
+    FitOptions options;
+    describe(options, SetByName { "as_placed", text == "true" ? "on" : text });
+    return options.as_placed;
+}
+
+void read_choices(Call& call)
+{
+    for (const std::string& text : call.as_placed_texts)
+        call.as_placed.push_back(is_on(text));
+    require_one_or_each(call.garment_fronts, call, "--garment-front");
+    require_one_or_each(call.garment_scales, call, "--garment-scale");
+    require_one_or_each(call.as_placed, call, "--as-placed");
+    describe(call.parameters.body_sizes, CheckRanges());
+}
+
 void require_types(const Call& call)
 {
     if (call.types.size() > call.garments.size())
@@ -147,6 +209,12 @@ void require_types(const Call& call)
 }
 
 }  // namespace
+
+GarmentChoice Call::garment_choice(std::size_t garment) const
+{
+    return { garment_frame, value_of(garment_scales, garment, 1.0), value_of(as_placed, garment, false),
+             value_of<std::string>(garment_fronts, garment, "auto") };
+}
 
 std::optional<Call> parse(int argc, char** argv)
 {
@@ -168,6 +236,7 @@ std::optional<Call> parse(int argc, char** argv)
         throw InvalidInput(ErrorCode::wrong_call, one_line(error.what()) + "; see garmentfit --help");
     }
     require_types(*call);
+    read_choices(*call);
     return *call;
 }
 

@@ -19,11 +19,19 @@ struct Call {
     std::vector<std::filesystem::path> garments;
     std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
     FrameChoice body_frame, garment_frame;
+    /// Of the garments, like their types; a single value is that of all of them.
+    std::vector<std::string> garment_fronts;
+    std::vector<double> garment_scales;
+    std::vector<bool> as_placed;
+    std::vector<std::string> as_placed_texts;  ///< from which as_placed is read
     std::string front;  ///< an axis of the body's file; empty: to be found
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
     bool reconstruct = false;  ///< the body may be a point cloud
     bool quiet = false, json = false;
+
+    /// What was said about one of the garments.
+    GarmentChoice garment_choice(std::size_t garment) const;
 };
 
 /// Nothing when the call asked for help or the version only, which are printed.

@@ -35,8 +35,7 @@ constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
 void read_rig_hints(Call& call, Session& session)
 {
     const Frame& frame = session.body.frame.frame;
-    if (!call.front.empty() && call.front != "auto")
-        call.parameters.rig.front = frame.rotation() * axis_of(call.front);
+    call.parameters.rig.front = front_of_body(frame, call.front);
     if (!call.joints.empty())
         call.parameters.rig.joints = read_joints(call.joints, frame);
     if (!call.rig.empty() && !read_rig(session, call.rig))
@@ -51,12 +50,12 @@ Session read(Call& call)
     } else if (call.filter->name == "recover") {
         read_draped(session, call.from);
     } else {
-        read_body(session, call.body, call.body_frame, call.reconstruct);
+        read_body(session, call.body, { call.body_frame, call.parameters.body_sizes.height }, call.reconstruct);
         read_rig_hints(call, session);
         for (std::size_t i = 0; i < call.garments.size(); ++i)
             add_garment(session, call.garments[i],
                         i < call.types.size() ? garment_type_of(call.types[i]) : GarmentType::automatic,
-                        call.garment_frame);
+                        call.garment_choice(i));
     }
     return session;
 }
@@ -71,10 +70,10 @@ std::vector<std::string_view> filters_for(const Call& call, const Session& sessi
     return { call.filter->name };
 }
 
-void compute(const Call& call, Session& session)
+void compute(const Call& call, Session& session, const Deadline& deadline)
 {
     ProgressBar bar(isatty(STDERR_FILENO) && !call.quiet);
-    const Progress progress = bar.progress();
+    const Progress progress = bar.progress().until(deadline);
     const std::vector<std::string_view> names = filters_for(call, session);
     Parameters parameters = call.parameters;
     parameters.recover.cloth = call.filter->cloth(parameters);
@@ -124,10 +123,11 @@ int run(int argc, char** argv)
     std::optional<tbb::global_control> threads;
     if (call->threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, call->threads);
+    const Deadline deadline = Deadline::in(call->parameters.time_limit);
     OutputFolder folder(call->out);
     Session session = read(*call);
     stop_if_interrupted();
-    compute(*call, session);
+    compute(*call, session, deadline);
     write(*call, session, folder);
     const Dressing* end = final_dressing(session.scene);
     if (!end || end->certified)
@@ -161,6 +161,8 @@ int run_program(int argc, char** argv)
         return run(argc, argv);
     } catch (const Cancelled& stopped) {
         return fail(k_stopped, "cancelled", stopped.what(), json);
+    } catch (const TimeLimitReached& error) {
+        return fail(k_not_certified, "time_limit", error.what(), json);
     } catch (const InvalidInput& error) {
         return fail(k_wrong_input, name_of(error.code()), error.what(), json);
     } catch (const std::filesystem::filesystem_error& error) {

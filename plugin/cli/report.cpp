@@ -51,6 +51,7 @@ Json body_of(const Session& session)
                 { "vertices", body.file.positions().rows() },
                 { "repaired", session.scene.body->repaired } };
     json.update(guess_of(body.frame));
+    json["height"] = height_of(body.file.positions(), body.frame.frame);
     if (const auto& rig = session.scene.rig) {
         json["front"] = vector_of(body.frame.frame.rotation().transpose() * rig->front);
         json["front_margin"] = rig->side_margin;
@@ -210,8 +211,18 @@ Json garment_of(const Session& session, std::size_t i)
             put_ease(json, *end, i, metres_per_unit);
         }
     }
-    json["guesses"] = guess_of(session.garments[i].frame);
+    const GarmentFile& file = session.garments[i];
+    json["guesses"] = guess_of(file.frame);
+    if (const std::optional<GarmentChoice>& choice = file.choice)
+        json["given"] = { { "front", choice->front }, { "as_placed", choice->as_placed }, { "scale", choice->scale } };
     return json;
+}
+
+Json time_limit_of(const Call& call, const Session& session)
+{
+    const Dressing* end = final_dressing(session.scene);
+    return { { "seconds", call.parameters.time_limit },
+             { "reached_in", end && end->out_of_time ? Json(name_of(*end->out_of_time)) : Json() } };
 }
 
 Json json_of(const Call& call, const Session& session)
@@ -233,6 +244,7 @@ Json json_of(const Call& call, const Session& session)
             json["note"] = explain(*end, session.garment_names());
     }
     json["stages"] = stages_of(session);
+    json["time_limit"] = time_limit_of(call, session);
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     json["peak_memory_bytes"] = peak_memory_bytes();
     json["body"] = body_of(session);

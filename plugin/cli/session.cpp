@@ -2,6 +2,7 @@
 #include "session.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "garmentfit/error.h"
 #include "garmentfit/filters/given_rig.h"
@@ -22,7 +23,11 @@ constexpr double k_same_place = 1e-3;  // unit: share of the diagonal; far more 
 
 FrameGuess known(const Frame& frame) { return { frame, 1, 1, "as written in rig.json" }; }
 
-bool same(const Frame& a, const Frame& b) { return a.metres_per_unit == b.metres_per_unit && a.up == b.up; }
+bool same(const Frame& a, const Frame& b)
+{
+    constexpr double k_rounding = 1e-12;  // unit: a scale was multiplied and divided
+    return std::abs(a.metres_per_unit - b.metres_per_unit) <= k_rounding * b.metres_per_unit && a.up == b.up;
+}
 
 void make_scene_body(Session& session)
 {
@@ -50,9 +55,13 @@ void require_own_name(const Session& session, const std::string& name)
 void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
 {
     require_own_name(session, garment.name());
+    const GarmentChoice choice = garment.choice.value_or(GarmentChoice());
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
-    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name() });
-    if (!same(garment.frame.frame, session.body.frame.frame))
+    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name(),
+                                       front_of_garment(garment.frame.frame, choice.front), choice.as_placed });
+    Frame unscaled = garment.frame.frame;
+    unscaled.metres_per_unit /= choice.scale;
+    if (!same(unscaled, session.body.frame.frame))
         session.warnings.push_back(
             garment.name() + " has other units or axes than the body; the dressed garment is written in the body's ("
             + garment.frame.why + ")");
@@ -128,7 +137,7 @@ std::vector<std::string> Session::garment_names() const
     return names;
 }
 
-void read_body(Session& session, const fs::path& path, const FrameChoice& choice, bool reconstruct)
+void read_body(Session& session, const fs::path& path, const BodyChoice& choice, bool reconstruct)
 {
     const Stopwatch watch(session.read_seconds);
     BodyFile body { path, reconstruct ? MeshFile::read_points(path) : MeshFile::read(path), {}, {} };
@@ -143,11 +152,17 @@ void read_body(Session& session, const fs::path& path, const FrameChoice& choice
     make_scene_body(session);
 }
 
-void add_garment(Session& session, const fs::path& path, GarmentType type, const FrameChoice& choice)
+void add_garment(Session& session, const fs::path& path, GarmentType type, const GarmentChoice& choice)
 {
     const Stopwatch watch(session.read_seconds);
     GarmentFile garment { path, MeshFile::read(path), {} };
-    garment.frame = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame, choice);
+    garment.choice = choice;
+    try {
+        garment.frame
+            = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame, choice);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(error.code(), garment.name() + ": " + error.what());
+    }
     add_garment_file(session, std::move(garment), type);
 }
 
@@ -164,7 +179,7 @@ bool read_rig(Session& session, const fs::path& rig)
     if (!same(contents.frame, session.body.frame.frame))
         throw InvalidInput(ErrorCode::rig_mismatch,
                            rig.string() + ": other units or axes than those of " + session.body.path.string()
-                               + "; give the same --unit and --up as to garmentfit rig");
+                               + "; give the same --unit, --up and --height as to garmentfit rig");
     session.scene.rig = rig_on(contents.rig, session.scene.body->surface.positions, rig.string());
     return true;
 }

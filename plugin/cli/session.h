@@ -4,6 +4,7 @@
 // The files of one run, and the scene made of them: in metres, +y up.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,7 @@ struct GarmentFile {
     std::filesystem::path path;
     MeshFile file;  ///< as given, off the body
     FrameGuess frame;  ///< margins are 1 where the user said it
+    std::optional<GarmentChoice> choice = {};  ///< none where a folder of an earlier step was read
 
     std::string name() const { return path.filename().string(); }
 };
@@ -40,8 +42,8 @@ struct Session {
 };
 
 /// @param reconstruct  builds a surface from a file's points where it has no faces
-void read_body(Session& session, const std::filesystem::path& path, const FrameChoice& choice, bool reconstruct);
-void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const FrameChoice& choice);
+void read_body(Session& session, const std::filesystem::path& path, const BodyChoice& choice, bool reconstruct);
+void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const GarmentChoice& choice);
 
 /// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.
 /// @return false where the file has joints only, and the weights are still to be found

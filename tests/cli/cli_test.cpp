@@ -197,6 +197,70 @@ TEST_F(CommandLine, RefusesAParameterOutOfRange)
     expect_refused({ "rig", k_body, "--proxy-vertices", "3" }, { "proxy_vertices", "3", "1000..50000" });
 }
 
+TEST_F(CommandLine, RefusesWhatIsSaidOfGarmentsInAWrongNumberOrRange)
+{
+    const std::string coat = GARMENTFIT_SAMPLES "/coat.ply";
+    const auto refused = [&](const Arguments& more, const std::vector<std::string>& words) {
+        Arguments call { "fit", k_body, k_skirt, coat };
+        call.insert(call.end(), more.begin(), more.end());
+        expect_refused(call, words);
+    };
+    const std::string front = "--garment-front", scale = "--garment-scale", placed = "--as-placed";
+    refused({ front, "+y" }, { "skirt.ply", "garment_front: +y lies along the up axis" });
+    refused({ front, "forwards" }, { "unknown axis", "forwards", "-z" });
+    refused({ front, "+z", front, "+z", front, "+z" }, { "3 values of --garment-front for 2 garments" });
+    refused({ scale, "0" }, { "garment_scale", "0.001..1000" });
+    refused({ scale, "large" }, { "garment_scale", "large", "0.001..1000" });
+    refused({ scale, "1", scale, "1", scale, "1" }, { "--garment-scale" });
+    refused({ placed, placed, placed }, { "--as-placed" });
+    refused({ "--height", "20" }, { "height", "0.2..10 m" });
+    refused({ "--time-limit", "-1" }, { "time_limit" });
+}
+
+TEST_F(CommandLine, TellsWhatWasSaidOfEachGarment)
+{
+    const std::string coat = GARMENTFIT_SAMPLES "/coat.ply";
+    const Ended ended
+        = run({ "fit", k_body, k_skirt, coat, "--garment-front", "+z", "--garment-scale", "1.1", "--garment-scale", "1",
+                "--as-placed=off", "--as-placed=on", "--height", "1.8", "--json", "-o", folder / "fitted" });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto report = nlohmann::json::parse(ended.out);
+    EXPECT_NEAR(report.at("body").at("height").get<double>(), 1.8, 1e-9);
+    const auto& garments = report.at("garments");
+    const auto& skirt = garments.at(0).at("given");
+    EXPECT_EQ(skirt, (nlohmann::json { { "front", "+z" }, { "as_placed", false }, { "scale", 1.1 } }));
+    EXPECT_EQ(garments.at(1).at("given"),
+              (nlohmann::json { { "front", "+z" }, { "as_placed", true }, { "scale", 1.0 } }));
+    EXPECT_NEAR(garments.at(0).at("guesses").at("metres_per_unit").get<double>(), 1.1, 1e-12)
+        << "the skirt keeps its own metres";
+    EXPECT_EQ(garments.at(1).at("guesses").at("metres_per_unit"), report.at("body").at("metres_per_unit"))
+        << "the coat is of the body's scene";
+}
+
+TEST_F(CommandLine, EndsAtItsTimeLimitWithoutFilesWhereThereIsNoState)
+{
+    const Ended ended = run({ "dress", k_body, k_skirt, "--time-limit", "0.001", "--json", "-o", folder / "result" });
+    EXPECT_EQ(ended.code, 4) << ended.err;
+    EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+    EXPECT_NE(ended.err.find("time_limit: it was reached while rigging the body"), std::string::npos) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("error").at("code"), "time_limit");
+    expect_only_streams_and_inputs();
+}
+
+TEST_F(CommandLine, EndsAtItsTimeLimitWithTheLastCleanState)
+{
+    const fs::path fitted = folder / "fitted", draped = folder / "draped";
+    ASSERT_EQ(run({ "fit", k_body, k_skirt, "-o", fitted }).code, 0);
+    const Ended ended = run({ "drape", fitted, "--time-limit", "0.001", "--json", "-o", draped });
+    EXPECT_EQ(ended.code, 4) << ended.err;
+    EXPECT_NE(ended.err.find("the time limit was reached while draping"), std::string::npos) << ended.err;
+    const auto report = nlohmann::json::parse(ended.out);
+    EXPECT_FALSE(report.at("certified").get<bool>());
+    EXPECT_EQ(report.at("time_limit"), (nlohmann::json { { "seconds", 0.001 }, { "reached_in", "drape" } }));
+    EXPECT_EQ(report.at("garments").at(0).at("crossings").at("body"), 0);
+    EXPECT_NE(read_text(draped / "body.ply").find("NOT certified"), std::string::npos);
+}
+
 TEST_F(CommandLine, RefusesTwoGarmentsOfOneName)
 {
     expect_refused({ "dress", k_body, k_skirt, k_skirt }, { "skirt.ply" });

@@ -10,6 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "garmentfit/error.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/rig_body.h"
 
 namespace {
 
@@ -38,8 +41,13 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     // front and joints are places in the body's own axes: a host reads them where it reads the body
     [[maybe_unused]] const auto [proxy_vertices, swap_sides, front, joints] = RigOptions();
     EXPECT_EQ(count_of(RigOptions()), 2u);
-    [[maybe_unused]] const auto [type, method, iterations, nearest] = FitOptions();
-    EXPECT_EQ(count_of(FitOptions()), 4u);
+    // the front is an axis of the garment's file
+    [[maybe_unused]] const auto [type, method, iterations, nearest, garment_front, as_placed] = FitOptions();
+    EXPECT_EQ(count_of(FitOptions()), 5u);
+    [[maybe_unused]] const auto [height] = BodySizes();
+    EXPECT_EQ(count_of(BodySizes()), 1u);
+    [[maybe_unused]] const auto [garment_scale] = GarmentSizes();
+    EXPECT_EQ(count_of(GarmentSizes()), 1u);
     [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, enlargement]
         = ClothOptions();
     EXPECT_EQ(count_of(ClothOptions()), 9u);
@@ -197,6 +205,79 @@ TEST(Filter, ChecksRangesBeforeItWorks)
         EXPECT_EQ(error.code(), ErrorCode::out_of_range);
         EXPECT_NE(std::string(error.what()).find("proxy_vertices"), std::string::npos) << error.what();
     }
+}
+
+/// A person and trousers, to be draped in the pose of the input.
+Scene fitted_trousers()
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 20 });
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    scene.rig = rig_body(*scene.body);
+    const TriangleMesh trousers = fixtures::garment_round(
+        person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 0.2 && p.y() < 1 && std::abs(p.x()) < 0.26; });
+    scene.garments = { { make_garment(trousers.positions, trousers.triangles), GarmentType::trousers, "legs.obj" } };
+    scene.fits.resize(1);
+    return scene;
+}
+
+TEST(TimeLimit, OfWorkWithoutAResultIsAnErrorThatNamesStageAndOption)
+{
+    Parameters parameters;
+    parameters.time_limit = 1e-9;
+    for (const char* name : { "rig", "fit" }) {
+        Scene scene = fitted_trousers();
+        try {
+            filter_of(name).run(scene, parameters);
+            FAIL() << name << " knows no limit";
+        } catch (const TimeLimitReached& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find("time_limit"), std::string::npos) << message;
+            EXPECT_NE(message.find(name == std::string("rig") ? "rigging" : "fitting"), std::string::npos) << message;
+            EXPECT_EQ(message.find("user"), std::string::npos) << message;
+        }
+    }
+}
+
+TEST(TimeLimit, LeavesACleanStateAndSaysSo)
+{
+    Scene scene = fitted_trousers();
+    Parameters parameters;
+    parameters.time_limit = 1e-9;
+    filter_of("drape").run(scene, parameters);
+    ASSERT_TRUE(scene.draped);
+    EXPECT_EQ(scene.draped->out_of_time, Stage::drape);
+    EXPECT_FALSE(scene.draped->certified);
+    EXPECT_TRUE(all_clean(scene.draped->garments));
+    EXPECT_EQ(outcome_of(*scene.draped), Outcome::not_certified) << "the garment is not too small";
+    const std::string line = explain(*scene.draped, { "legs.obj" });
+    EXPECT_NE(line.find("the time limit was reached while draping"), std::string::npos) << line;
+}
+
+TEST(TimeLimit, LeavesTheBodyInTheFittedPoseWhereNothingIsLeftForTheReturn)
+{
+    Scene scene = fitted_trousers();
+    Parameters parameters;
+    parameters.time_limit = 0;  // none
+    parameters.drape.settling_steps = 2;
+    filter_of("drape").run(scene, parameters);
+    ASSERT_TRUE(scene.draped->certified);
+    EXPECT_FALSE(scene.draped->out_of_time);
+    filter_of("recover").run(scene, parameters, Progress().until(Deadline::in(1e-9)));
+    ASSERT_TRUE(scene.recovered);
+    EXPECT_EQ(scene.recovered->out_of_time, Stage::recover);
+    EXPECT_FALSE(scene.recovered->certified);
+    EXPECT_EQ(scene.recovered->pose_reached, 0);
+    EXPECT_EQ(scene.recovered->garments[0].positions, scene.draped->garments[0].positions);
+}
+
+TEST(TimeLimit, OfAHostHoldsForAllItsFilters)
+{
+    Scene scene = fitted_trousers();
+    EXPECT_THROW(filter_of("rig").run(scene, {}, Progress().until(Deadline::in(1e-9))), TimeLimitReached);
+    EXPECT_FALSE(Deadline().has_passed());
+    EXPECT_FALSE(Deadline::in(0).has_passed());
+    EXPECT_TRUE(Progress().until(Deadline::in(1e-9)).until(Deadline::in(1000)).is_late()) << "the earlier one counts";
 }
 
 TEST(Filter, NamesTheGarmentThatIsOfAbsurdSizeBeforeItWorks)

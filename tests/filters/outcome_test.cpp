@@ -42,6 +42,24 @@ TEST(DressingOutcome, NamesTheGarmentThatIsTightestAndItsOwnParts)
               "larger would not be stretched there");
 }
 
+TEST(DressingOutcome, OfTimeThatRanOutIsNoGarmentThatIsTooSmall)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->scale_reached = 0.612;
+    scene.draped->out_of_time = Stage::drape;
+    EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::not_certified);
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              "coat could not be certified: the time limit was reached while draping, with the body at 61% of its "
+              "size; give more as time_limit, or 0 for no limit");
+    scene.draped->scale_reached = 1;
+    scene.draped->pose_reached = 0.4;
+    scene.draped->out_of_time = Stage::recover;
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              "coat could not be certified: the time limit was reached while recovering the pose, at 40% of the path "
+              "between two poses; give more as time_limit, or 0 for no limit");
+}
+
 TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)
 {
     Scene scene = draped_scene();

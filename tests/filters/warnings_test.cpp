@@ -49,8 +49,10 @@ TEST(Warnings, SayThatAFrontIsUncertain)
 {
     Scene scene = worn_scene();
     scene.fits[0].front_probability = 0.62;
-    EXPECT_EQ(warnings_of(scene),
-              (Lines { "the front of skirt is uncertain (probability 62%); look whether it is worn back to front" }));
+    EXPECT_EQ(
+        warnings_of(scene),
+        (Lines {
+            "the front of skirt is uncertain (probability 62%); if it is worn back to front, set garment_front" }));
 }
 
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)

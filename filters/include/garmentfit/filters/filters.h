@@ -31,18 +31,26 @@ struct Parameters {
     LayerOrder layer_order = LayerOrder::given;
     DrapeOptions drape;
     RecoverOptions recover;  ///< its cloth is used only where draping is not part of the filter
+    BodySizes body_sizes;  ///< hosts apply it where they read a body, and filters ignore it
+    GarmentSizes garment_sizes;  ///< the same for garments
+    /// s; a guess of what users wait for. From the start of the filter; a host that runs several sets it once for all
+    /// (Progress::until). 0: none.
+    double time_limit = 120;
 };
 
 struct GarmentInput {
     GarmentMesh mesh;
     GarmentType type = GarmentType::automatic;
     std::string name = {};  ///< for messages; may be empty
+    std::optional<Vec3> front = {};  ///< as FitOptions::front, where the user gave it
+    std::optional<bool> as_placed = {};  ///< empty: as in Parameters
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.
 struct Dressing : DressedBody {
     std::size_t outermost = 0;  ///< which garment was put on last, or was to be
-    double scale_reached = 1;  ///< of the body; less than 1 where the outermost garment is too small
+    /// Of the body; less than 1 where the outermost garment is too small, or where time ran out.
+    double scale_reached = 1;
     double pose_reached = 1;  ///< share of the last pose path that was covered
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth keeps the body from its place, in the last pose that was tried
@@ -51,6 +59,7 @@ struct Dressing : DressedBody {
         speed;  ///< m/s, of the fastest vertex of the cloth at the end; none where it was not let settle
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
+    std::optional<Stage> out_of_time;  ///< the stage in which the time limit was reached
     std::vector<RecoverFrame> frames;  ///< states on the last pose path, where asked for
     int frames_asked = 0;  ///< how many those would be if all were certified and the whole path was covered
     std::vector<FitMap> maps;  ///< one for each garment that is worn, like the next two
@@ -102,8 +111,9 @@ struct Filter {
     const ClothOptions& cloth(const Parameters& parameters) const;
 
     /// Checks inputs and ranges, then fills the outputs of each stage. Ends after draping where a garment could not be
-    /// put on.
-    /// @throws InvalidInput, SolverFailure, Cancelled; outputs of the stages before it stay in the scene.
+    /// put on. At the time limit, draping and the return to the input pose end with their last certified state.
+    /// @throws InvalidInput, SolverFailure, Cancelled, TimeLimitReached (of rigging and fitting); outputs of the stages
+    ///         before it stay in the scene.
     void run(Scene& scene, const Parameters& parameters, const Progress& progress = {}) const;
 };
 
@@ -116,10 +126,13 @@ const Filter& filter_of(std::string_view name);
 template <class AnyParameters, class Visitor, IfOptionsOf<AnyParameters, Parameters>* = nullptr>
 void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
 {
-    if (filter.has(Stage::rig))
+    if (filter.has(Stage::rig)) {
         describe(p.rig, visit);
+        describe(p.body_sizes, visit);
+    }
     if (filter.has(Stage::fit)) {
         describe(p.fit, visit);
+        describe(p.garment_sizes, visit);
         describe_layers(p.layer_order, visit);
     }
     if (filter.has(Stage::drape)) {
@@ -130,6 +143,7 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
     } else if (filter.has(Stage::recover)) {
         describe(p.recover, visit);
     }
+    describe_time_limit(p.time_limit, visit);
 }
 
 }  // namespace garmentfit

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Units and axes of a mesh: what the user says, or else a guess.
+// Units, axes and sizes of a mesh: what the user says, or else a guess.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,14 +17,34 @@ struct FrameChoice {
     std::string unit = "auto", up = "auto";
 };
 
+struct BodyChoice : FrameChoice {
+    /// m; how tall the body is as it stands in its file, from the lowest to the highest point. Overrides the unit.
+    std::optional<double> height = {};
+};
+
+struct GarmentChoice : FrameChoice {
+    double scale = 1;  ///< of the garment, applied after its unit
+    bool as_placed = false;  ///< it lies on the body in its file: the same units and axes, unless they are given
+    std::string front = "auto";  ///< axis of the garment's file that its front faces
+};
+
 /// Possible values, for hosts that show a list; "auto" comes first.
 const std::vector<std::string_view>& unit_choices();
 const std::vector<std::string_view>& axis_choices();
 
 /// What the user says, and a guess of the rest; margins are 1 where the user said it. @throws InvalidInput.
-FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const FrameChoice& choice = {});
-/// The same for a garment, given the body's frame. @throws InvalidInput.
+FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const BodyChoice& choice = {});
+/// The same for a garment, given the body's frame. A body whose height was given may have any scale; its garments are
+/// taken to be in the nearest known unit. @throws InvalidInput.
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
-                         const FrameChoice& choice = {});
+                         const GarmentChoice& choice = {});
+
+/// The axis of a file as a direction in metres with +y up; none for "auto". @throws InvalidInput.
+std::optional<Vec3> front_of_body(const Frame& frame, const std::string& axis);
+/// The same for a garment. @throws InvalidInput where it is the garment's up axis, too.
+std::optional<Vec3> front_of_garment(const Frame& frame, const std::string& axis);
+
+/// From the lowest to the highest point, m.
+double height_of(const Positions& positions, const Frame& frame);
 
 }  // namespace garmentfit

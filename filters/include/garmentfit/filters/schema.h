@@ -50,6 +50,45 @@ void describe(Options& o, Visitor&& visit)
           About { "nearest", "Nearest vertex", "", 0, 0,
                   "Of the methods paper and tisserand: how the nearest vertex is looked for; the result is the same",
                   &nearest_search_names(), Group::research });
+    visit(o.as_placed,
+          About { "as_placed", "As placed", "", 0, 1,
+                  "Body and garment come from one scene, and the garment lies round the body already" });
+}
+
+/// What the user knows of the sizes of meshes. Hosts apply it where they read a mesh (frame_choice.h).
+struct BodySizes {
+    std::optional<double> height;  ///< m
+};
+struct GarmentSizes {
+    double scale = 1;
+};
+
+template <class Options, class Visitor, IfOptionsOf<Options, BodySizes>* = nullptr>
+void describe(Options& o, Visitor&& visit)
+{
+    visit(o.height,
+          About { "height", "Height", "m", 0.2, 10,
+                  "How tall the body is in metres, from its lowest to its highest point as it stands in its file; "
+                  "overrides its unit",
+                  nullptr, Group::everyday, "auto" });
+}
+
+template <class Options, class Visitor, IfOptionsOf<Options, GarmentSizes>* = nullptr>
+void describe(Options& o, Visitor&& visit)
+{
+    visit(o.scale,
+          About { "garment_scale", "Garment scale", "", 0.001, 1000,
+                  "The garment's file is multiplied by this, after its unit" });
+}
+
+/// The time that a whole filter may take.
+template <class Seconds, class Visitor>
+void describe_time_limit(Seconds& time_limit, Visitor&& visit)
+{
+    visit(time_limit,
+          About { "time_limit", "Time limit", "s", 0, 1e6,
+                  "After this time the work ends with the last state that is free of crossings, where there is one; 0 "
+                  "for no limit" });
 }
 
 /// How several garments are worn together.
