@@ -151,6 +151,7 @@ void print_choices(std::ostream& out, const Filter& filter)
     if (filter.has(Stage::fit)) {
         print_choice(out, "GarmentUnit", "Unit of the garments.", unit_choices());
         print_choice(out, "GarmentUp", "Up axis of the garments.", axis_choices());
+        print_choice(out, "GarmentFront", "Axis that the garments' fronts face.", axis_choices());
     }
 }
 

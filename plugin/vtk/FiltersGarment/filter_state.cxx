@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_state.h"
 
+#include <sstream>
+
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/warnings.h"
 
@@ -9,6 +11,14 @@
 
 namespace garmentfit {
 namespace {
+
+std::string text_of_number(double number)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << number;
+    return text.str();
+}
 
 /// Parameters as plain numbers, to detect changes.
 struct Numbers {
@@ -25,6 +35,16 @@ struct Numbers {
     }
 };
 
+std::string sizes_of_body(const Parameters& p)
+{
+    return p.body_sizes.height ? text_of_number(*p.body_sizes.height) : "auto";
+}
+
+std::string sizes_of_garments(const Parameters& p)
+{
+    return text_of_number(p.garment_sizes.scale) + (p.fit.as_placed ? " placed" : "");
+}
+
 }  // namespace
 
 FilterState::FilterState(const Filter& table_row) : filter(table_row)
@@ -33,7 +53,7 @@ FilterState::FilterState(const Filter& table_row) : filter(table_row)
         for (const char* of_body : { "Unit", "Up", "Front" })
             hints.choices[of_body] = "auto";
     if (filter.reads(Data::garments) && !filter.reads(Data::fits) && !filter.reads(Data::draped))
-        for (const char* of_garment : { "GarmentUnit", "GarmentUp" })
+        for (const char* of_garment : { "GarmentUnit", "GarmentUp", "GarmentFront" })
             hints.choices[of_garment] = "auto";
 }
 
@@ -44,23 +64,23 @@ int FilterState::frames() const { return filter.makes(Data::recovered) ? paramet
 /// The source is set after a complete read: a failed one is repeated.
 void FilterState::read_changed_body(vtkPolyData& body)
 {
-    const Source now { &body, body.GetMTime(), hints.on_body() };
+    const Source now { &body, body.GetMTime(), hints.on_body() + ' ' + sizes_of_body(parameters) };
     if (now == body_source_)
         return;
     body_source_ = garment_source_ = Source();
     known_ = KnownScene();
-    known_ = scene_of_body(filter, body, hints, parameters.rig);
+    known_ = scene_of_body(filter, body, hints, parameters);
     body_source_ = now;
 }
 
 void FilterState::read_changed_garments(vtkPolyData& body, vtkDataObject& garments)
 {
-    const Source now { &garments, garments.GetMTime(), hints.on_garments() };
+    const Source now { &garments, garments.GetMTime(), hints.on_garments() + ' ' + sizes_of_garments(parameters) };
     if (now == garment_source_)
         return;
     garment_source_ = Source();
     forget_from(filter.reads(Data::fits) ? Stage::drape : Stage::fit);
-    read_garments(known_, filter, garments, hints);
+    read_garments(known_, filter, garments, hints, parameters);
     if (filter.reads(Data::draped))
         read_worn(known_, body, garments);
     garment_source_ = now;
@@ -84,6 +104,8 @@ std::vector<double> FilterState::numbers_of(Stage stage) const
 {
     Numbers numbers;
     const Parameters& p = parameters;
+    if (stage == Stage::drape || stage == Stage::recover)
+        describe_time_limit(p.time_limit, numbers);  // may have cut the last result short
     switch (stage) {
     case Stage::rig: describe(p.rig, numbers); break;
     case Stage::fit:
@@ -152,7 +174,7 @@ void FilterState::update(vtkPolyData& body, vtkDataObject* garments, const Progr
     if (garments)
         read_changed_garments(body, *garments);
     forget_stale_stages();
-    run(progress);
+    run(progress.until(Deadline::in(parameters.time_limit)));
 }
 
 // ---- what is shown ------------------------------------------------------------------------------

@@ -9,8 +9,11 @@
 #include "named_arrays.h"
 #include "polydata.h"
 
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkFieldData.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 
 namespace garmentfit {
 namespace {
@@ -20,12 +23,20 @@ FrameChoice frame_choice(const Hints& hints, const std::string& prefix)
     return { hints.choice(prefix + "Unit"), hints.choice(prefix + "Up") };
 }
 
-std::optional<Vec3> front(const Hints& hints, const Frame& frame)
+/// What the garment's own field data say comes before what the filter says of all garments.
+GarmentChoice garment_choice(vtkPolyData& garment, const Hints& hints, const Parameters& parameters)
 {
-    const std::string front = hints.choice("Front");
-    if (front == "auto")
-        return {};
-    return Vec3(frame.rotation() * axis_of(front));
+    GarmentChoice choice { frame_choice(hints, "Garment"), parameters.garment_sizes.scale, parameters.fit.as_placed,
+                           hints.choice("GarmentFront") };
+    vtkFieldData& own = *garment.GetFieldData();
+    if (auto* front = vtkStringArray::SafeDownCast(own.GetAbstractArray("GarmentFront"));
+        front && front->GetNumberOfValues() > 0)
+        choice.front = front->GetValue(0);
+    if (vtkDataArray* scale = own.GetArray("GarmentScale"); scale && scale->GetNumberOfTuples() > 0)
+        choice.scale = scale->GetTuple1(0);
+    if (vtkDataArray* placed = own.GetArray("GarmentAsPlaced"); placed && placed->GetNumberOfTuples() > 0)
+        choice.as_placed = placed->GetTuple1(0) != 0;
+    return choice;
 }
 
 GivenJoints joints(const Hints& hints, const Frame& frame)
@@ -41,10 +52,10 @@ void set_body(KnownScene& known, const TriangleMesh& mesh)
     known.scene.body = make_body(known.body_frame.to_metres(mesh.positions), mesh.triangles);
 }
 
-KnownScene unknown_body(const TriangleMesh& mesh, const Hints& hints)
+KnownScene unknown_body(const TriangleMesh& mesh, const Hints& hints, const BodySizes& sizes)
 {
     KnownScene known;
-    known.body_frame = body_frame(mesh.positions, mesh.triangles, frame_choice(hints, "")).frame;
+    known.body_frame = body_frame(mesh.positions, mesh.triangles, { frame_choice(hints, ""), sizes.height }).frame;
     set_body(known, mesh);
     return known;
 }
@@ -67,7 +78,7 @@ std::string called(const std::vector<std::string>& names, std::size_t i)
 }
 
 /// @param seen  by an earlier filter, which kept the rest positions and the frame as arrays
-void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const FrameChoice& choice)
+void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const GarmentChoice& choice)
 {
     const std::string name = called(known.garment_names, known.scene.garments.size());
     const TriangleMesh mesh = seen ? mesh_at(garment, k_rest_position, name) : mesh_of(garment, name);
@@ -77,8 +88,11 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Frame
     if (!frame)
         frame = garment_frame(mesh.positions, mesh.triangles, known.body_frame, choice).frame;
     known.garment_frames.push_back(*frame);
-    known.scene.garments.push_back(
-        { make_garment(frame->to_metres(mesh.positions), mesh.triangles), given_type(garment) });
+    known.scene.garments.push_back({ make_garment(frame->to_metres(mesh.positions), mesh.triangles),
+                                     given_type(garment),
+                                     {},
+                                     front_of_garment(*frame, choice.front),
+                                     choice.as_placed });
 }
 
 }  // namespace
@@ -99,26 +113,30 @@ std::string Hints::on_body() const
     return text.str();
 }
 
-std::string Hints::on_garments() const { return choice("GarmentUnit") + choice("GarmentUp"); }
+std::string Hints::on_garments() const
+{
+    return choice("GarmentUnit") + ' ' + choice("GarmentUp") + ' ' + choice("GarmentFront");
+}
 
-KnownScene scene_of_body(const Filter& filter, vtkPolyData& body, const Hints& hints, RigOptions& options)
+KnownScene scene_of_body(const Filter& filter, vtkPolyData& body, const Hints& hints, Parameters& parameters)
 {
     if (filter.reads(Data::rig))
         return rigged_body(filter, body);
-    KnownScene known = unknown_body(mesh_of(body, "the body"), hints);
-    options.front = front(hints, known.body_frame);
-    options.joints = joints(hints, known.body_frame);
+    KnownScene known = unknown_body(mesh_of(body, "the body"), hints, parameters.body_sizes);
+    parameters.rig.front = front_of_body(known.body_frame, hints.choice("Front"));
+    parameters.rig.joints = joints(hints, known.body_frame);
     return known;
 }
 
-void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garments, const Hints& hints)
+void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garments, const Hints& hints,
+                   const Parameters& parameters)
 {
     known.scene.garments.clear();
     known.garment_frames.clear();
     known.garment_names = garment_names_in(garments);
     const bool seen = filter.reads(Data::fits) || filter.reads(Data::draped);
     for (vtkPolyData* garment : garments_in(garments))
-        add_garment(known, *garment, seen, frame_choice(hints, "Garment"));
+        add_garment(known, *garment, seen, garment_choice(*garment, hints, parameters));
 }
 
 void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments)

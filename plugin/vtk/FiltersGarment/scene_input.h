@@ -29,11 +29,12 @@ struct Hints {
     std::string on_garments() const;
 };
 
-/// The body, and the results of earlier filters on it. Sets front and joints of `options`.
+/// The body, and the results of earlier filters on it. Sets front and joints of the options of rigging.
 /// @throws InvalidInput, as all functions here.
-KnownScene scene_of_body(const Filter& filter, vtkPolyData& body, const Hints& hints, RigOptions& options);
+KnownScene scene_of_body(const Filter& filter, vtkPolyData& body, const Hints& hints, Parameters& parameters);
 /// Replaces the garments of the scene.
-void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garments, const Hints& hints);
+void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garments, const Hints& hints,
+                   const Parameters& parameters);
 /// Reads body and garments in the pose that the garments are worn in.
 void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments);
 

@@ -24,6 +24,9 @@ public:
     /// Parameters of the motion of worn garments to the pose of the next one. It has no frames.
     vtkFitRecoveryParametersMacro();
 
+    /// The time that an execution may take.
+    vtkFitTimeLimitMacro();
+
 protected:
     vtkDrapeGarment();
     ~vtkDrapeGarment() override = default;

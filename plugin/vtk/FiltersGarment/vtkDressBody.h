@@ -40,6 +40,9 @@ public:
     vtkFitRecoveryParametersMacro();
     vtkFitFramesParameterMacro();
 
+    /// The time that an execution may take.
+    vtkFitTimeLimitMacro();
+
 protected:
     vtkDressBody();
     ~vtkDressBody() override = default;

@@ -326,6 +326,8 @@ int vtkFitFilter::RequestData(vtkInformation* request, vtkInformationVector** in
         return this->Stop(outputs);
     } catch (const garmentfit::InvalidInput& error) {
         return this->Refuse(outputs, InvalidInput, name_of(error.code()), error.what());
+    } catch (const garmentfit::TimeLimitReached& error) {
+        return this->Refuse(outputs, SolverFailure, "time_limit", error.what());
     } catch (const std::exception& error) {
         return this->Refuse(outputs, SolverFailure, "solver_failure", error.what());
     }

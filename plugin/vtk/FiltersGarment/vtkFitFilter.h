@@ -28,7 +28,9 @@
  *   `StrainMax`,
  *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`,
  *   `GirthBody`, `GirthGarment`
- * - a string `GarmentType` in the field data of an input sets the garment's type
+ * - a string `GarmentType` in the field data of an input sets the garment's type, a string `GarmentFront` the axis
+ *   that its front faces, a number `GarmentScale` its scale, and a number `GarmentAsPlaced` other than 0 says that it
+ *   lies round the body already
  *
  * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell
  * data).
@@ -68,12 +70,12 @@ public:
     /// What GetErrorCode() says after an error.
     enum ErrorCodes {
         InvalidInput = vtkErrorCode::UserError,  ///< an input or a parameter is wrong; the message says what to do
-        SolverFailure  ///< no solution was found
+        SolverFailure  ///< no solution was found, or none within the time limit
     };
 
     /**
-   * The kind of the last error for programs: "rig_mismatch", ... of garmentfit/error.h, "solver_failure", or "" without
-   * one.
+   * The kind of the last error for programs: "rig_mismatch", ... of garmentfit/error.h, "solver_failure", "time_limit",
+   * or "" without one.
    */
     std::string GetErrorName() { return this->ErrorName; }
 

@@ -28,13 +28,16 @@
 
 #define vtkFitRigParametersMacro()                                                                                     \
     vtkFitNumberMacro(ProxyVertices, int, proxy_vertices);                                                             \
-    vtkFitSwitchMacro(SwapSides, swap_sides)
+    vtkFitSwitchMacro(SwapSides, swap_sides);                                                                          \
+    vtkFitNumberMacro(Height, double, height)
 
 #define vtkFitFitParametersMacro()                                                                                     \
     vtkFitChoiceMacro(Type, type);                                                                                     \
     vtkFitChoiceMacro(Method, method);                                                                                 \
     vtkFitNumberMacro(Iterations, int, iterations);                                                                    \
     vtkFitChoiceMacro(Nearest, nearest);                                                                               \
+    vtkFitSwitchMacro(AsPlaced, as_placed);                                                                            \
+    vtkFitNumberMacro(GarmentScale, double, garment_scale);                                                            \
     vtkFitChoiceMacro(LayerOrder, layer_order)
 
 #define vtkFitClothParametersMacro()                                                                                   \
@@ -60,6 +63,8 @@
 
 #define vtkFitFramesParameterMacro() vtkFitNumberMacro(Frames, int, frames)
 
+#define vtkFitTimeLimitMacro() vtkFitNumberMacro(TimeLimit, double, time_limit)
+
 /// Unit and axes of a body: "auto", or "m", "dm", "cm", "mm", "in", "ft" for the unit, "+x" to "-z" for the axes up and
 /// front (where the chest faces).
 #define vtkFitBodyChoicesMacro()                                                                                       \
@@ -70,12 +75,14 @@
     virtual void SetFront(const char* axis) { this->SetChoice("Front", axis); }                                        \
     virtual const char* GetFront() { return this->GetChoice("Front"); }
 
-/// The same of garments.
+/// The same of garments; the front is where a garment's front faces.
 #define vtkFitGarmentChoicesMacro()                                                                                    \
     virtual void SetGarmentUnit(const char* unit) { this->SetChoice("GarmentUnit", unit); }                            \
     virtual const char* GetGarmentUnit() { return this->GetChoice("GarmentUnit"); }                                    \
     virtual void SetGarmentUp(const char* axis) { this->SetChoice("GarmentUp", axis); }                                \
-    virtual const char* GetGarmentUp() { return this->GetChoice("GarmentUp"); }
+    virtual const char* GetGarmentUp() { return this->GetChoice("GarmentUp"); }                                        \
+    virtual void SetGarmentFront(const char* axis) { this->SetChoice("GarmentFront", axis); }                          \
+    virtual const char* GetGarmentFront() { return this->GetChoice("GarmentFront"); }
 
 /// Joints set by the user ("lelbow", ...; docs/rig.md has the names), in the body's units and axes.
 #define vtkFitJointsMacro()                                                                                            \

@@ -24,6 +24,9 @@ public:
     /// Units and axes of the garments.
     vtkFitGarmentChoicesMacro();
 
+    /// The time that an execution may take.
+    vtkFitTimeLimitMacro();
+
 protected:
     vtkFitSkeleton();
     ~vtkFitSkeleton() override = default;

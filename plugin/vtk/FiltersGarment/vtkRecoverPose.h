@@ -27,6 +27,9 @@ public:
     vtkFitRecoveryParametersMacro();
     vtkFitFramesParameterMacro();
 
+    /// The time that an execution may take.
+    vtkFitTimeLimitMacro();
+
 protected:
     vtkRecoverPose();
     ~vtkRecoverPose() override = default;

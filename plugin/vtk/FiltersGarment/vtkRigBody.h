@@ -26,6 +26,9 @@ public:
     /// Known joints.
     vtkFitJointsMacro();
 
+    /// The time that an execution may take.
+    vtkFitTimeLimitMacro();
+
 protected:
     vtkRigBody();
     ~vtkRigBody() override = default;

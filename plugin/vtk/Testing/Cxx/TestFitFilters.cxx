@@ -320,6 +320,85 @@ TEST(RigBody, TakesKnownJointsInTheBodysUnits)
     EXPECT_EQ(number(polydata(*rig, 0), "BodyFrame"), 0.1);
 }
 
+TEST(RigBody, IsAsTallAsItIsSaidToBe)
+{
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(body());
+    EXPECT_TRUE(std::isnan(rig->GetHeight()));
+    const auto heights = body_mesh().positions.col(1);
+    for (const double height : { 1.5, 0.9 }) {
+        rig->SetHeight(height);
+        rig->Update();
+        EXPECT_NEAR(number(polydata(*rig, 0), "BodyFrame"), height / (heights.maxCoeff() - heights.minCoeff()), 1e-12);
+    }
+    rig->SetHeight(NAN);
+    rig->Update();
+    EXPECT_EQ(number(polydata(*rig, 0), "BodyFrame"), 1);
+}
+
+TEST(RigBody, EndsAtItsTimeLimit)
+{
+    vtkNew<vtkRigBody> rig;
+    Errors errors(*rig);
+    rig->SetInputData(body());
+    rig->SetTimeLimit(1e-9);
+    rig->Update();
+    EXPECT_EQ(rig->GetErrorName(), "time_limit");
+    EXPECT_NE(errors.heard->GetErrorMessage().find("time_limit"), std::string::npos);
+    errors.heard->Clear();
+    rig->SetTimeLimit(0);
+    rig->Update();
+    EXPECT_FALSE(errors.heard->GetError());
+    EXPECT_GT(polydata(*rig, 0)->GetNumberOfPoints(), 0);
+}
+
+/// A number in the field data of a garment.
+void say(vtkPolyData& garment, const char* name, double value)
+{
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->InsertNextValue(value);
+    garment.GetFieldData()->AddArray(array);
+}
+
+TEST(FitSkeleton, TakesScaleFrontAndPlaceOfAllGarmentsOrOfEach)
+{
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(body());
+    rig->SetHeight(1.5);
+    vtkNew<vtkMultiBlockDataSet> layers;
+    layers->SetBlock(0, shorts(0.02));
+    auto scaled = shorts(0.03), placed = shorts(0.04);
+    say(*scaled, "GarmentScale", 1.1);
+    say(*placed, "GarmentAsPlaced", 1);
+    layers->SetBlock(1, scaled);
+    layers->SetBlock(2, placed);
+    vtkNew<vtkFitSkeleton> fit;
+    Errors errors(*fit);
+    fit->SetInputConnection(0, rig->GetOutputPort());
+    fit->SetInputData(1, layers);
+    const auto metres_per_unit = [&](int layer) {
+        fit->Update();
+        auto* made = vtkMultiBlockDataSet::SafeDownCast(fit->GetOutputDataObject(1));
+        return number(vtkPolyData::SafeDownCast(made->GetBlock(layer)), "GarmentFrame");
+    };
+    fit->SetGarmentFront("+z");
+    EXPECT_DOUBLE_EQ(metres_per_unit(0), 1);
+    EXPECT_DOUBLE_EQ(metres_per_unit(1), 1.1);
+    EXPECT_DOUBLE_EQ(metres_per_unit(2), number(polydata(*rig, 0), "BodyFrame"));
+    fit->SetGarmentScale(1.05);
+    EXPECT_DOUBLE_EQ(metres_per_unit(0), 1.05);
+    EXPECT_DOUBLE_EQ(metres_per_unit(1), 1.1);
+    fit->SetGarmentScale(1);
+    fit->AsPlacedOn();
+    EXPECT_DOUBLE_EQ(metres_per_unit(0), number(polydata(*rig, 0), "BodyFrame"));
+    EXPECT_FALSE(errors.heard->GetError()) << errors.heard->GetErrorMessage();
+    fit->SetGarmentFront("-y");
+    fit->Update();
+    EXPECT_NE(errors.heard->GetErrorMessage().find("garment_front: -y lies along the up axis"), std::string::npos)
+        << errors.heard->GetErrorMessage();
+}
+
 TEST(FitSkeleton, SortsLayersWhereTheirOrderIsAutomatic)
 {
     vtkNew<vtkMultiBlockDataSet> layers;
