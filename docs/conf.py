@@ -47,8 +47,9 @@ def _stand_in_for_core():
     core.__version__ = release
     core.InvalidInput = type("InvalidInput", (ValueError,), {"__doc__": "Something given is wrong; the message says what to do."})
     core.SolverFailure = type("SolverFailure", (RuntimeError,), {"__doc__": "No answer was found."})
+    core.TimeLimitReached = type("TimeLimitReached", (core.SolverFailure,), {"__doc__": "`time_limit` was reached."})
     core.Cancelled = type("Cancelled", (Exception,), {"__doc__": "`progress` returned False."})
-    for error in (core.InvalidInput, core.SolverFailure, core.Cancelled):
+    for error in (core.InvalidInput, core.SolverFailure, core.TimeLimitReached, core.Cancelled):
         error.__module__ = "garmentfit"
     core.parameters_of = lambda filter_: []
     core.__getattr__ = lambda name: type(name, (), {"__module__": "garmentfit._core"})

@@ -123,11 +123,12 @@ void bind_snapshot(nb::module_& m)
 void bind_scene(nb::module_& m)
 {
     nb::class_<PythonScene>(m, "Scene")
-        .def_static("of_body", &scene_of_body, "positions"_a, "triangles"_a, "unit"_a, "up"_a, "front"_a, "joints"_a)
+        .def_static("of_body", &scene_of_body, "positions"_a, "triangles"_a, "unit"_a, "up"_a, "front"_a, "joints"_a,
+                    "sizes"_a)
         .def_static("of_rigged", &scene_of_rigged, "positions"_a, "triangles"_a, "find"_a, "fitted"_a)
         .def("copy", [](const PythonScene& s) { return PythonScene(s); })
-        .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "type"_a, "unit"_a, "up"_a, "name"_a,
-             "find"_a = nb::none())
+        .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "type"_a, "unit"_a, "up"_a, "front"_a,
+             "sizes"_a, "name"_a, "find"_a = nb::none())
         .def("set_worn", &set_worn, "find"_a, "body"_a, "garments"_a)
         .def("run", &run, "filter"_a, "parameters"_a, "progress"_a.none())
         .def(
@@ -160,7 +161,8 @@ NB_MODULE(_core, m)
     nb::set_leak_warnings(false);  // VTK's Python filters are reference cycles, which Python does not collect at exit
     m.attr("__version__") = GARMENTFIT_VERSION;
     bind_invalid_input(m);
-    nb::exception<SolverFailure>(m, "SolverFailure", PyExc_RuntimeError);
+    const nb::exception<SolverFailure> failure(m, "SolverFailure", PyExc_RuntimeError);
+    nb::exception<TimeLimitReached>(m, "TimeLimitReached", failure.ptr()).attr("code") = "time_limit";
     nb::exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);
     bind_functions(m);
     bind_mesh_file(m);

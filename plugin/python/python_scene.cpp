@@ -54,6 +54,16 @@ Parameters parameters_from(const Filter& filter, const nb::dict& given)
     return parameters;
 }
 
+/// Those of some names, where they are given.
+Parameters parameters_of(const Filter& filter, const nb::dict& given, std::initializer_list<const char*> names)
+{
+    Parameters parameters;
+    for (const char* name : names)
+        if (given.contains(name))
+            set_parameter(filter, parameters, name, given[name]);
+    return parameters;
+}
+
 /// The value as a Python object; choices by their names.
 template <class Value>
 nb::object object_of(const Value& value, const About& about)
@@ -132,15 +142,15 @@ const Dressing& PythonScene::dressing() const
 
 PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,
                           const std::string& up, const std::string& front,
-                          const std::map<std::string, std::vector<double>>& joints)
+                          const std::map<std::string, std::vector<double>>& joints, const nb::dict& sizes)
 {
     PythonScene made;
     const Positions in_file = positions_from(positions);
     const Triangles faces = triangles_from(triangles);
-    made.body_frame = body_frame(in_file, faces, { unit, up }).frame;
+    const BodySizes known = parameters_of(filter_of("rig"), sizes, { "height" }).body_sizes;
+    made.body_frame = body_frame(in_file, faces, { { unit, up }, known.height }).frame;
     made.scene.body = body_from(made.body_frame, in_file, faces);
-    if (front != "auto")
-        made.front = made.body_frame.rotation() * axis_of(front);
+    made.front = front_of_body(made.body_frame, front);
     for (const auto& [name, place] : joints)
         joint_of(made.joints, name) = made.body_frame.to_metres(as_positions(place, name)).row(0);
     return made;
@@ -159,13 +169,20 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
 }
 
 void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
-                 const std::string& unit, const std::string& up, const std::string& name, const nb::object& find)
+                 const std::string& unit, const std::string& up, const std::string& front, const nb::dict& sizes,
+                 const std::string& name, const nb::object& find)
 {
     const Positions in_file = positions_from(positions);
     const Triangles faces = triangles_from(triangles);
     const std::optional<Frame> known = garment_frame_from(find_with(find));
-    const Frame frame = known ? *known : garment_frame(in_file, faces, scene.body_frame, { unit, up }).frame;
-    scene.scene.garments.push_back({ make_garment(frame.to_metres(in_file), faces), garment_type_of(type) });
+    const Parameters p = parameters_of(filter_of("fit"), sizes, { "garment_scale", "as_placed" });
+    const GarmentChoice choice { { unit, up }, p.garment_sizes.scale, p.fit.as_placed, front };
+    const Frame frame = known ? *known : garment_frame(in_file, faces, scene.body_frame, choice).frame;
+    scene.scene.garments.push_back({ make_garment(frame.to_metres(in_file), faces),
+                                     garment_type_of(type),
+                                     {},
+                                     front_of_garment(frame, front),
+                                     choice.as_placed });
     scene.garment_frames.push_back(frame);
     scene.names.push_back(name);
 }

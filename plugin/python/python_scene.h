@@ -29,17 +29,19 @@ struct PythonScene {
     const Dressing& dressing() const;
 };
 
-/// A body as it was given. @throws InvalidInput.
+/// A body as it was given. @param sizes  the parameters of rigging; of them, height  @throws InvalidInput.
 PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles, const std::string& unit,
                           const std::string& up, const std::string& front,
-                          const std::map<std::string, std::vector<double>>& joints);
+                          const std::map<std::string, std::vector<double>>& joints, const nb::dict& sizes);
 /// A body that a filter has rigged, and posed where `fitted`; find(name) returns its arrays. @throws InvalidInput.
 PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangles, const nb::object& find,
                             bool fitted);
 
-/// Reads the array GarmentFrame where an earlier filter has written one. @throws InvalidInput.
+/// Reads the array GarmentFrame where an earlier filter has written one.
+/// @param sizes  the parameters of fitting; of them, garment_scale and as_placed  @throws InvalidInput.
 void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
-                 const std::string& unit, const std::string& up, const std::string& name, const nb::object& find);
+                 const std::string& unit, const std::string& up, const std::string& front, const nb::dict& sizes,
+                 const std::string& name, const nb::object& find);
 /// Sets body and garments as worn in the body's DressedPose, in its units. @throws InvalidInput.
 void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);

@@ -7,13 +7,13 @@
 >>> dressed = garmentfit.dress(body, skirt)
 >>> dressed.certified, dressed.garments[0].positions
 """
-from ._core import Cancelled, InvalidInput, SolverFailure, __version__
+from ._core import Cancelled, InvalidInput, SolverFailure, TimeLimitReached, __version__
 from ._meshes import Mesh, read_mesh
 from ._steps import (Certificate, Conflict, DressedGarment, Dressing, Fit, FitOfGarment, Frame, Garment, Girth,
                      Overstretch, Rig, dress, drape_garment, fit_skeleton, recover_pose, rig_body)
 
 __all__ = [
     "Cancelled", "Certificate", "Conflict", "DressedGarment", "Dressing", "Fit", "FitOfGarment", "Frame", "Garment",
-    "Girth", "InvalidInput", "Mesh", "Overstretch", "Rig", "SolverFailure", "__version__", "drape_garment", "dress",
-    "fit_skeleton", "read_mesh", "recover_pose", "rig_body",
+    "Girth", "InvalidInput", "Mesh", "Overstretch", "Rig", "SolverFailure", "TimeLimitReached", "__version__",
+    "drape_garment", "dress", "fit_skeleton", "read_mesh", "recover_pose", "rig_body",
 ]

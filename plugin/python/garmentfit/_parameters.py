@@ -28,8 +28,8 @@ def lines_on(filter_: str) -> str:
 def takes_parameters_of(filter_: str) -> Callable[[Function], Function]:
     """Decorates a function with `**parameters`: help() lists the parameters of the filter."""
     def named(function: Function) -> Function:
-        raises = ("\n\n    Raises InvalidInput, SolverFailure, Cancelled (when progress returns False), "
-                  "KeyboardInterrupt.")
+        raises = ("\n\n    Raises InvalidInput, SolverFailure, TimeLimitReached, Cancelled (when progress returns "
+                  "False), KeyboardInterrupt.")
         setattr(function, "__signature__", with_keywords(inspect.signature(function), filter_))
         function.__doc__ = (function.__doc__ or "").rstrip() + lines_on(filter_) + raises
         return function

@@ -21,10 +21,13 @@ Progress = Callable[[float, str], Optional[bool]]
 
 
 class Garment(NamedTuple):
-    """A garment and its type. Several garments can have different types."""
+    """A garment and what is known of it. Several garments can differ in it; None is what the function is given."""
 
     mesh: MeshLike
     type: str = "auto"
+    front: Optional[str] = None  #: the axis of its file that its front faces
+    scale: Optional[float] = None  #: of its file, after its unit
+    as_placed: Optional[bool] = None  #: it lies round the body already
 
 
 class Girth(NamedTuple):
@@ -199,21 +202,29 @@ def _dressed(garment: Mapping[str, Any]) -> DressedGarment:
 
 
 def _scene_of(body: MeshLike, unit: str, up: str, front: str,
-              joints: Optional[Mapping[str, Sequence[float]]]) -> _core.Scene:
+              joints: Optional[Mapping[str, Sequence[float]]], parameters: Mapping[str, Any]) -> _core.Scene:
     mesh = as_mesh(body)
     known = {name: [float(x) for x in place] for name, place in (joints or {}).items()}
-    return _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known)
+    return _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known, dict(parameters))
 
 
-def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]], unit: str, up: str) -> _core.Scene:
+def _sizes_of(garment: Garment, parameters: Mapping[str, Any]) -> Mapping[str, Any]:
+    """What the garment says of itself comes before the parameters of all garments."""
+    own = {"garment_scale": garment.scale, "as_placed": garment.as_placed}
+    return {**parameters, **{name: value for name, value in own.items() if value is not None}}
+
+
+def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]], unit: str, up: str, front: str,
+                   parameters: Mapping[str, Any]) -> _core.Scene:
     dressed = scene.copy()
     several = isinstance(garments, (list, tuple)) and not isinstance(garments, Garment) and not _is_pair(garments)
     layers = list(garments) if several else [garments]
     for i, layer in enumerate(layers):
-        mesh, type_ = (layer.mesh, layer.type) if isinstance(layer, Garment) else (layer, "auto")
-        mesh = as_mesh(mesh)
+        garment = layer if isinstance(layer, Garment) else Garment(layer)
+        mesh = as_mesh(garment.mesh)
         named = mesh.name if len(layers) == 1 or mesh.name != "the garment" else f"garment {i + 1}"
-        dressed.add_garment(mesh.positions, mesh.triangles, type_, unit, up, named)
+        dressed.add_garment(mesh.positions, mesh.triangles, garment.type, unit, up, garment.front or front,
+                            dict(_sizes_of(garment, parameters)), named)
     return dressed
 
 
@@ -238,17 +249,19 @@ def rig_body(body: MeshLike, *, unit: str = "auto", up: str = "auto", front: str
     unit, up, front: of the body's file, "auto" or "m", "dm", "cm", "mm", "in", "ft" and "+x" ... "-z".
     joints: positions of known joints by name, in the body's units and axes.
     """
-    return Rig(_scene_of(body, unit, up, front, joints).run("rig", parameters, progress))
+    return Rig(_scene_of(body, unit, up, front, joints, parameters).run("rig", parameters, progress))
 
 
 @takes_parameters_of("fit")
 def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_unit: str = "auto",
-                 garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Fit:
+                 garment_up: str = "auto", garment_front: str = "auto", progress: Optional[Progress] = None,
+                 **parameters: Any) -> Fit:
     """Poses a rigged body so that its bones run through the middle of the garment's parts.
 
-    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type) sets the type of each.
+    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type, front, scale, as_placed)
+    says for each what it is and how it lies.
     """
-    scene = _with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up)
+    scene = _with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up, garment_front, parameters)
     return Fit(scene.run("fit", parameters, progress))
 
 
@@ -267,10 +280,12 @@ def recover_pose(draped: Dressing, *, progress: Optional[Progress] = None, **par
 @takes_parameters_of("dress")
 def dress(body: MeshLike, garments: Union[MeshLike, Sequence[Any]], *, unit: str = "auto", up: str = "auto",
           front: str = "auto", joints: Optional[Mapping[str, Sequence[float]]] = None, garment_unit: str = "auto",
-          garment_up: str = "auto", progress: Optional[Progress] = None, **parameters: Any) -> Dressing:
+          garment_up: str = "auto", garment_front: str = "auto", progress: Optional[Progress] = None,
+          **parameters: Any) -> Dressing:
     """Dresses a body in garments made for somebody else: rig, fit, drape, recover.
 
     A garment that is too small is no error: `certified` is then False, and `note` says where and by how much.
     """
-    scene = _with_garments(_scene_of(body, unit, up, front, joints), garments, garment_unit, garment_up)
+    scene = _with_garments(_scene_of(body, unit, up, front, joints, parameters), garments, garment_unit, garment_up,
+                           garment_front, parameters)
     return Dressing(scene.run("dress", parameters, progress))

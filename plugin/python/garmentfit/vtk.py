@@ -13,7 +13,9 @@ skeleton. Parameters are attributes with the names of the schema, or keyword arg
 from __future__ import annotations
 
 import inspect
+import math
 import sys
+import time
 from numbers import Integral
 from types import MappingProxyType
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
@@ -164,6 +166,22 @@ def _given_type(garment: vtkPolyData) -> str:
     return array.GetValue(0) if isinstance(array, vtkStringArray) and array.GetNumberOfValues() else "auto"
 
 
+def _given_front(garment: vtkPolyData) -> str:
+    array = garment.GetFieldData().GetAbstractArray("GarmentFront")
+    return array.GetValue(0) if isinstance(array, vtkStringArray) and array.GetNumberOfValues() else ""
+
+
+def _given_sizes(garment: vtkPolyData) -> Dict[str, Any]:
+    """Scale, and whether the garment lies round the body already: of this garment."""
+    scale, placed = (_numbers(garment.GetFieldData(), name) for name in ("GarmentScale", "GarmentAsPlaced"))
+    given: Dict[str, Any] = {}
+    if scale is not None and scale.size:
+        given["garment_scale"] = float(scale.flat[0])
+    if placed is not None and placed.size:
+        given["as_placed"] = bool(placed.flat[0])
+    return given
+
+
 def _what_is_wrong(port: int, data: Optional[vtkDataObject]) -> Optional[str]:
     """Checks that an input is there and a surface. The executive reports this, too, and stops."""
     named = ("the body", "the garments")[port]
@@ -203,8 +221,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
         cls.__doc__ = (cls.__doc__ or "").rstrip() + lines_on(cls.NAME)
 
     def __init__(self, *, unit: str = "auto", up: str = "auto", front: str = "auto", garment_unit: str = "auto",
-                 garment_up: str = "auto", joints: Optional[Mapping[str, Sequence[float]]] = None,
-                 **parameters: Any) -> None:
+                 garment_up: str = "auto", garment_front: str = "auto",
+                 joints: Optional[Mapping[str, Sequence[float]]] = None, **parameters: Any) -> None:
         object.__setattr__(self, "_values", {name: default for name, default, *_ in _core.parameters_of(self.NAME)})
         dresses = self.NAME != "rig"
         super().__init__(nInputPorts=1 + dresses, inputType="vtkPolyData", nOutputPorts=2 + dresses,
@@ -214,6 +232,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
         self.front: str = front
         self.garment_unit: str = garment_unit
         self.garment_up: str = garment_up
+        self.garment_front: str = garment_front
         #: read only, so that a change is noticed: set all anew
         self.joints: Mapping[str, Sequence[float]] = joints or {}
         self.error: Optional[str] = None  #: message of the last execution; None after success
@@ -238,7 +257,7 @@ class _FitFilter(VTKPythonAlgorithmBase):
                 self._values[name] = value
                 self.Modified()
         else:
-            changed = name in ("unit", "up", "front", "garment_unit", "garment_up", "joints")
+            changed = name in ("unit", "up", "front", "garment_unit", "garment_up", "garment_front", "joints")
             super().__setattr__(name, MappingProxyType(dict(value)) if name == "joints" else value)
             if changed:
                 self.Modified()
@@ -387,19 +406,24 @@ class _FitFilter(VTKPythonAlgorithmBase):
         return kept[1]
 
     def _updated(self, body: vtkPolyData, garments: Optional[vtkDataObject]) -> Any:
-        choices = (self.unit, self.up, self.front, tuple(sorted((k, tuple(v)) for k, v in self.joints.items())))
+        end = self._end_of_time()
+        choices = (self.unit, self.up, self.front, self._values.get("height"),
+                   tuple(sorted((k, tuple(v)) for k, v in self.joints.items())))
         source: Any = (body.__this__, body.GetMTime(), choices)
         scene = self._kept("body", source, lambda: self._read_body(body))
         dressed = garments is None
         for i, step in enumerate(self.STEPS):
             if not dressed and step != "rig":
-                source = (source, garments.__this__, garments.GetMTime(), self.garment_unit, self.garment_up)
+                source = (source, garments.__this__, garments.GetMTime(), self.garment_unit, self.garment_up,
+                          self.garment_front, self._values.get("garment_scale"), self._values.get("as_placed"))
                 before = scene
                 scene = self._kept("garments", source, lambda: self._read_garments(before, body, garments))
                 dressed = True
             values, matter = self._values_of(step, 0 if garments is None else len(_leaves(garments)))
             source = (source, tuple(sorted(matter.items())))
             before, part = scene, i / len(self.STEPS)
+            if not math.isinf(end):
+                values["time_limit"] = max(end - time.monotonic(), 1e-6)  # 0 would be no limit
             scene = self._kept(step, source, lambda: before.run(
                 step, values, lambda done, stage: self._goes_on(part + done / len(self.STEPS), stage)))
             if step == "drape" and not scene.verdict()["put_on"]:
@@ -412,13 +436,21 @@ class _FitFilter(VTKPythonAlgorithmBase):
         unused = set()
         if step == "drape":  # only garments that are worn already move to another pose
             unused = {name for name in values if name.startswith("recovery_") and layers < 2}
+        if step in ("rig", "fit"):  # finished, or failed
+            unused = {"time_limit"}
         return values, {name: value for name, value in values.items() if name not in unused}
+
+    def _end_of_time(self) -> float:
+        """Of all steps together; infinite without a time limit."""
+        limit = self._values["time_limit"]
+        return time.monotonic() + limit if limit > 0 else math.inf
 
     def _read_body(self, body: vtkPolyData) -> Any:
         if "rig" not in self.TAKES:
             positions, triangles = mesh_of(body, "the body")
             joints = {name: [float(x) for x in place] for name, place in self.joints.items()}
-            return _core.Scene.of_body(positions, triangles, self.unit, self.up, self.front, joints)
+            return _core.Scene.of_body(positions, triangles, self.unit, self.up, self.front, joints,
+                                        {"height": self._values["height"]})
         positions, triangles = mesh_of(body, "the body", "InputPosition")
         return _core.Scene.of_rigged(positions, triangles, _find_in(body), "fits" in self.TAKES)
 
@@ -428,8 +460,9 @@ class _FitFilter(VTKPythonAlgorithmBase):
         layers = _leaves(garments)
         for name, garment in layers:
             positions, triangles = mesh_of(garment, name, "RestPosition" if given else "")
-            scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up, name,
-                              _find_in(garment) if given else None)
+            scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up,
+                              _given_front(garment) or self.garment_front, {**self._values, **_given_sizes(garment)},
+                              name, _find_in(garment) if given else None)
         if "worn" in self.TAKES:
             scene.set_worn(_find_in(body), mesh_of(body, "the body")[0],
                            [mesh_of(garment, name)[0] for name, garment in layers])

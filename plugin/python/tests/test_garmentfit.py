@@ -72,6 +72,13 @@ def test_numbers_of_the_right_type_are_not_copied(body):
     (lambda b, g: garmentfit.dress(b, g, colour="red"), "colour"),
     (lambda b, g: garmentfit.dress(b, Garment(g, "umbrella")), "umbrella"),
     (lambda b, g: garmentfit.rig_body(b, unit="cubit"), "cubit"),
+    (lambda b, g: garmentfit.rig_body(b, height=20), "height: 20 is out of range"),
+    (lambda b, g: garmentfit.rig_body(b, height="tall"), "height"),
+    (lambda b, g: garmentfit.dress(b, g, garment_front="+y"), "garment_front: +y lies along the up axis"),
+    (lambda b, g: garmentfit.dress(b, Garment(g, front="forwards")), "unknown axis"),
+    (lambda b, g: garmentfit.dress(b, Garment(g, scale=0)), "garment_scale: 0 is out of range"),
+    (lambda b, g: garmentfit.dress(b, g, as_placed="perhaps"), "as_placed"),
+    (lambda b, g: garmentfit.dress(b, g, time_limit=-1), "time_limit"),
     (lambda b, g: garmentfit.rig_body(b, joints={"lknee": [1, 2]}), "lknee"),
     (lambda b, g: garmentfit.rig_body(b, joints={"tail": [1, 2, 3]}), "tail"),
     (lambda b, g: garmentfit.rig_body((b.positions[:, :2], b.triangles)), "n x 3"),
@@ -101,6 +108,31 @@ def test_bad_input_has_a_code_for_programs(call, code, body, skirt):
     with pytest.raises(InvalidInput) as refused:
         call(body, skirt)
     assert refused.value.code == code and InvalidInput("").code == "invalid_input"
+
+
+def test_a_body_is_as_tall_as_it_is_said_to_be(body):
+    units = np.ptp(body.positions[:, 1])
+    assert np.isclose(garmentfit.rig_body(body, height=1.5).metres_per_unit, 1.5 / units)
+    assert garmentfit.rig_body(body, height=None).metres_per_unit == 1
+
+
+def test_garments_have_their_own_scale_front_and_place(body, skirt):
+    rig = garmentfit.rig_body(body, height=1.5)
+    layers = [Garment(skirt, "skirt"), Garment(skirt, "skirt", front="+x", scale=1.1),
+              Garment(skirt, "skirt", as_placed=True)]
+    fit = garmentfit.fit_skeleton(rig, layers, garment_front="+z", garment_scale=1.05)
+    frames = [fit._scene.garment_arrays(i)["field"]["GarmentFrame"].flat[0] for i in range(3)]
+    assert np.allclose(frames, [1.05, 1.1, 1.05 * rig.metres_per_unit])
+
+
+def test_the_time_limit_ends_a_step(body, skirt):
+    with pytest.raises(garmentfit.TimeLimitReached, match="time_limit") as reached:
+        garmentfit.dress(body, skirt, time_limit=1e-9)
+    assert reached.value.code == "time_limit" and isinstance(reached.value, garmentfit.SolverFailure)
+    fit = garmentfit.fit_skeleton(garmentfit.rig_body(body), skirt)
+    draped = garmentfit.drape_garment(fit, time_limit=1e-9)
+    assert not draped.certified and not draped.too_small and "time limit" in draped.note
+    assert draped.garments[0].certificate.clean
 
 
 def test_figures_of_the_cloth_may_be_left_to_its_fabric():

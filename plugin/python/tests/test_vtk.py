@@ -109,6 +109,36 @@ def test_a_changed_parameter_repeats_only_what_it_concerns(dress):
     assert seen == {"recovering the pose"}
 
 
+def test_sizes_and_the_time_limit_are_heeded_when_they_change(sources):
+    rig = RigBody(time_limit=1e-9)
+    rig.SetInputConnection(0, sources[0].GetOutputPort())
+    rig.AddObserver("ErrorEvent", lambda o, e: None)
+    rig.Update()
+    assert rig.error_name == "time_limit" and "time_limit" in rig.error
+    rig.time_limit = 0
+    for height in (1.5, 0.9):
+        rig.height = height
+        rig.Update()
+        units = np.ptp(points(rig.GetOutput(0))[:, 1])
+        assert rig.error is None
+        assert np.isclose(rig.GetOutput(0).GetFieldData().GetArray("BodyFrame").GetValue(0), height / units)
+
+
+def test_a_shorter_time_limit_repeats_draping_only_and_leaves_a_clean_state(sources):
+    filter_ = DressBody(**QUICK)
+    for port in (0, 1):
+        filter_.SetInputConnection(port, sources[port].GetOutputPort())
+    filter_.AddObserver("WarningEvent", lambda o, e: None)
+    filter_.Update()
+    seen = stages_of(filter_)
+    filter_.time_limit = 1e-6
+    filter_.Update()
+    assert not {"rigging the body", "fitting the skeleton"} & seen
+    field = filter_.GetOutput(0).GetFieldData()
+    assert field.GetArray("Certified").GetValue(0) == 0
+    assert "time limit" in field.GetAbstractArray("Note").GetValue(0)
+
+
 def test_every_parameter_is_an_attribute():
     for make, name in ((RigBody, "rig"), (FitSkeleton, "fit"), (DrapeGarment, "drape"), (RecoverPose, "recover"),
                        (DressBody, "dress")):
