@@ -107,6 +107,8 @@ void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& 
         choice.types.push_back(entry.filter->has(Stage::fit)
                                    ? read_number<GarmentType>(list, k_types[i], garment_type_names().size())
                                    : GarmentType::automatic);
+        choice.garment_fronts.push_back(
+            entry.filter->has(Stage::fit) ? read_word(list, k_garment_fronts[i], axis_choices()) : "auto");
     }
 }
 

@@ -21,6 +21,7 @@ struct Choice {
     MeshModel* body = nullptr;
     std::vector<MeshModel*> garments;  ///< innermost first
     std::vector<GarmentType> types;  ///< of the garments
+    std::vector<std::string> garment_fronts;  ///< axes of the garments' layers, or "auto"
     MeshModel* worn = nullptr;  ///< the first garment, on the body
     FrameChoice body_frame, garment_frame;
     std::string front = "auto";  ///< axis of the body's layer

@@ -16,7 +16,8 @@ Fitting new_fitting(const Choice& choice, Report& report)
     Fitting fitting;
     fitting.body_name = name_of(*choice.body);
     with_name(*choice.body, [&] {
-        const FrameGuess guess = body_frame(mesh.positions, mesh.triangles, choice.body_frame);
+        const BodyChoice body { choice.body_frame, choice.parameters.body_sizes.height };
+        const FrameGuess guess = body_frame(mesh.positions, mesh.triangles, body);
         fitting.body_frame = guess.frame;
         fitting.scene.body = make_body(guess.frame.to_metres(mesh.positions), mesh.triangles);
         report.lines.push_back(fitting.body_name + ": " + guess.why);
@@ -39,10 +40,13 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
     for (std::size_t i = 0; i < choice.garments.size(); ++i)
         with_name(*choice.garments[i], [&] {
             const TriangleMesh mesh = mesh_of(*choice.garments[i]);
-            const FrameGuess guess
-                = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, choice.garment_frame);
-            scene.garments.push_back(
-                { make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles), choice.types[i] });
+            const GarmentChoice garment { choice.garment_frame, choice.parameters.garment_sizes.scale,
+                                          choice.parameters.fit.as_placed, choice.garment_fronts[i] };
+            const FrameGuess guess = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment);
+            scene.garments.push_back({ make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles),
+                                       choice.types[i],
+                                       {},
+                                       front_of_garment(guess.frame, garment.front) });
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
             report.warn(warnings_about_frame(fitting.garment_names.back(), guess, "garment_", set_by_name));

@@ -43,8 +43,7 @@ Report run_stages(const MenuEntry& entry, Choice& choice, MeshDocument& document
     Report report;
     Fitting fitting = inputs_of(entry, choice, document, report);
     put_lengths_in_metres(entry, choice.parameters, fitting.body_frame.metres_per_unit);
-    if (choice.front != "auto")
-        choice.parameters.rig.front = fitting.body_frame.rotation() * axis_of(choice.front);
+    choice.parameters.rig.front = front_of_body(fitting.body_frame, choice.front);
     entry.filter->run(fitting.scene, choice.parameters, progress);
     require_certified(fitting);
     report_scene(report, fitting);

@@ -20,6 +20,7 @@
 
 #include "../temporary_folder.h"
 #include "garmentfit/filters/filters.h"
+#include "garmentfit/filters/rig_file.h"
 #include "garmentfit/io.h"
 #include "open_layer.h"
 
@@ -351,12 +352,46 @@ TEST_F(MeshLab, RefusesParametersOutOfRange)
     expect_refusal("Rig Body", list, "proxy_vertices: 7 is out of range");
 }
 
+TEST_F(MeshLab, RefusesAGarmentThatFacesUpwards)
+{
+    open_samples();
+    RichParameterList list = dialog_of("Dress Body", document);
+    list.setValue("garment_front", EnumValue(3));  // +y
+    expect_refusal("Dress Body", list, "garment_front: +y lies along the up axis");
+}
+
+TEST_F(MeshLab, MakesABodyAsTallAsItIsSaidToBe)
+{
+    fs::copy(k_body, folder / "woman.ply");
+    meshlab::open_layer(document, folder / "woman.ply");
+    RichParameterList list = dialog_of("Rig Body", document);
+    EXPECT_EQ(list.getString("height").toStdString(), "auto");
+    list.setValue("height", StringValue("tall"));
+    expect_refusal("Rig Body", list, "is not possible; give 0.2..10 m");
+    list.setValue("height", StringValue("1.8"));
+    const Ended ended = run("Rig Body", document, list);
+    ASSERT_TRUE(ended.well) << ended.message;
+    ASSERT_TRUE(run("Save Rig", document).well);
+    const auto heights = body_mesh().positions.col(1);
+    EXPECT_NEAR(read_rig_file(folder / "woman.rig.json").frame.metres_per_unit,
+                1.8 / (heights.maxCoeff() - heights.minCoeff()), 1e-6);
+}
+
+TEST_F(MeshLab, EndsAtItsTimeLimit)
+{
+    open_samples();
+    RichParameterList list = dialog_of("Rig Body", document);
+    list.setValue("time_limit", FloatValue(1e-6F));
+    expect_refusal("Rig Body", list, "time_limit: it was reached while rigging the body");
+}
+
 TEST_F(MeshLab, RefusesInvalidChoices)
 {
     open_samples();
     using Field = std::pair<std::string, std::string>;
-    for (const auto& [name, filter] : { Field { "unit", "Rig Body" }, Field { "shown_bone", "Rig Body" },
-                                        Field { "type", "Dress Body" }, Field { "shown_map", "Dress Body" } })
+    for (const auto& [name, filter] :
+         { Field { "unit", "Rig Body" }, Field { "shown_bone", "Rig Body" }, Field { "type", "Dress Body" },
+           Field { "shown_map", "Dress Body" }, Field { "garment_front", "Dress Body" } })
         for (const int number : { -1, 99 }) {
             RichParameterList list = dialog_of(filter, document);
             list.setValue(QString::fromStdString(name), EnumValue(number));
