@@ -42,9 +42,14 @@ Eigen::Matrix3d hinge_frame(const Positions& x, const std::array<int, 4>& v)
     return frame;
 }
 
-Vec3 weighted_sum(const Positions& x, const std::array<int, 4>& v, const std::array<double, 4>& w)
+// Axes of a triangle as columns: its first edge, its normal, and the direction across both.
+Eigen::Matrix3d triangle_frame(const Positions& x, const std::array<int, 4>& v)
 {
-    return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
+    const Vec3 a = x.row(v[0]), b = x.row(v[1]), c = x.row(v[2]);
+    const Vec3 edge = (b - a).normalized(), normal = (b - a).cross(c - a).normalized();
+    Eigen::Matrix3d frame;
+    frame << edge, normal, edge.cross(normal);
+    return frame;
 }
 
 double rest_length(const GarmentMesh& rest, int i, int j)
@@ -62,20 +67,33 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> make_sparse(Eigen::Index rows, Eige
 
 }  // namespace
 
+Eigen::Matrix3d ClothEnergy::FramedSum::frame(const Positions& x) const
+{
+    return kind == Kind::hinge ? hinge_frame(x, v) : triangle_frame(x, v);
+}
+
+Vec3 ClothEnergy::FramedSum::sum(const Positions& x) const
+{
+    const auto& w = coefficients;
+    return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
+}
+
 ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
-                         const std::vector<std::pair<int, int>>& ties, const ClothOptions& options) :
+                         const std::vector<std::pair<int, int>>& pairs, const ClothOptions& options,
+                         const std::vector<Tie>& sewn) :
     masses_(rest.positions.rows(), k_least_mass)
 {
     const Material material = material_of(options);
-    add_springs(rest, topology, ties, material);
+    add_springs(rest, topology, pairs, material);
     add_hinges(rest, topology, material.bend_stiffness);
+    add_ties(rest, sewn, material.stretch_stiffness);
     assemble();
 }
 
 // A spring stands for the strip of cloth beside it, whose width is area / length.
 // derived: StretchesAndShearsAsAnIsotropicSheet in cloth_energy_test holds the moduli that follow.
 void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topology,
-                              const std::vector<std::pair<int, int>>& ties, const Material& material)
+                              const std::vector<std::pair<int, int>>& pairs, const Material& material)
 {
     const Edges& edges = topology.edges();
     std::vector<double> area_at_edge(edges.rows(), 0);
@@ -95,7 +113,7 @@ void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topol
             springs_.push_back(
                 { i, j, l, material.stretch_stiffness * std::min(area_at_edge[e] / (l * l), k_largest_cotangent) });
     }
-    for (const auto& [i, j] : ties)
+    for (const auto& [i, j] : pairs)
         springs_.push_back({ i, j, rest_length(rest, i, j), material.stretch_stiffness });
 }
 
@@ -113,7 +131,7 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topolo
         const int c = corner_of(sides[0], 2), d = corner_of(sides[1], 2);
         if (c == d)
             continue;
-        Hinge h { { a, b, c, d }, {}, Vec3::Zero(), 0 };
+        FramedSum h { FramedSum::Kind::hinge, { a, b, c, d }, {}, Vec3::Zero(), 0 };
         const auto x = [&](int k) { return Vec3(rest.positions.row(h.v[k])); };
         const double c01 = cotangent(x(0), x(1), x(2)), c02 = cotangent(x(0), x(1), x(3)),
                      c11 = cotangent(x(1), x(0), x(2)), c12 = cotangent(x(1), x(0), x(3));
@@ -122,8 +140,22 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topolo
         if (!(areas > 0))
             continue;
         h.stiffness = bend_stiffness * 3 / std::max(areas, k_least_hinge_area * mean_areas);
-        h.curvature = hinge_frame(rest.positions, h.v).transpose() * weighted_sum(rest.positions, h.v, h.coefficients);
-        hinges_.push_back(h);
+        h.at_rest = h.frame(rest.positions).transpose() * h.sum(rest.positions);
+        sums_.push_back(h);
+    }
+}
+
+// derived: as stiff as the edges of an even mesh, so a seam gives no more than the cloth beside it.
+void ClothEnergy::add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, double stiffness)
+{
+    for (const Tie& tie : sewn) {
+        FramedSum t { FramedSum::Kind::tie,
+                      { tie.corners[0], tie.corners[1], tie.corners[2], tie.vertex },
+                      { -tie.weights[0], -tie.weights[1], -tie.weights[2], 1 },
+                      Vec3::Zero(),
+                      stiffness };
+        t.at_rest = t.frame(rest.positions).transpose() * t.sum(rest.positions);
+        sums_.push_back(t);
     }
 }
 
@@ -131,7 +163,7 @@ void ClothEnergy::assemble()
 {
     const Eigen::Index n = Eigen::Index(masses_.size());
     std::vector<Eigen::Triplet<double>> gradients;
-    Eigen::VectorXd spring_stiffness(springs_.size()), hinge_stiffness(hinges_.size());
+    Eigen::VectorXd spring_stiffness(springs_.size()), sum_stiffness(sums_.size());
     for (int e = 0; e < int(springs_.size()); ++e) {
         gradients.emplace_back(springs_[e].i, e, 1.0);
         gradients.emplace_back(springs_[e].j, e, -1.0);
@@ -139,16 +171,16 @@ void ClothEnergy::assemble()
     }
     spring_gradients_ = make_sparse(n, spring_stiffness.size(), gradients);
     gradients.clear();
-    for (int e = 0; e < int(hinges_.size()); ++e) {
+    for (int e = 0; e < int(sums_.size()); ++e) {
         for (int k = 0; k < 4; ++k)
-            gradients.emplace_back(hinges_[e].v[k], e, hinges_[e].coefficients[k]);
-        hinge_stiffness[e] = hinges_[e].stiffness;
+            gradients.emplace_back(sums_[e].v[k], e, sums_[e].coefficients[k]);
+        sum_stiffness[e] = sums_[e].stiffness;
     }
-    hinge_gradients_ = make_sparse(n, hinge_stiffness.size(), gradients);
+    sum_gradients_ = make_sparse(n, sum_stiffness.size(), gradients);
     const auto quadratic_form = [](const SparseRows& form, const Eigen::VectorXd& stiffness) {
         return SparseRows(form * stiffness.asDiagonal() * SparseRows(form.transpose()));
     };
-    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + quadratic_form(hinge_gradients_, hinge_stiffness);
+    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + quadratic_form(sum_gradients_, sum_stiffness);
     SparseRows diagonal(n, n);  // set_time_step() writes to the diagonal, so each of its entries must exist
     diagonal.setIdentity();
     elastic_ += 0 * diagonal;
@@ -194,15 +226,15 @@ Positions ClothEnergy::spring_loads(const Positions& x) const
     return multiply(spring_gradients_, loads);
 }
 
-Positions ClothEnergy::hinge_loads(const Positions& x) const
+Positions ClothEnergy::frame_loads(const Positions& x) const
 {
-    Positions loads(hinges_.size(), 3);
-    const auto hinge = [&](Eigen::Index e) {
-        const Hinge& h = hinges_[e];
-        loads.row(e) = h.stiffness * (hinge_frame(x, h.v) * h.curvature);
+    Positions loads(sums_.size(), 3);
+    const auto load = [&](Eigen::Index e) {
+        const FramedSum& s = sums_[e];
+        loads.row(e) = s.stiffness * (s.frame(x) * s.at_rest);
     };
-    parallel_for(loads.rows(), hinge, k_grain);
-    return multiply(hinge_gradients_, loads);
+    parallel_for(loads.rows(), load, k_grain);
+    return multiply(sum_gradients_, loads);
 }
 
 std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
@@ -225,7 +257,7 @@ std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
 
 Positions ClothEnergy::elastic_forces(const Positions& x) const
 {
-    return spring_loads(x) + hinge_loads(x) - multiply(elastic_, x);
+    return spring_loads(x) + frame_loads(x) - multiply(elastic_, x);
 }
 
 double ClothEnergy::elastic_energy(const Positions& x) const
@@ -235,9 +267,8 @@ double ClothEnergy::elastic_energy(const Positions& x) const
         const double longer = (x.row(s.i) - x.row(s.j)).norm() - s.length;
         sum += 0.5 * s.stiffness * longer * longer;
     }
-    for (const Hinge& h : hinges_)
-        sum += 0.5 * h.stiffness
-            * (weighted_sum(x, h.v, h.coefficients) - hinge_frame(x, h.v) * h.curvature).squaredNorm();
+    for (const FramedSum& s : sums_)
+        sum += 0.5 * s.stiffness * (s.sum(x) - s.frame(x) * s.at_rest).squaredNorm();
     return sum;
 }
 

@@ -8,6 +8,8 @@
 //          such edges back instead.
 // Bend     quadratic hinges [bergou_2006_quadratic_bending] that keep the mean curvature vector they have at rest,
 //          turned along with the hinge, so a garment keeps its own folds.
+// Sewn     a vertex of a sewn piece wants its place at rest over the triangle that it is tied to, turned along with the
+//          triangle. That holds it in all directions, where springs to the corners hold it only along the triangle.
 // Units    metres, kilograms, seconds. Positions and forces are n x 3.
 
 #include <Eigen/SparseCore>
@@ -17,6 +19,7 @@
 
 #include "garmentfit/cloth.h"
 #include "garmentfit/mesh.h"
+#include "sewn_pieces.h"
 #include "single_precision_factor.h"
 #include "soft_constraint.h"
 #include "topology.h"
@@ -26,26 +29,27 @@ namespace garmentfit {
 class ClothEnergy {
 public:
     /// @param topology  of rest.triangles
-    /// @param ties      pairs of vertices held at their rest distance, beside the edges
-    ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<std::pair<int, int>>& ties,
-                const ClothOptions& options);
+    /// @param pairs     of vertices held at their rest distance, beside the edges
+    /// @param sewn      of vertices held at their place over a triangle
+    ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<std::pair<int, int>>& pairs,
+                const ClothOptions& options, const std::vector<Tie>& sewn = {});
 
     /// Seconds. Each new one costs one factorisation, of everything but the constraints.
     void set_time_step(double time_step);
 
-    /// Of springs and hinges, J; without strain limits.
+    /// Of springs, hinges and ties, J; without strain limits.
     double elastic_energy(const Positions& x) const;
-    /// Minus the gradient of that energy, N, with the frames of the hinges held.
+    /// Minus the gradient of that energy, N, with the frames of hinges and ties held.
     Positions elastic_forces(const Positions& x) const;
     const std::vector<double>& masses() const { return masses_; }  ///< kg
 
     // ---- the parts of the implicit time step, for its solver ----
 
     double inertia() const { return inertia_; }  ///< 1 / h^2 of the time step h, 1/s^2
-    /// The loads of springs and hinges when they are projected to their rest, N.
+    /// The loads of springs, and of hinges and ties, when they are projected to their rest, N.
     Positions spring_loads(const Positions& x) const;
-    Positions hinge_loads(const Positions& x) const;
-    /// The constant quadratic form (inertia, springs, hinges) times x, N.
+    Positions frame_loads(const Positions& x) const;
+    /// The constant quadratic form (inertia, springs, hinges, ties) times x, N.
     Positions apply_quadratic_form(const Positions& x) const;
     /// Approximately the inverse of that form times the residual, in single precision.
     Positions precondition(const Positions& residual) const { return factor_.solve(residual); }
@@ -58,22 +62,28 @@ private:
         int i, j;
         double length, stiffness;
     };
-    struct Hinge {
-        std::array<int, 4> v;  // the shared edge, then the opposite corners
-        std::array<double, 4> coefficients;  // their weighted sum is the mean curvature vector of the hinge
-        Vec3 curvature;  // that vector at rest, in the hinge's own frame
+    /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
+    struct FramedSum {
+        enum class Kind { hinge, tie } kind;
+        std::array<int, 4> v;  // the shared edge of a hinge, then the opposite corners; triangle and vertex of a tie
+        std::array<double, 4> coefficients;  // for the mean curvature vector of a hinge, the offset of a tie
+        Vec3 at_rest;  // that vector at rest, in the frame
         double stiffness;
+
+        Eigen::Matrix3d frame(const Positions& x) const;
+        Vec3 sum(const Positions& x) const;
     };
     void add_springs(const GarmentMesh& rest, const MeshTopology& topology,
-                     const std::vector<std::pair<int, int>>& ties, const Material& material);
+                     const std::vector<std::pair<int, int>>& pairs, const Material& material);
     void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, double bend_stiffness);
+    void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, double stiffness);
     void assemble();
     static Positions multiply(const SparseRows& matrix, const Positions& x);
 
     std::vector<double> masses_;
     std::vector<Spring> springs_;
-    std::vector<Hinge> hinges_;
-    SparseRows spring_gradients_, hinge_gradients_;  // n x elements: how their loads act on the vertices
+    std::vector<FramedSum> sums_;
+    SparseRows spring_gradients_, sum_gradients_;  // n x elements: how their loads act on the vertices
     SparseRows elastic_;  // constant part of the system, n x n, both triangles
     SinglePrecisionFactor factor_;
     double inertia_ = 0;

@@ -6,7 +6,6 @@
 
 #include "collision_free_step.h"
 #include "garmentfit/stopwatch.h"
-#include "loose_parts.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
 
@@ -16,28 +15,26 @@ namespace {
 // unit: m; a vertex that is nearer to its target than this takes the target's own bits.
 constexpr double k_snap = 1e-12;
 
-PreparedCloth untangle_over(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle)
+PreparedCloth untangle_over(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
+                            const std::vector<int>& garments)
 {
-    PreparedCloth result = prepare_cloth(rest, start);
+    PreparedCloth result = prepare_cloth(rest, start, garments);
     untangle_clear_of(result, obstacle);
     return result;
 }
 
-// What crosses at the start is held together as it is: it can neither part nor cross further. Loose parts are held on
-// the cloth under them.
-std::vector<std::pair<int, int>> find_ties(const PreparedCloth& cloth)
+// What crosses at the start is held together as it is: it can neither part nor cross further.
+std::vector<std::pair<int, int>> find_crossing_pairs(const PreparedCloth& cloth)
 {
     const Edges& edges = cloth.topology.edges();
-    std::vector<std::pair<int, int>> ties;
+    std::vector<std::pair<int, int>> pairs;
     for (const auto& [e, f] : cloth.crossings)
         for (int i = 0; i < 2; ++i)
             for (int k = 0; k < 3; ++k)
-                ties.emplace_back(std::minmax(edges(e, i), cloth.rest.triangles(f, k)));
-    std::sort(ties.begin(), ties.end());
-    ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
-    const auto parts = find_loose_part_ties(cloth.rest, cloth.topology);
-    ties.insert(ties.end(), parts.begin(), parts.end());
-    return ties;
+                pairs.emplace_back(std::minmax(edges(e, i), cloth.rest.triangles(f, k)));
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
 }
 
 Positions stack(const Positions& cloth, const Positions& obstacle)
@@ -64,8 +61,8 @@ struct ClothMotion::ActiveContact {
 };
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
-                         const ClothOptions& options) :
-    ClothMotion(untangle_over(rest, start, obstacle), { obstacle, int(obstacle.positions.rows()) }, options)
+                         const ClothOptions& options, const std::vector<int>& garments) :
+    ClothMotion(untangle_over(rest, start, obstacle, garments), { obstacle, int(obstacle.positions.rows()) }, options)
 {
 }
 
@@ -78,10 +75,10 @@ ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const Cl
              { obstacle.mesh.triangles, edges_of(obstacle.mesh.triangles), int(obstacle.mesh.positions.rows()) },
              obstacle.body_vertices,
              { k_spare_margin * contact_margins().cloth, k_spare_margin * contact_margins().obstacle }),
-    x_(stack(cloth.positions, obstacle.mesh.positions)), ties_(find_ties(cloth)),
-    velocity_(Positions::Zero(cloth_vertices_, 3))
+    x_(stack(cloth.positions, obstacle.mesh.positions)), held_pairs_(find_crossing_pairs(cloth)),
+    sewn_(std::move(cloth.sewn.ties)), velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    energy_.emplace(rest_, topology_, ties_, options_);
+    energy_.emplace(rest_, topology_, held_pairs_, options_, sewn_);
 }
 
 // Half of the active distance of cloth and cloth for the cloth. The obstacle gets the rest of that between both.
@@ -99,7 +96,7 @@ double ClothMotion::contact_distance(ContactReason reason) const
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
     rest_ = weld_.gather(rest);
-    energy_.emplace(rest_, topology_, ties_, options_);
+    energy_.emplace(rest_, topology_, held_pairs_, options_, sewn_);
 }
 
 void ClothMotion::restore(const Positions& state)

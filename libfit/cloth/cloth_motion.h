@@ -41,8 +41,9 @@ public:
 
     /// The same from a garment as it is, over an obstacle that is all body: where the cloth crosses itself it is
     /// untangled first, as far as it can be. `start` is n x 3, the obstacle m x 3.
+    /// @param garments  of each vertex its garment, where `rest` has several. Empty: one.
     ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
-                const ClothOptions& options);
+                const ClothOptions& options, const std::vector<int>& garments = {});
 
     /// Gives the cloth another rest shape: the same garment in another size.
     void set_rest(const GarmentMesh& rest);
@@ -91,7 +92,8 @@ private:
     double self_contact_distance_;  // m
     ContactDetector contact_;
     Positions x_;  // cloth, then obstacle
-    std::vector<std::pair<int, int>> ties_;  // across what crosses at the start, and of loose parts
+    std::vector<std::pair<int, int>> held_pairs_;  // of vertices, across what crosses at the start
+    std::vector<Tie> sewn_;
     std::optional<ClothEnergy> energy_;  // its factor cannot be assigned
     Positions velocity_;  // of the cloth, m/s
     ClothSeconds seconds_;

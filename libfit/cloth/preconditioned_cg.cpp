@@ -25,7 +25,7 @@ void PreconditionedCG::set_constraints(const std::vector<SoftConstraint>& constr
     constraints_ = constraints;
     const std::vector<SoftConstraint> limits = energy_.strain_limits(x_);
     constraints_.insert(constraints_.end(), limits.begin(), limits.end());
-    constant_ = energy_.hinge_loads(x_);
+    constant_ = energy_.frame_loads(x_);
     for (Eigen::Index v = 0; v < x_.rows(); ++v)
         constant_.row(v) += energy_.masses()[v] * energy_.inertia() * inertial_.row(v);
     for (const SoftConstraint& constraint : constraints_)

@@ -4,14 +4,27 @@
 #include "exact_crossings.h"
 
 namespace garmentfit {
+namespace {
 
-PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start)
+std::vector<int> gather(const Weld& weld, const std::vector<int>& garments, Eigen::Index vertices)
+{
+    std::vector<int> result;
+    if (!garments.empty())
+        for (Eigen::Index v = 0; v < vertices; ++v)
+            result.push_back(garments[weld.given_vertex(int(v))]);
+    return result;
+}
+
+}  // namespace
+
+PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, const std::vector<int>& garments)
 {
     Weld weld(rest);
     GarmentMesh cloth = weld.gather(rest);
     Positions positions = weld.gather(start);
     MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
-    return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), {} };
+    SewnPieces sewn = find_sewn_pieces(cloth, topology, gather(weld, garments, cloth.positions.rows()));
+    return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), std::move(sewn), {} };
 }
 
 void untangle_clear_of(PreparedCloth& cloth, const TriangleMesh& obstacle)

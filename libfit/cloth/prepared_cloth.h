@@ -4,7 +4,10 @@
 // A garment made ready to move. What needs its vertices welded and its edges listed takes this value, so both are done
 // once for a garment.
 
+#include <vector>
+
 #include "garmentfit/mesh.h"
+#include "sewn_pieces.h"
 #include "topology.h"
 #include "untangle.h"
 #include "weld.h"
@@ -16,12 +19,14 @@ struct PreparedCloth {
     GarmentMesh rest;  ///< welded
     MeshTopology topology;  ///< of rest.triangles
     Positions positions;  ///< at the start, welded, n x 3
+    SewnPieces sewn;  ///< of rest
     std::vector<Crossing> crossings;  ///< pairs of the cloth that cross there and stay as they are
 };
 
-/// Welds the garment and lists its edges. `start` holds positions of the garment's own vertices. Nothing is untangled:
-/// `crossings` stays empty.
-PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start);
+/// Welds the garment, lists its edges, and finds which of its pieces are sewn together. `start` holds positions of the
+/// garment's own vertices. Nothing is untangled: `crossings` stays empty.
+/// @param garments  of each vertex its garment, where `rest` has several. Empty: one.
+PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, const std::vector<int>& garments = {});
 
 /// Untangles the cloth where it can be done without meeting the obstacle, and writes down what still crosses.
 void untangle_clear_of(PreparedCloth& cloth, const TriangleMesh& obstacle);

@@ -27,13 +27,15 @@ namespace {
 struct Outfit {
     GarmentMesh rest;
     TriangleMesh cloth;
+    std::vector<int> garment_of;  // by vertex
 
     explicit Outfit(const std::vector<WornGarment>& garments)
     {
         TriangleMesh at_rest;
-        for (const WornGarment& garment : garments) {
-            append(at_rest, { garment.rest.positions, garment.rest.triangles });
-            append(cloth, { garment.positions, garment.rest.triangles });
+        for (int i = 0; i < int(garments.size()); ++i) {
+            append(at_rest, { garments[i].rest.positions, garments[i].rest.triangles });
+            append(cloth, { garments[i].positions, garments[i].rest.triangles });
+            garment_of.resize(std::size_t(cloth.positions.rows()), i);
         }
         rest = { std::move(at_rest.positions), std::move(at_rest.triangles) };
     }
@@ -210,7 +212,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     const MovedWeights weights { rig.weights,
                                  smooth_weights(weights_of_nearest(outfit.cloth.positions, start.body, rig.weights),
                                                 outfit.cloth.triangles) };
-    ClothMotion motion(outfit.rest, outfit.cloth.positions, { start.body, body.surface.triangles }, options.cloth);
+    ClothMotion motion(outfit.rest, outfit.cloth.positions, { start.body, body.surface.triangles }, options.cloth,
+                       outfit.garment_of);
     FrameRecorder recorder(start.garments, body.surface.triangles, options.frames);
     recorder.record(motion, 0);
     const PathOutcome outcome = follow_path(motion, path, weights, options, recorder, progress.part(0, 0.8));

@@ -160,6 +160,14 @@ Vec3 TriangleTree::nearest(const Vec3& query) const
     return { there.x(), there.y(), there.z() };
 }
 
+std::optional<TriangleTree::Nearest> TriangleTree::nearest_triangle(const Vec3& query) const
+{
+    if (tree_->triangles.empty())
+        return {};
+    const auto [there, triangle] = tree_->aabb.closest_point_and_primitive(point(query));
+    return Nearest { { there.x(), there.y(), there.z() }, tree_->index[triangle - tree_->triangles.cbegin()] };
+}
+
 std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& direction) const
 {
     const Kernel::Vector_3 along(direction.x(), direction.y(), direction.z());

@@ -52,6 +52,12 @@ public:
     double distance(const Vec3& query) const;  ///< m; infinite for an empty surface
     Vec3 nearest(const Vec3& query) const;  ///< a point of the surface; @pre the surface is not empty
 
+    struct Nearest {
+        Vec3 point;
+        int triangle;
+    };
+    std::optional<Nearest> nearest_triangle(const Vec3& query) const;  ///< none for an empty surface
+
     struct Hit {
         double distance;
         bool from_behind;  ///< the ray runs along the triangle's normal

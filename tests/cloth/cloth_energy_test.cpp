@@ -163,6 +163,28 @@ TEST(ClothEnergy, DoesNotChangeWhenTheClothIsMovedAsAWhole)
     EXPECT_NEAR(energy.elastic_energy(x * turn.transpose()) / energy.elastic_energy(x), 1, 1e-9);
 }
 
+TEST(ClothEnergy, OfATieGrowsAlikeInAllDirections)
+{
+    const TriangleMesh button = sheet(2, 0.01, [](double, double) { return 0.004; });
+    const GarmentMesh cloth = flat_sheet();
+    const TriangleMesh both = joined({ cloth.positions, cloth.triangles }, button);
+    const GarmentMesh rest { both.positions, both.triangles };
+    std::vector<Tie> ties;
+    for (int v = 36; v < 40; ++v)
+        ties.push_back({ v, { 0, 6, 1 }, { 0.2, 0.5, 0.3 } });
+    const ClothEnergy energy(rest, topology_of(rest), {}, {}, ties), loose(rest, topology_of(rest), {}, {});
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    for (const Vec3& way : { Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0), Vec3(0, 0, 1e-3) }) {
+        Positions x = rest.positions;
+        x.bottomRows(4).rowwise() += way.transpose();
+        x *= turn.transpose();
+        EXPECT_NEAR(loose.elastic_energy(x), 0, 1e-15) << "the pieces moved as wholes";
+        EXPECT_NEAR(energy.elastic_energy(x), 4 * 0.5 * 400 * 1e-6, 1e-9);
+        EXPECT_LT((energy.elastic_forces(x).row(36).transpose() + 400 * turn * way).norm(), 1e-9);
+        EXPECT_LT(energy.elastic_forces(x).colwise().sum().norm(), 1e-12);
+    }
+}
+
 TEST(ClothEnergy, FreeFallIsThatOfImplicitEuler)
 {
     const GarmentMesh rest = flat_sheet();

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sewn_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "disjoint_sets.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "segment.h"
+#include "tuning.h"
+#include "weld.h"
+
+namespace garmentfit {
+namespace {
+
+// unit: vertices worth handing to another thread.
+constexpr std::size_t k_grain = 64;
+
+struct Piece {
+    std::vector<int> vertices, triangles, border;  // border: vertices
+    Eigen::AlignedBox3d box;
+    double border_edge = 0;  // m, mean length
+    int garment = 0;
+
+    double size() const { return box.diagonal().norm(); }
+};
+
+/// A vertex and the nearest point of another piece.
+struct Foot {
+    double distance = INFINITY;
+    bool on_border = false;  // of the other piece
+    Tie tie = {};
+};
+
+/// The pieces from the largest to the smallest. Each is sewn to pieces before it.
+std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& topology,
+                                  const std::vector<int>& garments)
+{
+    DisjointSets sets(int(rest.positions.rows()));
+    for (const auto& corners : rest.triangles.rowwise())
+        for (int k = 1; k < 3; ++k)
+            sets.join(corners[0], corners[k]);
+    std::map<int, int> row_of;  // by root
+    std::vector<Piece> pieces;
+    std::vector<char> is_listed(std::size_t(rest.positions.rows()), 0), is_on_border(is_listed);
+    for (int f = 0; f < int(rest.triangles.rows()); ++f) {
+        const auto [found, is_new] = row_of.try_emplace(sets.root(rest.triangles(f, 0)), int(pieces.size()));
+        if (is_new)
+            pieces.emplace_back();
+        Piece& piece = pieces[found->second];
+        piece.triangles.push_back(f);
+        for (const int v : rest.triangles.row(f))
+            if (!is_listed[v]) {
+                is_listed[v] = 1;
+                piece.vertices.push_back(v);
+                piece.box.extend(Vec3(rest.positions.row(v)));
+            }
+    }
+    if (pieces.size() == 1)
+        return pieces;
+    for (const int edge : topology.border_edges()) {
+        const int a = topology.edges()(edge, 0), b = topology.edges()(edge, 1);
+        Piece& piece = pieces[row_of[sets.root(a)]];
+        piece.border_edge += (rest.positions.row(a) - rest.positions.row(b)).norm();
+        for (const int v : { a, b })
+            if (!is_on_border[v]) {
+                is_on_border[v] = 1;
+                piece.border.push_back(v);
+            }
+    }
+    for (Piece& piece : pieces) {
+        piece.border_edge /= double(std::max<std::size_t>(1, piece.border.size()));
+        piece.garment = garments.empty() ? 0 : garments[piece.vertices[0]];
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.size() > b.size(); });
+    return pieces;
+}
+
+std::array<double, 3> barycentric(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    const Vec3 normal = (b - a).cross(c - a);
+    const double square = normal.squaredNorm();
+    if (!(square > 0))
+        return { 1, 0, 0 };
+    const double at_a = std::clamp((b - point).cross(c - point).dot(normal) / square, 0.0, 1.0);
+    const double at_b = std::clamp((c - point).cross(a - point).dot(normal) / square, 0.0, 1 - at_a);
+    return { at_a, at_b, 1 - at_a - at_b };
+}
+
+/// Finds where vertices of one piece lie on another.
+class Feet {
+public:
+    Feet(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<Piece>& pieces) :
+        rest_(rest), topology_(topology), pieces_(pieces), trees_(pieces.size())
+    {
+    }
+
+    /// Of each of these vertices, none further than `reach`.
+    std::vector<Foot> find(const std::vector<int>& vertices, std::size_t on, double reach)
+    {
+        if (!trees_[on])
+            trees_[on].emplace(TriangleMesh { rest_.positions, rest_.triangles(pieces_[on].triangles, Eigen::all) });
+        const TriangleTree& tree = *trees_[on];
+        std::vector<Foot> feet(vertices.size());
+        parallel_for<std::size_t>(
+            vertices.size(),
+            [&](std::size_t i) {
+                const Vec3 place = rest_.positions.row(vertices[i]);
+                if (pieces_[on].box.exteriorDistance(place) > reach)
+                    return;
+                const auto nearest = tree.nearest_triangle(place);
+                if (const double distance = nearest ? (nearest->point - place).norm() : INFINITY; distance <= reach)
+                    feet[i] = foot_at(vertices[i], pieces_[on].triangles[nearest->triangle], nearest->point, distance);
+            },
+            k_grain);
+        return feet;
+    }
+
+private:
+    Vec3 at(int v) const { return rest_.positions.row(v); }
+
+    Foot foot_at(int vertex, int triangle, const Vec3& point, double distance) const
+    {
+        const auto corners = rest_.triangles.row(triangle);
+        return { distance,
+                 is_near_border(vertex, triangle, distance),
+                 { vertex,
+                   { corners[0], corners[1], corners[2] },
+                   barycentric(point, at(corners[0]), at(corners[1]), at(corners[2])) } };
+    }
+
+    /// Whether the nearest point of the surface is one of its border, too.
+    bool is_near_border(int vertex, int triangle, double distance) const
+    {
+        constexpr double k_as_near = 1 + 1e-6;  // unit: rounding of two computations of one distance
+        constexpr double k_rounding = 1e-9;  // m, unit: the same where the distance is 0
+        for (const int corner : rest_.triangles.row(triangle))
+            for (const int other : topology_.neighbours(corner))
+                if (const int edge = topology_.edge_between(corner, other); topology_.is_border(edge)
+                    && distance_to_segment(at(vertex), at(corner), at(other)) <= k_as_near * distance + k_rounding)
+                    return true;
+        return false;
+    }
+
+    const GarmentMesh& rest_;
+    const MeshTopology& topology_;
+    const std::vector<Piece>& pieces_;
+    std::vector<std::optional<TriangleTree>> trees_;
+};
+
+std::vector<Tie> ties_on_border(const std::vector<Foot>& feet)
+{
+    std::vector<Tie> ties;
+    for (const Foot& foot : feet)
+        if (foot.on_border)
+            ties.push_back(foot.tie);
+    return ties;
+}
+
+/// Ties along a seam between two pieces, on both of their borders; none where there is no seam.
+std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q)
+{
+    const double reach = std::clamp(k_seam_edges * std::min(pieces[p].border_edge, pieces[q].border_edge),
+                                    k_seam_distance, k_lining_distance);
+    std::vector<Tie> ties = ties_on_border(feet.find(pieces[p].border, q, reach));
+    const std::vector<Tie> back = ties_on_border(feet.find(pieces[q].border, p, reach));
+    const auto is_long = [&](std::size_t tied, const Piece& piece) {
+        return double(tied) >= k_seam_share * double(piece.border.size()) && tied > 0;
+    };
+    if (ties.size() + back.size() < k_least_seam
+        || !(is_long(ties.size(), pieces[p]) || is_long(back.size(), pieces[q])))
+        return {};
+    ties.insert(ties.end(), back.begin(), back.end());
+    return ties;
+}
+
+/// Of each vertex of a piece the nearest foot on larger pieces. Pieces that are nearest to few of the vertices are left
+/// out: a button that reaches beyond its flap is sewn to the flap alone, a belt loop to belt and trousers.
+std::vector<Foot> choose_feet(const std::vector<std::vector<Foot>>& on_pieces, std::size_t vertices)
+{
+    const auto nearest_piece = [&](std::size_t i, const std::vector<char>& is_left_out) {
+        std::size_t best = on_pieces.size();
+        for (std::size_t q = 0; q < on_pieces.size(); ++q)
+            if (!is_left_out[q] && std::isfinite(on_pieces[q][i].distance)
+                && (best == on_pieces.size() || on_pieces[q][i].distance < on_pieces[best][i].distance))
+                best = q;
+        return best;
+    };
+    std::vector<char> is_left_out(on_pieces.size(), 0);
+    std::vector<std::size_t> count(on_pieces.size() + 1, 0);
+    for (std::size_t i = 0; i < vertices; ++i)
+        ++count[nearest_piece(i, is_left_out)];
+    count.pop_back();  // of those that lie on none
+    const std::size_t most = count.empty() ? 0 : *std::max_element(count.begin(), count.end());
+    for (std::size_t q = 0; q < on_pieces.size(); ++q)
+        is_left_out[q] = count[q] < most && double(count[q]) < k_holder_share * double(vertices);
+    std::vector<Foot> feet(vertices);
+    for (std::size_t i = 0; i < vertices; ++i)
+        if (const std::size_t q = nearest_piece(i, is_left_out); q < on_pieces.size())
+            feet[i] = on_pieces[q][i];
+    return feet;
+}
+
+/// Ties of what lies on larger pieces with border or back; none where the piece is a layer.
+/// @param feet  of each vertex of the piece, the nearest on a larger one
+std::vector<Tie> find_hold(const Piece& piece, const std::vector<Foot>& feet, const std::vector<char>& is_on_border)
+{
+    const auto lies_within = [&](double reach, bool border_only) {
+        std::vector<Tie> ties;
+        for (std::size_t i = 0; i < feet.size(); ++i)
+            if (feet[i].distance <= reach && (!border_only || is_on_border[piece.vertices[i]]))
+                ties.push_back(feet[i].tie);
+        return ties;
+    };
+    const bool is_small = piece.size() <= k_small_piece;
+    const std::vector<Tie> back = lies_within(is_small ? k_small_piece_distance : k_lining_distance, false);
+    if (double(back.size()) >= (is_small ? k_small_piece_share : k_lining_share) * double(feet.size()))
+        return back;
+    const std::vector<Tie> border = lies_within(std::max(k_seam_distance, k_border_edges * piece.border_edge), true);
+    if (!border.empty() && double(border.size()) >= k_border_share * double(piece.border.size()))
+        return border;
+    return {};
+}
+
+/// Collects ties; a vertex that a seam ties is not held besides.
+class Sewing {
+public:
+    explicit Sewing(std::size_t pieces, Eigen::Index vertices) :
+        seams_(int(pieces)), is_held_(pieces, 0), is_in_seam_(std::size_t(vertices), 0)
+    {
+    }
+
+    void add_seam(std::size_t p, std::size_t q, const std::vector<Tie>& ties)
+    {
+        if (ties.empty())
+            return;
+        seams_.join(int(p), int(q));
+        for (const Tie& tie : ties)
+            is_in_seam_[tie.vertex] = 1;
+        ties_.insert(ties_.end(), ties.begin(), ties.end());
+    }
+    void add_hold(std::size_t p, const std::vector<Tie>& ties)
+    {
+        for (const Tie& tie : ties)
+            if (!is_in_seam_[tie.vertex]) {
+                is_held_[p] = 1;
+                ties_.push_back(tie);
+            }
+    }
+
+    SewnPieces take() &&
+    {
+        const int count = int(is_held_.size());
+        std::vector<char> is_group(count, 0), is_group_held(count, 0);
+        for (int p = 0; p < count; ++p) {
+            is_group[seams_.root(p)] = 1;
+            is_group_held[seams_.root(p)] |= is_held_[p];
+        }
+        const int groups = int(std::count(is_group.begin(), is_group.end(), 1)),
+                  held = std::min(groups - 1, int(std::count(is_group_held.begin(), is_group_held.end(), 1)));
+        return { std::move(ties_), { count, count - groups, held, groups - 1 - held } };
+    }
+
+private:
+    DisjointSets seams_;
+    std::vector<char> is_held_, is_in_seam_;
+    std::vector<Tie> ties_;
+};
+
+}  // namespace
+
+SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<int>& garments)
+{
+    const std::vector<Piece> pieces = collect_pieces(rest, topology, garments);
+    if (pieces.size() < 2)
+        return { {}, { int(pieces.size()), 0, 0, 0 } };
+    std::vector<char> is_on_border(std::size_t(rest.positions.rows()), 0);
+    for (const Piece& piece : pieces)
+        for (const int v : piece.border)
+            is_on_border[v] = 1;
+    Feet feet(rest, topology, pieces);
+    Sewing sewing(pieces.size(), rest.positions.rows());
+    for (std::size_t p = 1; p < pieces.size(); ++p) {
+        const double reach = pieces[p].size() <= k_small_piece ? k_small_piece_distance : k_lining_distance;
+        std::vector<std::vector<Foot>> on_pieces;
+        for (std::size_t q = 0; q < p; ++q) {
+            if (pieces[p].garment != pieces[q].garment || pieces[p].box.exteriorDistance(pieces[q].box) > reach)
+                continue;
+            sewing.add_seam(p, q, find_seam(feet, pieces, p, q));
+            on_pieces.push_back(feet.find(pieces[p].vertices, q, reach));
+        }
+        sewing.add_hold(p, find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border));
+    }
+    return std::move(sewing).take();
+}
+
+PieceCounts count_pieces_held(const GarmentMesh& garment)
+{
+    const GarmentMesh rest = Weld(garment).gather(garment);
+    return find_sewn_pieces(rest, { rest.triangles, int(rest.positions.rows()) }).counts;
+}
+
+}  // namespace garmentfit

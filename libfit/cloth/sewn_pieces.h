@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Which pieces of a garment are sewn to which, and where.
+//
+// Clothes come in pieces that share no vertex: panels with unwelded seams, pockets, flaps, buttons, collars, linings.
+// A piece is sewn to a larger one of the same garment in one of two ways (lengths in tuning.h):
+//
+// Seam  its border lies along the border of the other. Both borders are tied.
+// Held  its border lies on the surface of the other, or its back does: nearly all of a piece that is small, or all of a
+//       larger one much closer. What lies on the other is tied.
+//
+// A button on a flap is tied to the flap, the flap to the coat. What is not sewn is a layer of its own.
+
+#include <array>
+#include <vector>
+
+#include "garmentfit/mesh.h"
+#include "garmentfit/pieces.h"
+#include "topology.h"
+
+namespace garmentfit {
+
+/// A vertex of one piece and the nearest point of a triangle of another.
+struct Tie {
+    int vertex;
+    std::array<int, 3> corners;  ///< of the triangle
+    std::array<double, 3> weights;  ///< barycentric
+};
+
+struct SewnPieces {
+    std::vector<Tie> ties;
+    PieceCounts counts;
+};
+
+/// @param rest      welded
+/// @param topology  of rest.triangles
+/// @param garments  of each vertex its garment, where `rest` has several: these are not sewn to each other. Empty: one.
+/// Cost O(n log n) for each pair of pieces that are close to each other, O(n) for a single piece.
+SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology,
+                            const std::vector<int>& garments = {});
+
+}  // namespace garmentfit

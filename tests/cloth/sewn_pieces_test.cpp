@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sewn_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "cloth_motion.h"
+#include "fixtures.h"
+
+namespace garmentfit {
+namespace {
+
+TriangleMesh flat(int n, double spacing, const Vec3& corner)
+{
+    TriangleMesh mesh = fixtures::sheet(n, spacing, [](double, double) { return 0; });
+    mesh.positions.rowwise() += corner.transpose();
+    return mesh;
+}
+
+GarmentMesh garment_of(const std::vector<TriangleMesh>& pieces)
+{
+    TriangleMesh all = pieces[0];
+    for (std::size_t i = 1; i < pieces.size(); ++i)
+        all = fixtures::joined(all, pieces[i]);
+    return { all.positions, all.triangles };
+}
+
+/// A sheet of 38 cm with a square of 2 cm above its middle, at this height.
+GarmentMesh sheet_with_button(double height, double spacing = 0.02)
+{
+    const int n = int(std::lround(0.38 / spacing)) + 1;
+    return garment_of({ flat(n, spacing, Vec3::Zero()), flat(3, 0.01, Vec3(0.187, height, 0.193)) });
+}
+
+SewnPieces sewn(const GarmentMesh& garment, const std::vector<int>& garments = {})
+{
+    return find_sewn_pieces(garment, { garment.triangles, int(garment.positions.rows()) }, garments);
+}
+
+void expect_counts(const GarmentMesh& garment, int count, int seamed, int held, int free)
+{
+    const PieceCounts counts = count_pieces_held(garment);
+    EXPECT_EQ(counts.count, count);
+    EXPECT_EQ(counts.seamed, seamed);
+    EXPECT_EQ(counts.held, held);
+    EXPECT_EQ(counts.free, free);
+}
+
+std::set<int> tied_vertices(const SewnPieces& pieces)
+{
+    std::set<int> tied;
+    for (const Tie& tie : pieces.ties)
+        tied.insert(tie.vertex);
+    return tied;
+}
+
+Vec3 point_of(const Positions& positions, const Tie& tie)
+{
+    Vec3 point = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+        point += tie.weights[k] * positions.row(tie.corners[k]).transpose();
+    return point;
+}
+
+/// How far the ends of ties have moved apart or together.
+double largest_change(const GarmentMesh& garment, const Positions& end)
+{
+    double largest = 0;
+    for (const Tie& tie : sewn(garment).ties) {
+        const double before = (point_of(garment.positions, tie) - garment.positions.row(tie.vertex).transpose()).norm(),
+                     now = (point_of(end, tie) - end.row(tie.vertex).transpose()).norm();
+        largest = std::max(largest, std::abs(now - before));
+    }
+    return largest;
+}
+
+/// Where the garment is after falling on a ball and a floor 30 cm under it.
+Positions fall(const GarmentMesh& garment)
+{
+    TriangleMesh floor = fixtures::sheet(2, 1.4, [](double, double) { return -0.3; });
+    floor.positions.rowwise() -= Eigen::RowVector3d(0.5, 0, 0.5);
+    const TriangleMesh peg
+        = fixtures::polygonise([](const Vec3& p) { return (p - Vec3(0.1, -0.06, 0.1)).norm() - 0.05; },
+                               Vec3(0.03, -0.13, 0.03), Vec3(0.17, 0.01, 0.17), 0.01);
+    const TriangleMesh obstacle = fixtures::joined(floor, peg);
+    ClothMotion motion(garment, garment.positions, obstacle, {});
+    settle(motion, obstacle.positions, 60, 0, {});
+    return motion.cloth();
+}
+
+TEST(SewnPieces, SmallOnesAreTiedToTheClothTheyLieOnByEachOfTheirVertices)
+{
+    const GarmentMesh garment = sheet_with_button(0.004);
+    const SewnPieces pieces = sewn(garment);
+    ASSERT_EQ(tied_vertices(pieces).size(), 9u);
+    for (const Tie& tie : pieces.ties) {
+        EXPECT_GE(tie.vertex, 400);
+        for (const int corner : tie.corners)
+            EXPECT_LT(corner, 400);
+        EXPECT_NEAR((point_of(garment.positions, tie) - garment.positions.row(tie.vertex).transpose()).norm(), 0.004,
+                    1e-9);
+    }
+    expect_counts(garment, 2, 0, 1, 0);
+}
+
+TEST(SewnPieces, SmallOnesAreTiedHoweverFarTheVerticesUnderThemAre)
+{
+    expect_counts(sheet_with_button(0.004, 0.095), 2, 0, 1, 0);
+}
+
+TEST(SewnPieces, FarFromAnyClothAreFree) { expect_counts(sheet_with_button(0.03), 2, 0, 0, 1); }
+
+TEST(SewnPieces, OneAloneHasNothingToLieOn) { expect_counts(garment_of({ flat(5, 0.02, Vec3::Zero()) }), 1, 0, 0, 0); }
+
+TEST(SewnPieces, OfSeveralGarmentsAreNotSewnToEachOther)
+{
+    const GarmentMesh garment = sheet_with_button(0.004);
+    std::vector<int> garments(400, 0);
+    garments.resize(409, 1);
+    EXPECT_TRUE(sewn(garment, garments).ties.empty());
+}
+
+TEST(SewnPieces, WholeLayersAreNone)
+{
+    // a sheet of 34 cm that hangs from 5 mm to 3 cm away, as shirts under coats do
+    TriangleMesh over = fixtures::sheet(18, 0.02, [](double x, double) { return 0.005 + 0.07 * x; });
+    expect_counts(garment_of({ flat(20, 0.02, Vec3::Zero()), over }), 2, 0, 0, 1);
+}
+
+TEST(SewnPieces, LiningsLieOnTheirClothWhateverTheirSize)
+{
+    const GarmentMesh garment = garment_of({ flat(20, 0.02, Vec3::Zero()), flat(18, 0.02, Vec3(0.01, 0.004, 0.01)) });
+    expect_counts(garment, 2, 0, 1, 0);
+    EXPECT_EQ(tied_vertices(sewn(garment)).size(), std::size_t(18 * 18));
+}
+
+TEST(SewnPieces, PanelsAreSewnAlongTheirSeamsOnly)
+{
+    // side by side, 0.5 mm apart, with other vertices on either side of the seam
+    const GarmentMesh garment = garment_of({ flat(20, 0.02, Vec3::Zero()), flat(17, 0.023, Vec3(0.3805, 0, 0.005)) });
+    expect_counts(garment, 2, 1, 0, 0);
+    const SewnPieces pieces = sewn(garment);
+    EXPECT_EQ(tied_vertices(pieces).size(), std::size_t(18 + 17));  // two corners have nothing opposite
+    for (const int v : tied_vertices(pieces))
+        EXPECT_NEAR(garment.positions(v, 0), 0.38025, 0.001);
+}
+
+/// A flap 38 cm square that stands on a sheet, tilted so that its border is this high at the other end.
+GarmentMesh sheet_with_standing_flap(double rise)
+{
+    TriangleMesh flap = flat(20, 0.02, Vec3::Zero());
+    flap.positions = flap.positions(Eigen::all, { 0, 2, 1 }).eval();
+    flap.positions.rowwise() += Eigen::RowVector3d(0.01, 0.0005, 0.2);
+    flap.positions.col(1) += rise / 0.38 * flap.positions.col(0);
+    return garment_of({ flat(25, 0.02, Vec3(-0.03, 0, 0)), flap });
+}
+
+TEST(SewnPieces, BordersOnTheSurfaceOfAnotherAreSewnThere)
+{
+    const GarmentMesh garment = sheet_with_standing_flap(0);
+    expect_counts(garment, 2, 0, 1, 0);
+    const SewnPieces pieces = sewn(garment);
+    EXPECT_EQ(tied_vertices(pieces).size(), 20u);
+    for (const int v : tied_vertices(pieces))
+        EXPECT_NEAR(garment.positions(v, 1), 0.0005, 1e-9);
+}
+
+TEST(SewnPieces, BordersThatOnlyTouchAreNotSewn) { expect_counts(sheet_with_standing_flap(0.03), 2, 0, 0, 1); }
+
+TEST(SewnPieces, AButtonOnAFlapOnACoatIsTiedToTheFlap)
+{
+    const GarmentMesh garment = garment_of(
+        { flat(20, 0.02, Vec3::Zero()), flat(6, 0.02, Vec3(0.1, 0.006, 0.1)), flat(3, 0.01, Vec3(0.14, 0.009, 0.14)) });
+    expect_counts(garment, 3, 0, 2, 0);
+    for (const Tie& tie : sewn(garment).ties) {
+        const bool is_button = tie.vertex >= 436;
+        for (const int corner : tie.corners)
+            EXPECT_EQ(corner >= 400, is_button) << "the button is tied to the flap, the flap to the coat";
+    }
+}
+
+TEST(SewnPieces, StayOnClothThatFalls)
+{
+    for (const double spacing : { 0.02, 0.038 }) {
+        const GarmentMesh garment = sheet_with_button(0.004, spacing);
+        const Positions end = fall(garment);
+        ASSERT_LT(end.col(1).minCoeff(), -0.1) << "it slid off the ball";
+        EXPECT_LT(largest_change(garment, end), 2e-3);
+    }
+}
+
+TEST(SewnPieces, SeamsDoNotGapeInClothThatFalls)
+{
+    const GarmentMesh garment = garment_of({ flat(11, 0.02, Vec3::Zero()), flat(10, 0.023, Vec3(0.2005, 0, 0)) });
+    const Positions end = fall(garment);
+    ASSERT_LT(end.col(1).minCoeff(), -0.05) << "it slid off the ball";
+    EXPECT_LT(largest_change(garment, end), 2e-3);
+}
+
+}  // namespace
+}  // namespace garmentfit
