@@ -40,6 +40,11 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
         warnings.push_back(name + " crossed itself as it was given, and could not be parted everywhere: "
                            + std::to_string(kept) + " of " + std::to_string(garment.certificate.input_self_crossings)
                            + " crossings are left");
+    if (const PieceCounts& pieces = garment.pieces; pieces.free > 0)
+        warnings.push_back(name + " has " + std::to_string(pieces.count) + " pieces, of which "
+                           + std::to_string(pieces.free)
+                           + (pieces.free == 1 ? " lies on no other; it is a layer of its own"
+                                               : " lie on no other; they are layers of their own"));
     if (garment.slipped * to_human_size > k_slipped)
         warnings.push_back(name + " slipped down by " + std::to_string(std::lround(100 * garment.slipped))
                            + " cm: it is too wide for this body to stay where it is worn");

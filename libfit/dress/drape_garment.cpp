@@ -150,10 +150,10 @@ std::vector<TooTight> list_tight_parts(const ClothMotion& motion, const GrowingB
 
 /// Writes body and garments at the end of the motion, and certifies them.
 void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const GrowingBody& inside,
-                        const Grading& grading, const Wearer& wearer)
+                        const Grading& grading, const PieceCounts& pieces, const Wearer& wearer)
 {
     const Positions reached = motion.obstacle();
-    std::vector<WornGarment> outermost { { grading.garment(), motion.cloth(), {}, grading.size() } };
+    std::vector<WornGarment> outermost { { grading.garment(), motion.cloth(), {}, grading.size(), 0, pieces } };
     add_slips(outermost, outermost[0].rest.positions);
     static_cast<DressedBody&>(result) = wearer.dressed;
     result.body = inside.body_of(reached);
@@ -197,6 +197,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
         = weights_of_nearest(garment.positions, inside.body_of(inside.full.positions), rig.weights);
     Grading grading(garment, Tightness(garment.positions, edges, weights, wearer.joints, int(dressed.garments.size())),
                     options.cloth);
+    const PieceCounts pieces = start.cloth.sewn.counts;
     ClothMotion motion(std::move(start.cloth),
                        { { inside.at(start.scale), inside.full.triangles }, int(inside.body_vertices) }, options.cloth);
 
@@ -212,7 +213,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
     } else if (!result.out_of_time)
         result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer, options.cloth.largest_stretch);
     result.seconds = motion.seconds();
-    write_dressed_body(result, motion, inside, grading, wearer);
+    write_dressed_body(result, motion, inside, grading, pieces, wearer);
     if (result.scale_reached == 1)
         result.held_back = list_held_back_parts(result.body, inside.body_of(inside.full.positions), rig.weights);
     return result;

@@ -236,6 +236,9 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     result.pose = slerp(dressed.pose, target, outcome.reached());
     result.body = motion.obstacle();
     result.garments = start.garments;
+    for (WornGarment& garment : result.garments)
+        if (garment.pieces.count == 0)  // not from drape_garment
+            garment.pieces = count_pieces_held(garment.rest);
     set_positions(result.garments, motion.cloth());
     add_slips(result.garments,
               skin(outfit.cloth.positions, weights.cloth,

@@ -81,6 +81,10 @@ void put_certificate(Json& json, const WornGarment& garment, double metres_per_u
     json["vertices_inside"] = c.vertices_inside;
     json["min_distance"] = c.min_distance / metres_per_unit;
     json["slipped"] = garment.slipped / metres_per_unit;
+    json["pieces"] = { { "count", garment.pieces.count },
+                       { "seamed", garment.pieces.seamed },
+                       { "held", garment.pieces.held },
+                       { "free", garment.pieces.free } };
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
 }
 

@@ -83,6 +83,38 @@ TEST(DrapeGarment, IsCertifiedAndTheBodyReachesItsFullSize)
     EXPECT_LT(result.garments[0].certificate.strain.p95, 0.05);
 }
 
+/// Trousers with a square of 2 cm that lies 4 mm off the front of the left thigh.
+GarmentMesh trousers_with_badge()
+{
+    const GarmentMesh cloth = trousers(0.02);
+    TriangleMesh badge = sheet(3, 0.01, [](double, double) { return 0; });
+    badge.positions = badge.positions(Eigen::all, { 0, 2, 1 }).eval();  // upright, at z = 0
+    badge.positions.rowwise() += Eigen::RowVector3d(0.12, 0.6, 0);
+    double front = -1;
+    for (Eigen::Index v = 0; v < cloth.positions.rows(); ++v)
+        if ((cloth.positions.row(v).head(2) - badge.positions.row(4).head(2)).norm() < 0.05)
+            front = std::max(front, cloth.positions(v, 2));
+    badge.positions.col(2).array() += front + 0.004;
+    const TriangleMesh both = joined({ cloth.positions, cloth.triangles }, badge);
+    return make_garment(both.positions, both.triangles);
+}
+
+TEST(DrapeGarment, KeepsPiecesWhereTheyAreSewnAndCountsThem)
+{
+    const Dressing d = person();
+    const GarmentMesh garment = trousers_with_badge();
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
+    const WornGarment& worn = result.garments.back();
+    EXPECT_EQ(worn.pieces.count, 2);
+    EXPECT_EQ(worn.pieces.held, 1);
+    EXPECT_EQ(worn.pieces.free, 0);
+    const auto nearest = [&](const Positions& at) {  // of a vertex of the badge, over the trousers' vertices
+        const Eigen::Index cloth = at.rows() - 9;
+        return (at.topRows(cloth).rowwise() - at.row(cloth + 4)).rowwise().norm().minCoeff();
+    };
+    EXPECT_NEAR(nearest(worn.positions), nearest(garment.positions), 3e-3);
+}
+
 TEST(DrapeGarment, SaysHowFarAGarmentSlipsThatIsTooWideToStay)
 {
     const Dressing d = person();

@@ -55,6 +55,15 @@ TEST(Warnings, SayThatAFrontIsUncertain)
             "the front of skirt is uncertain (probability 62%); if it is worn back to front, set garment_front" }));
 }
 
+TEST(Warnings, SayHowManyPiecesLieOnNoOther)
+{
+    Scene scene = worn_scene();
+    scene.draped->garments[0].pieces = { 5, 2, 2, 0 };
+    scene.draped->garments[1].pieces = { 5, 1, 1, 2 };
+    EXPECT_EQ(warnings_of(scene),
+              Lines { "coat has 5 pieces, of which 2 lie on no other; they are layers of their own" });
+}
+
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
 {
     Scene scene = worn_scene();

@@ -17,6 +17,7 @@
 #include "garmentfit/certificate.h"
 #include "garmentfit/cloth.h"
 #include "garmentfit/mesh.h"
+#include "garmentfit/pieces.h"
 #include "garmentfit/progress.h"
 #include "garmentfit/skeleton.h"
 
@@ -52,6 +53,7 @@ struct WornGarment {
     /// m that it sank along the body since it was put on, by the median of its vertices. A large value: the garment is
     /// too wide to stay.
     double slipped = 0;
+    PieceCounts pieces = {};  ///< how it was held together
 };
 
 /// A body in a pose, and the garments on it.
