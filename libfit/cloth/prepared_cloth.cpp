@@ -2,6 +2,7 @@
 #include "prepared_cloth.h"
 
 #include "exact_crossings.h"
+#include "near_vertices.h"
 
 namespace garmentfit {
 namespace {
@@ -21,8 +22,14 @@ PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, con
 {
     Weld weld(rest);
     GarmentMesh cloth = weld.gather(rest);
-    Positions positions = weld.gather(start);
     MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
+    if (const auto merged = merge_near_vertices(cloth, topology, gather(weld, garments, cloth.positions.rows()))) {
+        const GarmentMesh at_one_place { weld.place(*merged), rest.triangles };
+        weld = Weld(at_one_place);
+        cloth = weld.gather(at_one_place);
+        topology = MeshTopology(cloth.triangles, int(cloth.positions.rows()));
+    }
+    Positions positions = weld.gather(start);
     SewnPieces sewn = find_sewn_pieces(cloth, topology, gather(weld, garments, cloth.positions.rows()));
     return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), std::move(sewn), {} };
 }

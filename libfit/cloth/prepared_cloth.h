@@ -23,7 +23,8 @@ struct PreparedCloth {
     std::vector<Crossing> crossings;  ///< pairs of the cloth that cross there and stay as they are
 };
 
-/// Welds the garment, lists its edges, and finds which of its pieces are sewn together. `start` holds positions of the
+/// Welds the garment (near vertices, too: near_vertices.h), lists its edges, and finds which of its pieces are sewn
+/// together. `start` holds positions of the
 /// garment's own vertices. Nothing is untangled: `crossings` stays empty.
 /// @param garments  of each vertex its garment, where `rest` has several. Empty: one.
 PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, const std::vector<int>& garments = {});

@@ -190,6 +190,34 @@ TEST(SewnPieces, StayOnClothThatFalls)
     }
 }
 
+TEST(SewnPieces, BordersThatNearlyCoincideAreOneCloth)
+{
+    // 0.01 mm apart: a seam that a format with few digits has cut
+    TriangleMesh right = flat(11, 0.02, Vec3(0.2, 0, 0));
+    for (Eigen::Index v = 0; v < right.positions.rows(); v += 11)
+        right.positions(v, v % 3) += 1e-5;
+    const GarmentMesh garment = garment_of({ flat(11, 0.02, Vec3::Zero()), right });
+    const PreparedCloth cloth = prepare_cloth(garment, garment.positions);
+    EXPECT_EQ(cloth.rest.positions.rows(), 2 * 121 - 11);
+    EXPECT_EQ(cloth.sewn.counts.count, 1);
+    std::vector<int> garments(121, 0);
+    garments.resize(242, 1);
+    EXPECT_EQ(prepare_cloth(garment, garment.positions, garments).rest.positions.rows(), 242);
+    const Positions end = fall(garment);
+    ASSERT_LT(end.col(1).minCoeff(), -0.05);
+    for (int i = 0; i < 11; ++i)
+        EXPECT_EQ(end.row(11 * i + 10), end.row(121 + 11 * i));
+}
+
+TEST(SewnPieces, VerySmallEdgesAreOneVertexButFineMeshesStay)
+{
+    GarmentMesh garment = garment_of({ flat(5, 0.02, Vec3::Zero()) });
+    garment.positions.row(7) = garment.positions.row(6) + Eigen::RowVector3d(1e-7, 0, 0);
+    EXPECT_EQ(prepare_cloth(garment, garment.positions).rest.positions.rows(), 24);
+    const GarmentMesh fine = garment_of({ flat(5, 1.1e-4, Vec3::Zero()) });
+    EXPECT_EQ(prepare_cloth(fine, fine.positions).rest.positions.rows(), 25);
+}
+
 TEST(SewnPieces, SeamsDoNotGapeInClothThatFalls)
 {
     const GarmentMesh garment = garment_of({ flat(11, 0.02, Vec3::Zero()), flat(10, 0.023, Vec3(0.2005, 0, 0)) });
