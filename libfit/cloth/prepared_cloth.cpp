@@ -16,6 +16,31 @@ std::vector<int> gather(const Weld& weld, const std::vector<int>& garments, Eige
     return result;
 }
 
+/// Where vertices of a seam touch the other border, moves them into their own cloth, at rest and at the start: what
+/// touches has no side, and counts as a crossing.
+void open_touching_seams(GarmentMesh& cloth, const MeshTopology& topology, const std::vector<Tie>& ties,
+                         Positions& start)
+{
+    // derived: twice the default of ClothOptions::min_distance, so that contact keeps the two apart.
+    constexpr double k_touching = 1e-4, k_opened = 2e-4;  // m
+    const Positions given = cloth.positions, given_start = start;
+    for (const Tie& tie : ties) {
+        Vec3 foot = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            foot += tie.weights[k] * given.row(tie.corners[k]).transpose();
+        if (!tie.is_seam || (given.row(tie.vertex).transpose() - foot).norm() >= k_touching)
+            continue;
+        const auto move_inwards = [&](Positions& positions, const Positions& from) {
+            Vec3 inwards = Vec3::Zero();
+            for (const int neighbour : topology.neighbours(tie.vertex))
+                inwards += (from.row(neighbour) - from.row(tie.vertex)).transpose();
+            positions.row(tie.vertex) = from.row(tie.vertex) + k_opened * inwards.normalized().transpose();
+        };
+        move_inwards(cloth.positions, given);
+        move_inwards(start, given_start);
+    }
+}
+
 }  // namespace
 
 PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, const std::vector<int>& garments)
@@ -31,6 +56,7 @@ PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, con
     }
     Positions positions = weld.gather(start);
     SewnPieces sewn = find_sewn_pieces(cloth, topology, gather(weld, garments, cloth.positions.rows()));
+    open_touching_seams(cloth, topology, sewn.ties, positions);
     return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), std::move(sewn), {} };
 }
 

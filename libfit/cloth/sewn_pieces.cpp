@@ -156,8 +156,10 @@ std::vector<Tie> ties_on_border(const std::vector<Foot>& feet)
 {
     std::vector<Tie> ties;
     for (const Foot& foot : feet)
-        if (foot.on_border)
+        if (foot.on_border) {
             ties.push_back(foot.tie);
+            ties.back().is_seam = true;
+        }
     return ties;
 }
 

@@ -26,6 +26,7 @@ struct Tie {
     int vertex;
     std::array<int, 3> corners;  ///< of the triangle
     std::array<double, 3> weights;  ///< barycentric
+    bool is_seam = false;  ///< both are on borders
 };
 
 struct SewnPieces {
