@@ -10,7 +10,7 @@
 #include "best_start.h"
 #include "coordinate_ascent.h"
 #include "garmentfit/error.h"
-#include "number_text.h"
+#include "garmentfit/number_text.h"
 #include "outward_cloth.h"
 #include "hypotheses.h"
 #include "parallel.h"

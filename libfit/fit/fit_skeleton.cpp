@@ -8,7 +8,7 @@
 #include "baselines/baseline_fit.h"
 #include "fast_fit.h"
 #include "garmentfit/error.h"
-#include "number_text.h"
+#include "garmentfit/number_text.h"
 #include "tuning.h"
 
 namespace garmentfit {
