@@ -214,9 +214,8 @@ Candidates replace_failed(const FitEnergy& energy, const Candidates& ascended, c
     std::copy_if(ascended.begin(), ascended.end(), std::back_inserter(failed),
                  [&](const Candidate& one) { return has_failed(energy, one.posture); });
     for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (std::any_of(failed.begin(), failed.end(), [&](const Candidate& one) {
-                return !face_apart(energy.rig(), one.posture, sorted[i]);
-            }))
+        if (std::any_of(failed.begin(), failed.end(),
+                        [&](const Candidate& one) { return !face_apart(energy.rig(), one.posture, sorted[i]); }))
             others.push_back({ sorted[i] });
     return others;
 }

@@ -74,29 +74,50 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
     }
     e[input_front_evidence] = front.dot(energy.rig().front);
-    e[openings_evidence]
-        = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
+    e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
     e[in_place_evidence] = is_in_place;
     e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / 0.1 : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(energy, given, leg));
     return e;
 }
 
-bool is_same_facing(const Wearing& a, const Wearing& b)
-{
-    return a.front.dot(b.front) > k_same_direction;
-}
+bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.front) > k_same_direction; }
 
 }  // namespace
 
 const std::array<std::string_view, evidence_count>& evidence_names()
 {
     static constexpr std::array<std::string_view, evidence_count> names {
-        "energy",      "clearance",    "uncovered_cloth", "crossing",        "covered_inside", "uncovered_inside",
-        "as_given",    "upright",      "legs",            "skirt",           "dress",          "jumpsuit",
-        "legs_height", "skirt_height", "dress_height",    "jumpsuit_height", "legs_hems",      "skirt_hems",
-        "dress_hems",  "jumpsuit_hems", "legs_arms",      "skirt_arms",      "dress_arms",     "jumpsuit_arms",
-        "type",        "input_front",  "openings",        "near_input",      "in_place",       "in_place_inside",
+        "energy",
+        "clearance",
+        "uncovered_cloth",
+        "crossing",
+        "covered_inside",
+        "uncovered_inside",
+        "as_given",
+        "upright",
+        "legs",
+        "skirt",
+        "dress",
+        "jumpsuit",
+        "legs_height",
+        "skirt_height",
+        "dress_height",
+        "jumpsuit_height",
+        "legs_hems",
+        "skirt_hems",
+        "dress_hems",
+        "jumpsuit_hems",
+        "legs_arms",
+        "skirt_arms",
+        "dress_arms",
+        "jumpsuit_arms",
+        "type",
+        "input_front",
+        "openings",
+        "near_input",
+        "in_place",
+        "in_place_inside",
     };
     return names;
 }
@@ -113,9 +134,8 @@ std::vector<Wearing> wearings_of(const WearingContext& context, const std::vecto
         add(posture, false);
     for (const Posture& posture : in_place)
         add(posture, true);
-    std::stable_sort(all.begin(), all.end(), [](const Wearing& a, const Wearing& b) {
-        return log_odds(a.evidence) > log_odds(b.evidence);
-    });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Wearing& a, const Wearing& b) { return log_odds(a.evidence) > log_odds(b.evidence); });
     std::vector<Wearing> best;
     for (Wearing& wearing : all) {
         wearing.rank = int(std::count_if(best.begin(), best.end(),

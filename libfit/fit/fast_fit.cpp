@@ -11,8 +11,8 @@
 #include "coordinate_ascent.h"
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
-#include "outward_cloth.h"
 #include "hypotheses.h"
+#include "outward_cloth.h"
 #include "parallel.h"
 #include "posture_moves.h"
 #include "tuning.h"
@@ -129,11 +129,10 @@ double probability_of(const std::vector<Hypothesis>& all, const Agrees& agrees)
 void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::vector<Hypothesis>& all)
 {
     const Coverage& coverage = chosen.attempt->coverage();
-    result.type_probability = probability_of(
-        all, [&](const Hypothesis& other) { return other.attempt->coverage().kind == coverage.kind; });
-    result.front_probability = probability_of(all, [&](const Hypothesis& other) {
-        return other.wearing.front.dot(chosen.wearing.front) > k_same_direction;
-    });
+    result.type_probability
+        = probability_of(all, [&](const Hypothesis& other) { return other.attempt->coverage().kind == coverage.kind; });
+    result.front_probability = probability_of(
+        all, [&](const Hypothesis& other) { return other.wearing.front.dot(chosen.wearing.front) > k_same_direction; });
     result.up_probability
         = probability_of(all, [&](const Hypothesis& other) { return other.up().dot(chosen.up()) > k_same_direction; });
 }
@@ -147,9 +146,8 @@ FitResult finish(const Hypothesis& hypothesis)
     const Attempt& attempt = *hypothesis.attempt;
     const Posture& start = hypothesis.wearing.posture;
     // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
-    const BoneMetric metric(
-        attempt.energy().metric().cloth(),
-        limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
+    const BoneMetric metric(attempt.energy().metric().cloth(),
+                            limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
     const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues());
     const bool keeps_input = hypothesis.wearing.is_in_place && is_clear(energy, start);
     const Posture fitted = keeps_input ? start : ascend_fully(energy, start, attempt.garment().outward);

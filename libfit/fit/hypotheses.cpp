@@ -58,10 +58,7 @@ struct Search {
     std::vector<Posture> rough, in_place;  // the latter: where the garment lies round the body
     std::vector<Wearing> wearings;
 
-    double best_log_odds() const
-    {
-        return wearings.empty() ? FitEnergy::k_any : log_odds(wearings[0].evidence);
-    }
+    double best_log_odds() const { return wearings.empty() ? FitEnergy::k_any : log_odds(wearings[0].evidence); }
 };
 
 std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture>& postures, const Garment& given,
@@ -190,7 +187,8 @@ double inside_share(const TriangleMesh& garment, const TriangleMesh& body)
 Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
 {
     const bool has_body = body.positions.rows() > 0;
-    return { { Eigen::Quaterniond::Identity(), outward, openings_of(outward), {} }, has_body,
+    return { { Eigen::Quaterniond::Identity(), outward, openings_of(outward), {} },
+             has_body,
              has_body ? inside_share(outward, body) : 0 };
 }
 

@@ -27,8 +27,8 @@ bool is_on_shins(Bone bone) { return bone == ltibia || bone == rtibia; }
 
 bool covers(CoverageKind kind, Bone bone)
 {
-    const bool trunk = kind != CoverageKind::legs && kind != CoverageKind::skirt,
-               thighs = kind != CoverageKind::top, shins = kind == CoverageKind::legs || kind == CoverageKind::jumpsuit;
+    const bool trunk = kind != CoverageKind::legs && kind != CoverageKind::skirt, thighs = kind != CoverageKind::top,
+               shins = kind == CoverageKind::legs || kind == CoverageKind::jumpsuit;
     return is_on_shins(bone) ? shins : is_on_legs(bone) ? thighs : trunk;
 }
 

@@ -137,8 +137,7 @@ bool are_beyond(const Opening& a, const Opening& b, const Piece& piece)
     const Vec3 across = level_between(a, b), axis = across.stableNormalized();
     return std::all_of(piece.others.begin(), piece.others.end(), [&](const Opening& other) {
         const Eigen::VectorXd along = other.rim * axis;
-        return &other == &a || &other == &b
-            || across.norm() > k_arms_beyond * (along.maxCoeff() - along.minCoeff());
+        return &other == &a || &other == &b || across.norm() > k_arms_beyond * (along.maxCoeff() - along.minCoeff());
     });
 }
 

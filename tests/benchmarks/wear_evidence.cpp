@@ -29,8 +29,7 @@ Json json_of(const Hypothesis& hypothesis)
     const Skeleton joints = place_bones(attempt.rig().skeleton, hypothesis.wearing.posture).joints;
     Json inside, evidence;
     for (int b = 0; b < bone_count; ++b)
-        inside[std::string(bone_name(b))]
-            = attempt.energy().metric().samples_inside(joints.head(b), joints.tail(b));
+        inside[std::string(bone_name(b))] = attempt.energy().metric().samples_inside(joints.head(b), joints.tail(b));
     for (int e = 0; e < evidence_count; ++e)
         evidence[std::string(evidence_names()[e])] = hypothesis.wearing.evidence[e];
     return { { "kind", k_coverage_kind_names[int(attempt.coverage().kind)] },
