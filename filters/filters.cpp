@@ -10,6 +10,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/number_text.h"
 #include "garmentfit/stopwatch.h"
+#include "other_wearings.h"
 
 namespace garmentfit {
 namespace {
@@ -94,6 +95,7 @@ void fit_all(Scene& scene, const Parameters& p, const Progress& progress)
             if (garment.front)
                 options.front = garment.front;
             options.as_placed = garment.as_placed.value_or(options.as_placed);
+            options.skipped += garment.skipped;
             return fit_skeleton(*scene.rig, scene.body->surface, garment.mesh, options,
                                 progress.part(double(i) / n, double(i + 1) / n));
         }));
@@ -330,12 +332,12 @@ void run_stage(const StageRow& stage, Scene& scene, const Parameters& parameters
 
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
 
-void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
     double total = 0, done = 0;
-    for (const Stage stage : filter.stages)
+    for (const Stage stage : stages)
         total += row(stage).share;
-    for (const Stage stage : filter.stages) {
+    for (const Stage stage : stages) {
         const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
         const double next = done + row(stage).share / total;
         const Progress slice = progress.part(done, next, row(stage).progress_name);
@@ -345,6 +347,18 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
         if (ends_here(scene, stage))
             break;
     }
+}
+
+void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    run_stages(filter.stages, scene, parameters, progress);
+    if (!filter.has(Stage::fit) || !filter.has(Stage::recover) || parameters.fit.method != FitMethod::fast)
+        return;
+    const Progress again = progress.part(1, 1);
+    const auto run = [&](std::vector<Stage> stages) {
+        return [&, stages](Scene& s) { run_stages(stages, s, parameters, again); };
+    };
+    try_other_wearings(scene, { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) }, again);
 }
 
 std::string at_human_size(const std::string& line, double factor)

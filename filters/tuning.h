@@ -11,8 +11,17 @@ namespace garmentfit {
 inline constexpr double k_low_confidence = 0.2;
 
 /// Guesses of a smaller probability get a warning. derived: of what is said with more, four in five at least are right
-/// (libfit/fit/facing.h)
+/// (libfit/fit/evidence.h)
 inline constexpr double k_low_probability = 0.8;
+
+/// Probability below which another way of wearing a garment is not tried, where the most probable one ends badly, and how
+/// many are. fitted: guess
+inline constexpr double k_worth_trying = 0.02;
+inline constexpr int k_other_wearings = 2;
+
+/// l / l0 - 1 of an edge. Cloth that is stretched further has torn: it hangs on a part of the body that another way of
+/// wearing it may leave free. fitted: guess, on the wild clothes
+inline constexpr double k_torn = 2;
 
 /// Body metres. A garment that slipped down by more gets a warning.
 /// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a coat by nine

@@ -64,7 +64,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[covered_inside_evidence] = inside.covered;
     e[uncovered_inside_evidence] = inside.uncovered;
     e[as_given_evidence] = context.turn.w() == 1;
-    e[upright_evidence] = context.uprightness;
+    e[upright_evidence] = context.upright;
     e[type_evidence] = context.coverage.is_guessed;
     if (const int kind = int(context.coverage.kind) - 1; kind >= 0) {
         const ClearanceField& cloth = energy.metric().cloth();

@@ -27,7 +27,7 @@ enum Evidence {
     uncovered_inside_evidence,  ///< share of the other bones, neck apart, that lies inside
     // The way up
     as_given_evidence,  ///< 1 where the garment is held as its file has it
-    upright_evidence,  ///< of the openings, 0 to 1 (uprightness)
+    upright_evidence,  ///< of the openings, -1 to 1: for this way up, less that for the same upside down
     // The coverage: 1 for its kind, and what the shape says of it; tops have 0 in all of these
     legs_evidence,
     skirt_evidence,
@@ -73,7 +73,7 @@ struct WearingContext {
     const FitEnergy& energy;
     const Coverage& coverage;
     Eigen::Quaterniond turn;  ///< that makes the garment upright
-    double uprightness = 0;  ///< of its openings
+    double upright = 0;  ///< upright_evidence
     double inside_share = 0;  ///< of the garment's vertices in the input body
 };
 

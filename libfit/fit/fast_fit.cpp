@@ -155,7 +155,9 @@ FitResult finish(const Hypothesis& hypothesis)
 
     FitResult result;
     result.type = attempt.coverage().type;
+    result.probability = hypothesis.probability;
     result.up = hypothesis.up();
+    result.front = hypothesis.wearing.front;
     result.covered = bones_inside(energy, fitted, k_mostly_inside);
     result.pose = pose_of(attempt.rig().skeleton, rotate(fitted, attempt.garment().turn.conjugate()));
     result.scores = energy.bone_scores(fitted);

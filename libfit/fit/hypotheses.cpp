@@ -17,12 +17,13 @@ namespace {
 
 constexpr Eigen::Index k_vertices_looked_at = 1000;  // derived: a share of 1 % is known to a third of it
 
-std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const Eigen::Quaterniond& turn)
+std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& way)
 {
     auto held = std::make_shared<HeldGarment>();
-    held->turn = turn;
-    held->outward = rotate(given.outward, turn);
-    held->openings = rotate(given.openings, held->outward, turn);
+    held->turn = way.turn;
+    held->upright = way.evidence;
+    held->outward = rotate(given.outward, way.turn);
+    held->openings = rotate(given.openings, held->outward, way.turn);
     held->clearance = std::make_unique<const ClearanceField>(held->outward);
     return held;
 }
@@ -65,8 +66,8 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
                                  const FitOptions& options)
 {
     const HeldGarment& garment = search.attempt->garment();
-    const WearingContext context { search.attempt->energy(), search.attempt->coverage(), garment.turn,
-                                   uprightness(garment.openings), given.inside_share };
+    const WearingContext context { search.attempt->energy(), search.attempt->coverage(), garment.turn, garment.upright,
+                                   given.inside_share };
     std::vector<Wearing> wearings = garmentfit::wearings_of(context, postures, search.in_place);
     std::erase_if(wearings, [&](const Wearing& wearing) {
         return options.front && wearing.front.dot(*options.front) < k_same_direction;
@@ -85,10 +86,9 @@ Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garme
     return search;
 }
 
-std::vector<Search> search_roughly(const Rig& rig, const Garment& given, const Eigen::Quaterniond& turn,
-                                   const FitOptions& options)
+std::vector<Search> search_roughly(const Rig& rig, const Garment& given, const WayUp& way, const FitOptions& options)
 {
-    const std::shared_ptr<const HeldGarment> held = hold(given.held, turn);
+    const std::shared_ptr<const HeldGarment> held = hold(given.held, way);
     std::vector<Search> searches;
     for (const Coverage& coverage : possible_coverages(options.type, held->openings))
         searches.push_back(search_roughly(std::make_shared<const Attempt>(rig, held, coverage), given, options));
@@ -118,7 +118,7 @@ std::vector<Hypothesis> search(const Rig& rig, const Garment& given, const std::
     std::vector<Search> searches;
     for (std::size_t i = 0; i < ways.size(); ++i) {
         progress.at(0.4 * double(i) / double(ways.size()));
-        for (Search& found : search_roughly(rig, given, ways[i].turn, options))
+        for (Search& found : search_roughly(rig, given, ways[i], options))
             searches.push_back(std::move(found));
     }
     search_closely(searches, given, options, progress.part(0.4, 1));
@@ -129,12 +129,15 @@ std::vector<Hypothesis> search(const Rig& rig, const Garment& given, const std::
     return hypotheses;
 }
 
-// As the file has it, and as the openings would have it. The rest are tried only where no body fits in those.
+// As the file has it, and as the openings would have it; all where the openings do not speak for the way that the file
+// has it. The rest are tried only where no body fits in those.
 std::vector<WayUp> likely_ways(std::vector<WayUp>& ways, const FitOptions& options)
 {
     const bool is_settled = options.as_placed || options.front;
+    const bool is_given_likely
+        = std::any_of(ways.begin(), ways.end(), [](const WayUp& way) { return is_as_given(way) && way.evidence > 0; });
     const auto rest = std::stable_partition(ways.begin(), ways.end(), [&](const WayUp& way) {
-        return is_as_given(way) || (!is_settled && way.evidence > 0);
+        return is_as_given(way) || (!is_settled && (way.evidence > 0 || !is_given_likely));
     });
     std::vector<WayUp> likely(ways.begin(), rest);
     ways.erase(ways.begin(), is_settled ? ways.end() : rest);
@@ -186,10 +189,13 @@ double inside_share(const TriangleMesh& garment, const TriangleMesh& body)
 
 Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
 {
-    const bool has_body = body.positions.rows() > 0;
-    return { { Eigen::Quaterniond::Identity(), outward, openings_of(outward), {} },
-             has_body,
-             has_body ? inside_share(outward, body) : 0 };
+    Garment given;
+    given.held.turn = Eigen::Quaterniond::Identity();
+    given.held.outward = outward;
+    given.held.openings = openings_of(outward);
+    given.may_lie_in_place = body.positions.rows() > 0;
+    given.inside_share = given.may_lie_in_place ? inside_share(outward, body) : 0;
+    return given;
 }
 
 }  // namespace

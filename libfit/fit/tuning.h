@@ -116,15 +116,15 @@ inline constexpr double k_same_direction = 0.5;
 
 /// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit.
 inline constexpr std::array<double, 30> k_evidence_weights {
-    0.09,  3.28,  -4.3,  -0.52,
-    5.04,  -3.2,  5.75,  // energy, clearance, uncovered_cloth, crossing, covered_inside, uncovered_inside, as_given
-    -3,    -3.55, -2.13, 0.13,
-    -4.17, -3.4,  -3.64,  // upright, legs, skirt, dress, jumpsuit, legs_height, skirt_height
-    0.27,  0.32,  3.72,  1.01,
-    -2.72, 3.24,  -2.04,  // dress_height, jumpsuit_height, legs_hems, skirt_hems, dress_hems, jumpsuit_hems, legs_arms
-    -2.83, -2.25, 1.45,  1.79,
-    1.53,  0.86,  2.08,  // skirt_arms, dress_arms, jumpsuit_arms, type, input_front, openings, near_input
-    3.07,  -2.33,  // in_place, in_place_inside
+    0.07,  2.12,  -4.84, -0.74,
+    3.91,  -2.61, 2.09,  // energy, clearance, uncovered_cloth, crossing, covered_inside, uncovered_inside, as_given
+    2.09,  -2.79, -1,    0.45,
+    -4.12, -0.67, -1.23,  // upright, legs, skirt, dress, jumpsuit, legs_height, skirt_height
+    1.39,  1.87,  5.88,  3.03,
+    -2.55, 5.29,  -2.14,  // dress_height, jumpsuit_height, legs_hems, skirt_hems, dress_hems, jumpsuit_hems, legs_arms
+    -2.36, -2.7,  0.98,  1.59,
+    1.17,  0.93,  2.18,  // skirt_arms, dress_arms, jumpsuit_arms, type, input_front, openings, near_input
+    3.04,  -2.31,  // in_place, in_place_inside
 };
 inline constexpr double k_hopeless = 8;  ///< log odds behind the best, before the ascent: not looked at closely. guess
 inline constexpr int k_max_crossing_evidence = 3;  ///< bones; more say no more. guess

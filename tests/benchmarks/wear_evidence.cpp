@@ -4,6 +4,7 @@
 // fits the weights of libfit/fit/evidence.h on them.
 //   wear_evidence BODY GARMENT...
 
+#include <array>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -44,15 +45,38 @@ Json json_of(const Hypothesis& hypothesis)
              { "evidence", evidence } };
 }
 
-Json evidence_of(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path)
+// How files are turned that a program with other axes wrote, and one askew.
+const std::array<Eigen::Matrix3d, 5>& turns()
 {
-    const MeshFile file = MeshFile::read(path);
-    const Frame frame = guess_garment_frame(file.positions(), file.triangles(), body_frame).frame;
-    const TriangleMesh outward = outward_cloth(make_garment(frame.to_metres(file.positions()), file.triangles()));
+    const auto about = [](double degrees, const Vec3& axis) {
+        return Eigen::AngleAxisd(degrees / k_degrees_per_radian, axis.normalized()).toRotationMatrix();
+    };
+    static const std::array<Eigen::Matrix3d, 5> all { Eigen::Matrix3d::Identity(), about(-90, Vec3::UnitX()),
+                                                      about(90, Vec3::UnitX()), about(180, Vec3::UnitX()),
+                                                      about(30, Vec3(1, 0.4, 1)) };
+    return all;
+}
+
+Json evidence_of(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const Eigen::Matrix3d& turn)
+{
+    const TriangleMesh outward = outward_cloth(make_garment(garment.positions * turn.transpose(), garment.triangles));
     Json hypotheses = Json::array();
     for (const Hypothesis& hypothesis : find_hypotheses(rig, body, outward, {}, {}))
         hypotheses.push_back(json_of(hypothesis));
-    return { { "garment", path }, { "up", list(frame.up) }, { "hypotheses", hypotheses } };
+    return { { "turn", { list(turn.row(0)), list(turn.row(1)), list(turn.row(2)) } }, { "hypotheses", hypotheses } };
+}
+
+// As it is, and turned in one way.
+void print(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path, int turn)
+{
+    const MeshFile file = MeshFile::read(path);
+    const Frame frame = guess_garment_frame(file.positions(), file.triangles(), body_frame).frame;
+    const GarmentMesh garment = make_garment(frame.to_metres(file.positions()), file.triangles());
+    for (const int i : { 0, turn }) {
+        Json line = evidence_of(rig, body, garment, turns()[std::size_t(i)]);
+        line["garment"] = path;
+        std::cout << line << std::endl;
+    }
 }
 
 }  // namespace
@@ -65,7 +89,7 @@ try {
     const Rig rig = rig_body(body);
     for (int i = 2; i < argc; ++i)
         try {
-            std::cout << evidence_of(rig, body.surface, frame, argv[i]) << std::endl;
+            print(rig, body.surface, frame, argv[i], 1 + i % 4);
         } catch (const std::exception& error) {
             std::cerr << argv[i] << ": " << error.what() << std::endl;
         }

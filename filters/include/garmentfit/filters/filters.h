@@ -44,6 +44,7 @@ struct GarmentInput {
     std::string name = {};  ///< for messages; may be empty
     std::optional<Vec3> front = {};  ///< as FitOptions::front, where the user gave it
     std::optional<bool> as_placed = {};  ///< empty: as in Parameters
+    int skipped = 0;  ///< FitOptions::skipped
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.

@@ -59,7 +59,8 @@ struct FitResult {
     /// Probabilities that the type, the side that is the front, and the upward direction are right, given how the
     /// body fits; 1 where there was no choice, and for paper and tisserand.
     double type_probability = 1, front_probability = 1, up_probability = 1;
-    Vec3 up = Vec3::UnitY();  ///< the garment's upward direction, as it was given
+    double probability = 1;  ///< of this way of wearing the garment, among all
+    Vec3 up = Vec3::UnitY(), front = Vec3::UnitZ();  ///< where the garment's top and front point, as it was given
     std::vector<Rejected> rejected;  ///< what was more probable at first
     std::vector<Bone> covered;
     int layer = 0;  ///< of several garments worn together: 0 for the innermost

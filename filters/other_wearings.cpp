@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "other_wearings.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "garmentfit/filters/outcome.h"
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+double largest_stretch(const Dressing& end)
+{
+    double largest = 0;
+    for (const Overstretch& stretch : end.overstretches)
+        largest = std::max(largest, stretch.largest);
+    return largest;
+}
+
+// Less is better: what hinders, then how far it came.
+std::pair<int, double> badness(const Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end)
+        return { 3, 0 };
+    const Outcome outcome = outcome_of(*end);
+    if (outcome == Outcome::done)
+        return largest_stretch(*end) > k_torn ? std::make_pair(1, largest_stretch(*end)) : std::make_pair(0, 0.0);
+    return { 2, -end->scale_reached - end->pose_reached };
+}
+
+// The garment with the tightest part, or the one that was put on last.
+std::size_t garment_at_fault(const Dressing& end)
+{
+    if (outcome_of(end) == Outcome::done) {
+        const auto worst
+            = std::max_element(end.overstretches.begin(), end.overstretches.end(),
+                               [](const Overstretch& a, const Overstretch& b) { return a.largest < b.largest; });
+        return std::size_t(worst - end.overstretches.begin());
+    }
+    return end.too_tight.empty() ? end.outermost : std::size_t(end.too_tight.front().garment);
+}
+
+std::vector<std::string> names_of(const Scene& scene)
+{
+    std::vector<std::string> names;
+    for (const GarmentInput& garment : scene.garments)
+        names.push_back(garment.name.empty() ? "the garment" : garment.name);
+    return names;
+}
+
+Rejected rejected(const FitResult& fit, const std::string& reason)
+{
+    return { fit.type, fit.up, fit.front, fit.probability, reason };
+}
+
+std::string reason_against(const Scene& scene)
+{
+    const Dressing& end = *final_dressing(scene);
+    return outcome_of(end) == Outcome::done ? "the cloth is stretched too far" : explain(end, names_of(scene));
+}
+
+}  // namespace
+
+void try_other_wearings(Scene& scene, const DressingSteps& steps, const Progress& progress)
+{
+    std::size_t garment = 0;
+    for (int tried = 0; tried < k_other_wearings && badness(scene).first > 0 && !progress.is_late(); ++tried) {
+        const std::size_t at_fault = garment_at_fault(*final_dressing(scene));
+        if (tried > 0 && at_fault != garment)
+            return;  // another garment hinders now
+        garment = at_fault;
+        Scene other = scene;
+        other.garments[garment].skipped = tried + 1;
+        other.draped.reset();
+        other.recovered.reset();
+        try {
+            steps.fit(other);
+            if (other.fits[garment].probability < k_worth_trying)
+                return;
+            steps.drape_and_recover(other);
+        } catch (const InvalidInput&) {
+            return;
+        } catch (const SolverFailure&) {
+            return;
+        }
+        const bool is_better = badness(other) < badness(scene);
+        Scene& worse = is_better ? scene : other;
+        const Rejected loser = rejected(worse.fits[garment], reason_against(worse));
+        if (is_better) {
+            const std::vector<Rejected> before = std::exchange(scene, std::move(other)).fits[garment].rejected;
+            auto& all = scene.fits[garment].rejected;
+            all.insert(all.begin(), before.begin(), before.end());
+        }
+        scene.fits[garment].rejected.push_back(loser);
+    }
+}
+
+}  // namespace garmentfit
