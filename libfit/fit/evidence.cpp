@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "front_shape.h"
 #include "tuning.h"
+#include "way_up.h"
 
 namespace garmentfit {
 namespace {
@@ -46,7 +48,7 @@ InsideShares shares_inside(const FitEnergy& energy, const Posture& posture)
     return { sum.covered / std::max(covered, 1), sum.uncovered / std::max(uncovered, 1) };
 }
 
-WearEvidence evidence_of(const WearingContext& context, const Posture& posture, const Vec3& front, bool is_in_place)
+WearEvidence evidence_of(const WearingContext& context, const Posture& posture, bool is_in_place)
 {
     const FitEnergy& energy = context.energy;
     const Skeleton& rest = energy.rest();
@@ -63,7 +65,8 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[crossing_evidence] = std::min(energy.bones_through_cloth(posture), k_max_crossing_evidence);
     e[covered_inside_evidence] = inside.covered;
     e[uncovered_inside_evidence] = inside.uncovered;
-    e[as_given_evidence] = context.turn.w() == 1;
+    e[as_given_evidence] = context.turn.w() == 1 ? 1 - context.askew / k_most_askew : 0;
+    e[askew_evidence] = context.askew;
     e[upright_evidence] = context.upright;
     e[type_evidence] = context.coverage.is_guessed;
     if (const int kind = int(context.coverage.kind) - 1; kind >= 0) {
@@ -73,8 +76,13 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[legs_hems_evidence + kind] = !energy.cues().hems.empty();
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
     }
-    e[input_front_evidence] = front.dot(energy.rig().front);
+    e[input_front_evidence] = upright_front.dot(energy.rig().front);
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
+    const FrontShape shape = front_shape(energy.metric().cloth().patches(), context.openings, energy.cues(), level);
+    const bool is_bottom = context.coverage.kind == CoverageKind::legs || context.coverage.kind == CoverageKind::skirt;
+    e[is_bottom ? waist_evidence : torso_evidence] = is_bottom ? shape.waist : shape.torso;
+    e[hems_evidence] = shape.hems;
+    e[cuffs_evidence] = shape.cuffs;
     e[in_place_evidence] = is_in_place;
     e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / 0.1 : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(energy, given, leg));
@@ -88,36 +96,12 @@ bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.f
 const std::array<std::string_view, evidence_count>& evidence_names()
 {
     static constexpr std::array<std::string_view, evidence_count> names {
-        "energy",
-        "clearance",
-        "uncovered_cloth",
-        "crossing",
-        "covered_inside",
-        "uncovered_inside",
-        "as_given",
-        "upright",
-        "legs",
-        "skirt",
-        "dress",
-        "jumpsuit",
-        "legs_height",
-        "skirt_height",
-        "dress_height",
-        "jumpsuit_height",
-        "legs_hems",
-        "skirt_hems",
-        "dress_hems",
-        "jumpsuit_hems",
-        "legs_arms",
-        "skirt_arms",
-        "dress_arms",
-        "jumpsuit_arms",
-        "type",
-        "input_front",
-        "openings",
-        "near_input",
-        "in_place",
-        "in_place_inside",
+        "energy",        "clearance",   "uncovered_cloth", "crossing",     "covered_inside",  "uncovered_inside",
+        "as_given",      "askew",       "upright",         "legs",         "skirt",           "dress",
+        "jumpsuit",      "legs_height", "skirt_height",    "dress_height", "jumpsuit_height", "legs_hems",
+        "skirt_hems",    "dress_hems",  "jumpsuit_hems",   "legs_arms",    "skirt_arms",      "dress_arms",
+        "jumpsuit_arms", "type",        "input_front",     "openings",     "torso",           "waist",
+        "hems",          "cuffs",       "near_input",      "in_place",     "in_place_inside",
     };
     return names;
 }
@@ -128,7 +112,7 @@ std::vector<Wearing> wearings_of(const WearingContext& context, const std::vecto
     std::vector<Wearing> all;
     const auto add = [&](const Posture& posture, bool is_in_place) {
         const Vec3 front = context.turn.conjugate() * (posture.turn * context.energy.rig().front);
-        all.push_back({ posture, is_in_place, front, 0, evidence_of(context, posture, front, is_in_place) });
+        all.push_back({ posture, is_in_place, front, 0, evidence_of(context, posture, is_in_place) });
     };
     for (const Posture& posture : postures)
         add(posture, false);

@@ -26,7 +26,8 @@ enum Evidence {
     covered_inside_evidence,  ///< share of the covered bones that lie inside
     uncovered_inside_evidence,  ///< share of the other bones, neck apart, that lies inside
     // The way up
-    as_given_evidence,  ///< 1 where the garment is held as its file has it
+    as_given_evidence,  ///< 1 where the garment is held as its file has it, and its openings lie along the vertical
+    askew_evidence,  ///< rad, angle to the nearest line from opening to opening, at most 0.5 (WayUp::askew)
     upright_evidence,  ///< of the openings, -1 to 1: for this way up, less that for the same upside down
     // The coverage: 1 for its kind, and what the shape says of it; tops have 0 in all of these
     legs_evidence,
@@ -47,8 +48,12 @@ enum Evidence {
     jumpsuit_arms_evidence,
     type_evidence,  ///< 1 where it is that of the type guessed by the openings; tops, too
     // The facing
-    input_front_evidence,  ///< cosine to the front of the input body: most garments come in the frame of their body
+    input_front_evidence,  ///< cosine of the held garment's front to the input body's: most come in the frame of their body
     openings_evidence,  ///< openings that face forwards less those that face backwards (cues_of)
+    torso_evidence,  ///< FrontShape, of tops, dresses and jumpsuits
+    waist_evidence,  ///< of trousers and skirts
+    hems_evidence,
+    cuffs_evidence,
     near_input_evidence,  ///< 1 where the covered joints lie where the input body has them, 0 a tenth of a leg away
     // As it lies: 0 unless the posture is the input pose itself
     in_place_evidence,  ///< 1
@@ -73,7 +78,8 @@ struct WearingContext {
     const FitEnergy& energy;
     const Coverage& coverage;
     Eigen::Quaterniond turn;  ///< that makes the garment upright
-    double upright = 0;  ///< upright_evidence
+    const std::vector<Opening>& openings;  ///< of the held garment
+    double upright = 0, askew = 0;  ///< of its way up
     double inside_share = 0;  ///< of the garment's vertices in the input body
 };
 

@@ -203,8 +203,14 @@ FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& 
     const Progress stage = progress.part(0, 1, "fit the skeleton");
     const TriangleMesh outward = outward_cloth(garment);
     require_openings(outward);
+    if (options.as_placed && body.positions.rows() == 0)
+        throw InvalidInput(ErrorCode::wrong_call, "as_placed: the fit needs the body's surface for it; give the body");
     const std::vector<Hypothesis> hypotheses = find_hypotheses(rig, body, outward, options, stage.part(0, 0.8));
     stage.at(0.8);
+    if (options.as_placed && hypotheses.empty())
+        throw InvalidInput(ErrorCode::no_fit,
+                           "garment: it does not lie round the body; leave as_placed out, or check the garment's unit "
+                           "and axes");
     return choose(hypotheses, options.skipped);
 }
 

@@ -22,6 +22,7 @@ std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& w
     auto held = std::make_shared<HeldGarment>();
     held->turn = way.turn;
     held->upright = way.evidence;
+    held->askew = way.askew;
     held->outward = rotate(given.outward, way.turn);
     held->openings = rotate(given.openings, held->outward, way.turn);
     held->clearance = std::make_unique<const ClearanceField>(held->outward);
@@ -66,11 +67,17 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
                                  const FitOptions& options)
 {
     const HeldGarment& garment = search.attempt->garment();
-    const WearingContext context { search.attempt->energy(), search.attempt->coverage(), garment.turn, garment.upright,
+    const WearingContext context { search.attempt->energy(),
+                                   search.attempt->coverage(),
+                                   garment.turn,
+                                   garment.openings,
+                                   garment.upright,
+                                   garment.askew,
                                    given.inside_share };
     std::vector<Wearing> wearings = garmentfit::wearings_of(context, postures, search.in_place);
     std::erase_if(wearings, [&](const Wearing& wearing) {
-        return options.front && wearing.front.dot(*options.front) < k_same_direction;
+        return (options.as_placed && !wearing.is_in_place)
+            || (options.front && wearing.front.dot(*options.front) < k_same_direction);
     });
     return wearings;
 }

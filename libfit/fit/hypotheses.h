@@ -17,7 +17,7 @@ namespace garmentfit {
 /// A garment as it is held, and what is measured of it there.
 struct HeldGarment {
     Eigen::Quaterniond turn;  ///< from the garment as it was given
-    double upright = 0;  ///< WayUp::evidence
+    double upright = 0, askew = 0;  ///< WayUp::evidence and askew
     TriangleMesh outward;
     std::vector<Opening> openings;
     std::unique_ptr<const ClearanceField> clearance;

@@ -115,22 +115,56 @@ inline constexpr double k_same_direction = 0.5;
 // ---------------------------------------------------------------- evidence
 
 /// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit.
-inline constexpr std::array<double, 30> k_evidence_weights {
-    0.07,  2.12,  -4.84, -0.74,
-    3.91,  -2.61, 2.09,  // energy, clearance, uncovered_cloth, crossing, covered_inside, uncovered_inside, as_given
-    2.09,  -2.79, -1,    0.45,
-    -4.12, -0.67, -1.23,  // upright, legs, skirt, dress, jumpsuit, legs_height, skirt_height
-    1.39,  1.87,  5.88,  3.03,
-    -2.55, 5.29,  -2.14,  // dress_height, jumpsuit_height, legs_hems, skirt_hems, dress_hems, jumpsuit_hems, legs_arms
-    -2.36, -2.7,  0.98,  1.59,
-    1.17,  0.93,  2.18,  // skirt_arms, dress_arms, jumpsuit_arms, type, input_front, openings, near_input
-    3.04,  -2.31,  // in_place, in_place_inside
+inline constexpr std::array<double, 35> k_evidence_weights {
+    0.07,  // energy
+    3.09,  // clearance
+    -4.65,  // uncovered_cloth
+    -1.01,  // crossing
+    5.49,  // covered_inside
+    -2.45,  // uncovered_inside
+    2.15,  // as_given
+    -1.5,  // askew
+    2.31,  // upright
+    -2.95,  // legs
+    -1.37,  // skirt
+    1.06,  // dress
+    -3.65,  // jumpsuit
+    -1.6,  // legs_height
+    -1.6,  // skirt_height
+    0.65,  // dress_height
+    1.45,  // jumpsuit_height
+    5.26,  // legs_hems
+    2.52,  // skirt_hems
+    -2.81,  // dress_hems
+    4.83,  // jumpsuit_hems
+    -1.92,  // legs_arms
+    -1.86,  // skirt_arms
+    -2.81,  // dress_arms
+    1.15,  // jumpsuit_arms
+    1.81,  // type
+    1.6,  // input_front
+    0.68,  // openings
+    -0.6,  // torso
+    0.42,  // waist
+    -0.03,  // hems
+    0.1,  // cuffs
+    0.67,  // near_input
+    5.35,  // in_place
+    -3.5,  // in_place_inside
 };
 inline constexpr double k_hopeless = 8;  ///< log odds behind the best, before the ascent: not looked at closely. guess
 inline constexpr int k_max_crossing_evidence = 3;  ///< bones; more say no more. guess
 inline constexpr int k_wearings_of_a_facing = 3;  ///< where the best leads through cloth, the next are tried. guess
 inline constexpr double k_max_inside_evidence = 0.2;  ///< share of vertices; likewise. guess
 inline constexpr double k_max_opening_evidence = 2;  ///< dimensionless; likewise. guess
+
+// ---------------------------------------------------------------- front of a shape (front_shape.cpp)
+
+inline constexpr std::size_t k_front_slices = 6;  ///< heights. guess
+inline constexpr std::size_t k_min_slice = 20;  ///< patches; fewer tell nothing. guess
+inline constexpr double k_slice_middle = 0.4, k_slice_sides = 0.85;  ///< of half the width: within, and beyond. guess
+inline constexpr double k_wide_rim = 0.25;  ///< girth of an opening in widths of the garment. guess
+inline constexpr double k_max_front_shape = 3;  ///< tenths of the width; larger offsets say no more. guess
 
 // ---------------------------------------------------------------- ascent
 

@@ -143,9 +143,16 @@ Vec3 snap_to_axes(const Vec3& direction)
     return direction;
 }
 
-std::vector<Vec3> list_candidates(const TriangleMesh& outward, const std::vector<Opening>& openings)
+double angle_to_nearest(const std::vector<Vec3>& lines, const Vec3& up)
 {
-    std::vector<Vec3> lines = lines_along_pieces(openings);
+    double least = lines.empty() ? 0 : k_most_askew;
+    for (const Vec3& line : both_ways(lines))
+        least = std::min(least, angle_between(line, up));
+    return least;
+}
+
+std::vector<Vec3> list_candidates(const TriangleMesh& outward, std::vector<Vec3> lines)
+{
     if (lines.empty())  // for example a jacket that is open from neck to hem
         lines = principal_axes(outward);
     std::vector<Vec3> ups = both_ways(lines);
@@ -161,19 +168,21 @@ double uprightness_turned(const TriangleMesh& outward, const std::vector<Opening
 }
 
 /// The evidence of a rotation minus the evidence of the same upside down.
-WayUp score_rotation(const Vec3& up, const TriangleMesh& outward, const std::vector<Opening>& openings)
+WayUp score_rotation(const Vec3& up, const TriangleMesh& outward, const std::vector<Opening>& openings,
+                     const std::vector<Vec3>& lines)
 {
     const Eigen::Quaterniond turn = shortest_arc(up, Vec3::UnitY()),
                              over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
-    return { turn, uprightness_turned(outward, openings, turn) - uprightness_turned(outward, openings, over * turn) };
+    return { turn, uprightness_turned(outward, openings, turn) - uprightness_turned(outward, openings, over * turn),
+             angle_to_nearest(lines, up) };
 }
 
 }  // namespace
 
 std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Opening>& openings)
 {
-    const std::vector<Vec3> ups = list_candidates(outward, openings);
-    const WayUp given = score_rotation(Vec3::UnitY(), outward, openings);
+    const std::vector<Vec3> lines = lines_along_pieces(openings), ups = list_candidates(outward, lines);
+    const WayUp given = score_rotation(Vec3::UnitY(), outward, openings, lines);
     if (given.evidence > 0 && !ups.empty() && ups[0] == Vec3::UnitY())
         return { given };
 
@@ -181,7 +190,7 @@ std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Openin
     all.insert(all.end(), ups.begin(), ups.end());
     std::vector<WayUp> ways;
     for (const Vec3& up : keep_distinct(all))
-        ways.push_back(score_rotation(up, outward, openings));
+        ways.push_back(score_rotation(up, outward, openings, lines));
     std::stable_sort(ways.begin(), ways.end(), [](const WayUp& a, const WayUp& b) { return a.evidence > b.evidence; });
     return ways;
 }

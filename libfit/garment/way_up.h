@@ -9,9 +9,14 @@
 
 namespace garmentfit {
 
+/// rad; a larger angle between the vertical and the nearest line says no more. fitted: guess
+inline constexpr double k_most_askew = 0.5;
+
 struct WayUp {
     Eigen::Quaterniond turn;  ///< rotation that makes the garment upright
     double evidence = 0;  ///< of the openings, at most 1; negative: evidence against it
+    double askew
+        = 0;  ///< rad, to the nearest line from opening to opening, at most k_most_askew; 0 where there is none
 };
 
 /// The rotations worth trying, best evidence first. Only the identity where the openings are evidence for it. Otherwise

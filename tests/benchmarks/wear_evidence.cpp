@@ -8,6 +8,7 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -66,14 +67,17 @@ Json evidence_of(const Rig& rig, const TriangleMesh& body, const GarmentMesh& ga
     return { { "turn", { list(turn.row(0)), list(turn.row(1)), list(turn.row(2)) } }, { "hypotheses", hypotheses } };
 }
 
-// As it is, and turned in one way.
-void print(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path, int turn)
+// As it is, and every third garment turned in one way, too.
+void print(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path, int number)
 {
     const MeshFile file = MeshFile::read(path);
     const Frame frame = guess_garment_frame(file.positions(), file.triangles(), body_frame).frame;
     const GarmentMesh garment = make_garment(frame.to_metres(file.positions()), file.triangles());
-    for (const int i : { 0, turn }) {
-        Json line = evidence_of(rig, body, garment, turns()[std::size_t(i)]);
+    std::vector<std::size_t> ways { 0 };
+    if (number % 3 == 0)
+        ways.push_back(std::size_t(1 + number / 3 % 4));
+    for (const std::size_t way : ways) {
+        Json line = evidence_of(rig, body, garment, turns()[way]);
         line["garment"] = path;
         std::cout << line << std::endl;
     }
@@ -89,7 +93,7 @@ try {
     const Rig rig = rig_body(body);
     for (int i = 2; i < argc; ++i)
         try {
-            print(rig, body.surface, frame, argv[i], 1 + i % 4);
+            print(rig, body.surface, frame, argv[i], i);
         } catch (const std::exception& error) {
             std::cerr << argv[i] << ": " << error.what() << std::endl;
         }

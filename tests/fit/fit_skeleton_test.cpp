@@ -320,6 +320,59 @@ TEST(FitSkeleton, ABodyThatFacesAwayTurnsToTheGarmentsFront)
     EXPECT_GT(pose_skeleton(rig.skeleton, result.pose).tail(lradius).x(), 0.3) << "the left arm is in the left sleeve";
 }
 
+TEST(FitSkeleton, AGarmentThatLiesRoundTheBodyIsWornThere)
+{
+    const PersonOptions options { .arm_angle = 45, .elbow_angle = 20 };
+    const Person person = capsule_person(options);
+    const Rig rig = simple_rig(person);
+    const FitResult result = fit_skeleton(rig, person.mesh, shirt(options, 1.9, 0.03));
+    EXPECT_EQ(result.type, GarmentType::longsleeve);
+    EXPECT_EQ(largest_difference(pose_skeleton(rig.skeleton, result.pose), rig.skeleton), 0) << "nothing moves";
+    EXPECT_GT(result.front_probability, 0.9);
+}
+
+TEST(FitSkeleton, AsPlacedRefusesAGarmentThatLiesElsewhere)
+{
+    const PersonOptions options { .arm_angle = 45 };
+    const Person person = capsule_person(options);
+    const Rig rig = simple_rig(person);
+    GarmentMesh garment = shirt(options, 1.9, 0.03);
+    FitOptions as_placed;
+    as_placed.as_placed = true;
+    EXPECT_EQ(largest_difference(pose_skeleton(rig.skeleton, fit_skeleton(rig, person.mesh, garment, as_placed).pose),
+                                 rig.skeleton),
+              0);
+    garment.positions.rowwise() += Vec3(3, 0, 0).transpose();
+    expect_invalid([&] { fit_skeleton(rig, person.mesh, garment, as_placed); }, "does not lie round the body");
+    expect_invalid([&] { fit_skeleton(rig, garment, as_placed); }, "give the body");
+}
+
+TEST(FitSkeleton, AGivenFrontIsTheFront)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40, .elbow_angle = 40 }, 1.9);
+    for (const double z : { 1.0, -1.0 }) {
+        FitOptions options;
+        options.front = z * Vec3::UnitZ();
+        const FitResult result = fit_skeleton(rig, garment, options);
+        EXPECT_GT((result.pose.root_rotation * rig.front).z() * z, 0.8);
+        EXPECT_NEAR(result.front_probability, 1, 1e-9);
+    }
+}
+
+TEST(FitSkeleton, TheNextProbableWayIsAnotherOne)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 1.9);
+    FitOptions second;
+    second.skipped = 1;
+    const FitResult first = fit_skeleton(rig, garment), next = fit_skeleton(rig, garment, second);
+    EXPECT_LE(next.probability, first.probability);
+    EXPECT_TRUE(next.type != first.type || next.front.dot(first.front) < 0.5
+                || largest_difference(pose_skeleton(rig.skeleton, next.pose), pose_skeleton(rig.skeleton, first.pose))
+                    > 1e-6);
+}
+
 TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
 {
     const PersonOptions input { .arm_angle = 45 };

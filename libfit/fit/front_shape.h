@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the cloth between its openings tells about where a garment faces: bodies are not alike in front and behind.
+
+#include <vector>
+
+#include "clearance_field.h"
+#include "type_guess.h"
+
+namespace garmentfit {
+
+/// Offsets along a direction that may be the front, in tenths of the garment's width at its top, at most 3. Each of them
+/// changes its sign with the direction.
+struct FrontShape {
+    double torso = 0;  ///< of the middle of the cloth against its sides, mean over six heights: backs are rounder
+    double waist = 0;  ///< the same at the top: trousers stand further out over the seat
+    double hems = 0;  ///< of the lowest openings against the highest
+    double cuffs = 0;  ///< of the sleeves' ends against the highest opening: elbows bend forwards
+};
+
+/// @param front  unit, horizontal. Cost O(n log n) of the cloth's patches.
+FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings,
+                       const GarmentCues& cues, const Vec3& front);
+
+}  // namespace garmentfit
