@@ -16,7 +16,7 @@ inline constexpr double k_low_probability = 0.8;
 
 /// Probability below which another way of wearing a garment is not tried, where the most probable one ends badly, and how
 /// many are. fitted: guess
-inline constexpr double k_worth_trying = 0.02;
+inline constexpr double k_worth_trying = 0.05;
 inline constexpr int k_other_wearings = 2;
 
 /// l / l0 - 1 of an edge. Cloth that is stretched further has torn: it hangs on a part of the body that another way of

@@ -166,6 +166,11 @@ FitResult finish(const Hypothesis& hypothesis)
     return result;
 }
 
+bool is_same_way(const Hypothesis& a, const Hypothesis& b)
+{
+    return a.attempt == b.attempt && a.wearing.front.dot(b.wearing.front) > k_same_direction;
+}
+
 // The most probable hypothesis in which a body fits, `skipped` of those left out.
 FitResult choose(const std::vector<Hypothesis>& all, int skipped)
 {
@@ -177,11 +182,17 @@ FitResult choose(const std::vector<Hypothesis>& all, int skipped)
         rejected.push_back({ hypothesis.attempt->coverage().type, hypothesis.up(), hypothesis.wearing.front,
                              hypothesis.probability, reason });
     };
+    std::vector<const Hypothesis*> done;  // ways in which the body fits, and that are skipped
     for (const Hypothesis& hypothesis : all)
         try {
-            FitResult result = finish(hypothesis);
-            if (skipped-- > 0)
+            if (std::any_of(done.begin(), done.end(),
+                            [&](const Hypothesis* other) { return is_same_way(*other, hypothesis); }))
                 continue;
+            FitResult result = finish(hypothesis);
+            if (int(done.size()) < skipped) {
+                done.push_back(&hypothesis);
+                continue;
+            }
             add_probabilities(result, hypothesis, all);
             result.rejected = rejected;
             return result;

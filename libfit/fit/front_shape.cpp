@@ -58,8 +58,10 @@ std::optional<double> middle_against_sides(const std::vector<Point>& slice)
     if (slice.size() < k_min_slice)
         return {};
     const double width = percentile(collect(slice, any, breadth), 0.97);
-    const auto middle = collect(slice, [&](const Point& p) { return breadth(p) < k_slice_middle * width; }, forwards),
-               sides = collect(slice, [&](const Point& p) { return breadth(p) > k_slice_sides * width; }, forwards);
+    const auto middle = collect(
+                   slice, [&](const Point&p) { return breadth(p) < k_slice_middle * width; }, forwards),
+               sides = collect(
+                   slice, [&](const Point&p) { return breadth(p) > k_slice_sides * width; }, forwards);
     if (middle.empty() || sides.empty())
         return {};
     return percentile(middle, 0.97) + percentile(middle, 0.03) - 2 * percentile(sides, 0.5);
@@ -100,7 +102,8 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
     const auto heights = collect(points, any, [](const Point& p) { return p.height; });
     const double low = *std::min_element(heights.begin(), heights.end()),
                  high = *std::max_element(heights.begin(), heights.end()), tall = std::max(high - low, 1e-9);
-    const auto top = collect(points, [&](const Point& p) { return p.height > high - 0.2 * tall; }, breadth);
+    const auto top = collect(
+        points, [&](const Point& p) { return p.height > high - 0.2 * tall; }, breadth);
     const double width = std::max(2 * percentile(top, 0.95), 1e-9);
     const auto in_tenths
         = [&](double offset) { return std::clamp(10 * offset / width, -k_max_front_shape, k_max_front_shape); };
@@ -108,7 +111,8 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
     FrontShape shape;
     std::array<std::vector<Point>, k_front_slices> slices;
     for (const Point& point : points)
-        slices[std::min(std::size_t((point.height - low) / tall * k_front_slices), k_front_slices - 1)].push_back(point);
+        slices[std::min(std::size_t((point.height - low) / tall * k_front_slices), k_front_slices - 1)].push_back(
+            point);
     int count = 0;
     for (const std::vector<Point>& slice : slices)
         if (const auto offset = middle_against_sides(slice)) {

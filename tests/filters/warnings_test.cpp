@@ -38,11 +38,20 @@ TEST(Warnings, SayWhichParameterSettlesThem)
     scene.fits[1].type_probability = 0.1;
     EXPECT_EQ(warnings_of(scene),
               (Lines { "which side of the body is left is guessed with low confidence; if it is wrong, set swap_sides",
-                       "the type of coat is guessed with low confidence: coat; if it is wrong, set type" }));
+                       "the type of coat is uncertain: coat (probability 10%); if it is wrong, set type" }));
     EXPECT_EQ(
         warnings_about_frame("coat", { {}, 0.1, 0.1, "it is wide" }, "garment_", set_by_name),
         (Lines { "the unit of coat is guessed with low confidence (it is wide); if it is wrong, set garment_unit",
                  "the up axis of coat is guessed with low confidence (it is wide); if it is wrong, set garment_up" }));
+}
+
+TEST(Warnings, SayThatTheWayUpIsUncertain)
+{
+    Scene scene = worn_scene();
+    scene.fits[0].up_probability = 0.5;
+    EXPECT_EQ(warnings_of(scene),
+              (Lines { "which end of skirt is up is uncertain (probability 50%); if it is worn upside down or on its "
+                       "side, set garment_up" }));
 }
 
 TEST(Warnings, SayThatAFrontIsUncertain)

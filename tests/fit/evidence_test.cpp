@@ -42,13 +42,15 @@ TEST(Evidence, OfEqualsTheInputBodysFrontIsProbable)
     EXPECT_GT(log_odds(same), log_odds(opposite));
 }
 
-TEST(Evidence, ClearOpeningsOutweighTheFileTheyCameIn)
+TEST(Evidence, AClearShapeOutweighsTheFileItCameIn)
 {
     WearEvidence same {}, opposite {};
     same[input_front_evidence] = 1;
-    same[openings_evidence] = -2;
+    same[openings_evidence] = -1;
+    same[torso_evidence] = 2;
     opposite[input_front_evidence] = -1;
-    opposite[openings_evidence] = 2;
+    opposite[openings_evidence] = 1;
+    opposite[torso_evidence] = -2;
     EXPECT_GT(log_odds(opposite), log_odds(same));
 }
 
