@@ -17,11 +17,15 @@ int usual_layer(GarmentType type)
     switch (type) {
     case GarmentType::dress:
     case GarmentType::vest:
+    case GarmentType::overalls:
     case GarmentType::jumpsuit: return 1;
     case GarmentType::hoodie: return 2;
     case GarmentType::jacket:
     case GarmentType::suit: return 3;
-    case GarmentType::coat: return 4;
+    case GarmentType::coat:
+    case GarmentType::robe:
+    case GarmentType::poncho:
+    case GarmentType::cape: return 4;
     default: return 0;
     }
 }

@@ -62,13 +62,23 @@ Coverage coverage_of(CoverageKind kind, const std::vector<Opening>& openings)
     return coverage;
 }
 
-void require_two_openings(const std::vector<Opening>& openings)
+InvalidInput no_type(const std::vector<Opening>& openings)
 {
-    if (openings.size() < k_min_openings)
-        throw InvalidInput(ErrorCode::no_opening,
-                           std::string("garment: its type cannot be guessed, because it has ")
-                               + (openings.size() == 1 ? "only one opening" : "no openings")
-                               + " large enough for a body; give its type, or a garment with openings");
+    return { ErrorCode::no_opening,
+             std::string("garment: its type cannot be guessed, because it has ")
+                 + (openings.size() == 1 ? "only one opening" : "no openings")
+                 + " large enough for a body; give its type, or a garment with openings" };
+}
+
+/// Whether a garment of which a coarse word was said, or nothing, may be of a kind.
+bool allows(GarmentType said, CoverageKind kind)
+{
+    switch (said) {
+    case GarmentType::top: return kind == CoverageKind::top;
+    case GarmentType::bottom: return kind == CoverageKind::legs || kind == CoverageKind::skirt;
+    case GarmentType::whole: return kind == CoverageKind::dress || kind == CoverageKind::jumpsuit;
+    default: return true;
+    }
 }
 
 }  // namespace
@@ -76,12 +86,16 @@ void require_two_openings(const std::vector<Opening>& openings)
 CoverageKind coverage_kind_of(GarmentType type)
 {
     switch (type) {
+    case GarmentType::leggings:
     case GarmentType::trousers: return CoverageKind::legs;
+    case GarmentType::hotpants:
     case GarmentType::shorts:
     case GarmentType::skirt: return CoverageKind::skirt;
     case GarmentType::coat:
+    case GarmentType::robe:
     case GarmentType::dress: return CoverageKind::dress;
     case GarmentType::jumpsuit:
+    case GarmentType::overalls:
     case GarmentType::suit: return CoverageKind::jumpsuit;
     default: return CoverageKind::top;
     }
@@ -89,16 +103,24 @@ CoverageKind coverage_kind_of(GarmentType type)
 
 std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Opening>& openings)
 {
-    const GarmentType guess = given == GarmentType::automatic ? guess_type(openings).type : given;
+    const bool is_given = given != GarmentType::automatic && !is_coarse(given);
+    const GarmentType guess = is_given ? given : guess_type(openings).type;
     std::vector<Coverage> coverages;
-    if (guess != GarmentType::automatic)
+    if (guess != GarmentType::automatic && (is_given || allows(given, coverage_kind_of(guess))))
         coverages.push_back({ coverage_kind_of(guess), guess, bones_covered_by(guess, openings), true });
-    else
-        require_two_openings(openings);
-    for (int kind = 0; kind < int(k_coverage_kind_names.size()) && given == GarmentType::automatic; ++kind)
-        if (coverages.empty() || coverages[0].kind != CoverageKind(kind))
+    else if (given == GarmentType::automatic && openings.size() < k_min_openings)
+        throw no_type(openings);
+    for (int kind = 0; kind < int(k_coverage_kind_names.size()) && !is_given; ++kind)
+        if (allows(given, CoverageKind(kind)) && (coverages.empty() || coverages[0].kind != CoverageKind(kind)))
             coverages.push_back(coverage_of(CoverageKind(kind), openings));
     return coverages;
+}
+
+GarmentType resolve_type(GarmentType given, const std::vector<Opening>& openings)
+{
+    if (given == GarmentType::automatic && guess_type(openings).type == GarmentType::automatic)
+        throw no_type(openings);
+    return possible_coverages(given, openings).front().type;
 }
 
 }  // namespace garmentfit

@@ -15,7 +15,7 @@ namespace garmentfit {
 enum class CoverageKind { top, legs, skirt, dress, jumpsuit };
 inline constexpr std::array<std::string_view, 5> k_coverage_kind_names { "top", "legs", "skirt", "dress", "jumpsuit" };
 
-/// What garments of a type cover. @pre not `automatic`
+/// What garments of a type cover. @pre neither `automatic` nor coarse
 CoverageKind coverage_kind_of(GarmentType type);
 
 struct Coverage {
@@ -25,8 +25,12 @@ struct Coverage {
     bool is_guessed = false;  ///< by the shape of the openings (guess_type), or given
 };
 
-/// One for each kind, the guessed one first; a given type leaves only its own.
+/// One for each kind, the guessed one first; a given type leaves only its own, a coarse word those of its group.
 /// @throws InvalidInput when there are too few openings for a body, and no type is given.
 std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Opening>& openings);
+
+/// The given type, or else the guessed one, of the group of a coarse word. @throws InvalidInput when it cannot be
+/// guessed.
+GarmentType resolve_type(GarmentType given, const std::vector<Opening>& openings);
 
 }  // namespace garmentfit

@@ -19,6 +19,8 @@ namespace {
 
 using namespace garment_tuning;
 
+const std::vector<Bone> k_waist { lowerback, upperback };
+const std::vector<Bone> k_spine { lowerback, upperback, thorax };
 const std::vector<Bone> k_trunk { lowerback, upperback, thorax, lclavicle, rclavicle };
 const std::vector<Bone> k_upper_arms { lhumerus, rhumerus };
 const std::vector<Bone> k_forearms { lradius, rradius };
@@ -366,24 +368,13 @@ double uprightness(const std::vector<Opening>& openings)
     return height > 0 ? result / height : 0;
 }
 
-TypeGuess resolve_type(GarmentType given, const std::vector<Opening>& openings)
-{
-    if (given != GarmentType::automatic)
-        return { given, 1 };
-    const TypeGuess guess = guess_type(openings);
-    if (guess.type == GarmentType::automatic)
-        throw InvalidInput(ErrorCode::no_opening,
-                           std::string("garment: its type cannot be guessed, because it has ")
-                               + (openings.size() == 1 ? "only one opening" : "no openings")
-                               + " large enough for a body; give its type, or a garment with openings");
-    return guess;
-}
-
 const std::vector<std::string_view>& garment_type_names()
 {
-    static const std::vector<std::string_view> names { "auto",   "tshirt", "longsleeve", "blouse",   "hoodie",
-                                                       "jacket", "coat",   "vest",       "trousers", "shorts",
-                                                       "skirt",  "dress",  "jumpsuit",   "suit" };
+    static const std::vector<std::string_view> names {
+        "auto",     "tshirt",   "longsleeve", "blouse",   "hoodie", "jacket",   "coat",     "vest",      "trousers",
+        "shorts",   "skirt",    "dress",      "jumpsuit", "suit",   "tanktop",  "camisole", "strapless", "halter",
+        "leggings", "hotpants", "poncho",     "cape",     "robe",   "overalls", "top",      "bottom",    "whole"
+    };
     return names;
 }
 
@@ -400,22 +391,40 @@ GarmentType garment_type_of(std::string_view name)
                        "garment type \"" + std::string(name) + "\" is unknown; give one of " + known);
 }
 
+bool is_coarse(GarmentType type)
+{
+    return type == GarmentType::top || type == GarmentType::bottom || type == GarmentType::whole;
+}
+
 std::string_view name_of(GarmentType type) { return garment_type_names()[int(type)]; }
 
 std::vector<Bone> bones_covered_by(GarmentType type)
 {
     switch (type) {
-    case GarmentType::automatic: return {};
+    case GarmentType::automatic:
+    case GarmentType::top:
+    case GarmentType::bottom:
+    case GarmentType::whole: return {};
+    case GarmentType::poncho:
+    case GarmentType::cape:
     case GarmentType::tshirt: return unite({ k_trunk, k_upper_arms });
     case GarmentType::longsleeve:
     case GarmentType::blouse:
     case GarmentType::hoodie:
     case GarmentType::jacket: return unite({ k_trunk, k_upper_arms, k_forearms });
+    case GarmentType::robe:
     case GarmentType::coat: return unite({ k_trunk, k_upper_arms, k_forearms, k_thighs });
+    case GarmentType::tanktop:
+    case GarmentType::camisole:
     case GarmentType::vest: return unite({ k_trunk });
+    case GarmentType::strapless:
+    case GarmentType::halter: return k_spine;
+    case GarmentType::leggings:
     case GarmentType::trousers: return unite({ k_thighs, k_shins });
+    case GarmentType::hotpants:
     case GarmentType::shorts:
     case GarmentType::skirt: return unite({ k_thighs });
+    case GarmentType::overalls: return unite({ k_waist, k_thighs, k_shins });
     case GarmentType::dress: return unite({ k_trunk, k_upper_arms, k_thighs });
     case GarmentType::jumpsuit:
     case GarmentType::suit: return unite({ k_trunk, k_upper_arms, k_forearms, k_thighs, k_shins });

@@ -10,8 +10,6 @@ namespace garmentfit {
 
 /// As guess_garment_type, from the openings.
 TypeGuess guess_type(const std::vector<Opening>& openings);
-/// The given type, or for `automatic` the guessed one. @throws InvalidInput when no type can be guessed.
-TypeGuess resolve_type(GarmentType given, const std::vector<Opening>& openings);
 
 /// Evidence of the openings that the garment is upright: 0 (none) to 1.
 double uprightness(const std::vector<Opening>& openings);

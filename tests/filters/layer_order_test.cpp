@@ -79,6 +79,8 @@ TEST(LayerOrder, ACoatGoesOverAShirtThatIsWider)
     EXPECT_EQ(found(GarmentType::coat, GarmentType::blouse), (std::vector<int> { 1, 0 }));
     EXPECT_EQ(found(GarmentType::jacket, GarmentType::hoodie), (std::vector<int> { 1, 0 }));
     EXPECT_EQ(found(GarmentType::blouse, GarmentType::tshirt), (std::vector<int> { 0, 1 }));
+    EXPECT_EQ(found(GarmentType::cape, GarmentType::jacket), (std::vector<int> { 1, 0 }));
+    EXPECT_EQ(found(GarmentType::overalls, GarmentType::tanktop), (std::vector<int> { 1, 0 }));
 }
 
 TEST(LayerOrder, FittingFindsItWhereAskedToAndElseOnlyWarns)

@@ -500,6 +500,14 @@ TEST(FitSkeleton, TypesFollowFromTheOpenings)
     EXPECT_EQ(guess_garment_type(with_left_sleeve_only(shirt(a_pose, 1.9))).type, GarmentType::longsleeve);
 }
 
+TEST(FitSkeleton, ACoarseTypeIsReportedAsTheTypeFound)
+{
+    const PersonOptions a_pose { .arm_angle = 40 };
+    const Rig rig = rig_of(a_pose);
+    EXPECT_EQ(fit_skeleton(rig, shirt(a_pose, 1.9), { .type = GarmentType::top }).type, GarmentType::longsleeve);
+    EXPECT_EQ(fit_skeleton(rig, trousers(a_pose), { .type = GarmentType::bottom }).type, GarmentType::trousers);
+}
+
 TEST(FitSkeleton, TypeNamesRoundTrip)
 {
     for (const auto name : garment_type_names())

@@ -8,9 +8,9 @@
 #include "baselines/relaxation.h"
 #include "baselines/surface_metric.h"
 #include "bone_metric.h"
+#include "coverage.h"
 #include "garmentfit/error.h"
 #include "outward_cloth.h"
-#include "type_guess.h"
 
 namespace garmentfit {
 namespace {
@@ -44,12 +44,11 @@ FitResult fit_baseline(const Rig& rig, const TriangleMesh& body, const GarmentMe
 {
     const TriangleMesh outward = outward_cloth(garment);
     const std::vector<Opening> openings = openings_of(outward);
-    const TypeGuess guess = resolve_type(options.type, openings);
     FitResult result;
-    result.type = guess.type;
-    result.covered = bones_covered_by(guess.type, openings);
+    result.type = resolve_type(options.type, openings);
+    result.covered = bones_covered_by(result.type, openings);
     const auto metric = make_metric(rig, body, garment, result.covered, options);
-    const Relaxation relaxation = relaxation_of(rig, garment, guess.type, options.iterations);
+    const Relaxation relaxation = relaxation_of(rig, garment, result.type, options.iterations);
     const RelaxedPosture found
         = search_relaxed(rig, *metric, result.covered, relaxation, progress.part(0, 1, "fit the skeleton"));
     result.pose = pose_of(rig.skeleton, found.posture);

@@ -26,7 +26,21 @@ enum class GarmentType {
     skirt,
     dress,
     jumpsuit,
-    suit
+    suit,
+    tanktop,
+    camisole,
+    strapless,
+    halter,
+    leggings,
+    hotpants,
+    poncho,
+    cape,
+    robe,
+    overalls,
+    // Coarse words: they restrict what is searched for, and are never found.
+    top,
+    bottom,
+    whole
 };
 
 /// All names in the order of GarmentType: "auto", "tshirt", ...
@@ -34,6 +48,9 @@ GARMENTFIT_API const std::vector<std::string_view>& garment_type_names();
 /// @throws InvalidInput listing the known names.
 GARMENTFIT_API GarmentType garment_type_of(std::string_view name);
 GARMENTFIT_API std::string_view name_of(GarmentType type);
+
+/// Whether it names a group of types: top, bottom, whole.
+GARMENTFIT_API bool is_coarse(GarmentType type);
 
 struct TypeGuess {
     GarmentType type = GarmentType::automatic;
@@ -44,7 +61,7 @@ struct TypeGuess {
 /// not fit through the openings. Cost O(n log n).
 GARMENTFIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
 
-/// The bones that a type covers.
+/// The bones that a type covers; none for `automatic` and coarse words.
 GARMENTFIT_API std::vector<Bone> bones_covered_by(GarmentType type);
 
 }  // namespace garmentfit

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coverage.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "garmentfit/error.h"
+
+namespace {
+
+using namespace garmentfit;
+
+/// A ring about the y axis.
+Opening opening_at(double height, double facing)
+{
+    Opening opening;
+    opening.centre = { 0, height, 0 };
+    opening.facing = { 0, facing, 0 };
+    opening.rim = (Positions(4, 3) << 0.2, height, 0, 0, height, 0.2, -0.2, height, 0, 0, height, -0.2).finished();
+    opening.low = opening.rim.colwise().minCoeff();
+    opening.high = opening.rim.colwise().maxCoeff();
+    opening.girth = opening.tube_girth = opening.tube_waist = 1;
+    opening.tube_length = opening.piece_height = 0.5;
+    return opening;
+}
+
+const std::vector<Opening> k_tube { opening_at(0, -1), opening_at(0.5, 1) };
+
+std::vector<CoverageKind> kinds_of(GarmentType given, const std::vector<Opening>& openings)
+{
+    std::vector<CoverageKind> kinds;
+    for (const Coverage& coverage : possible_coverages(given, openings)) {
+        EXPECT_FALSE(is_coarse(coverage.type));
+        EXPECT_FALSE(coverage.bones.empty());
+        kinds.push_back(coverage.kind);
+    }
+    return kinds;
+}
+
+TEST(Coverage, NewTypesKeepTheNumbersOfTheOthers)
+{
+    EXPECT_EQ(int(GarmentType::suit), 13);
+    EXPECT_EQ(garment_type_names().size(), std::size_t(GarmentType::whole) + 1);
+    EXPECT_EQ(name_of(GarmentType::tanktop), "tanktop");
+    EXPECT_EQ(name_of(GarmentType::overalls), "overalls");
+    EXPECT_EQ(name_of(GarmentType::whole), "whole");
+}
+
+TEST(Coverage, AGivenTypeLeavesOnlyItsOwnBones)
+{
+    for (int t = 1; t <= int(GarmentType::whole); ++t) {
+        const GarmentType type = GarmentType(t);
+        if (is_coarse(type))
+            continue;
+        SCOPED_TRACE(name_of(type));
+        const auto coverages = possible_coverages(type, k_tube);
+        ASSERT_EQ(coverages.size(), 1u);
+        EXPECT_EQ(coverages[0].type, type);
+        const bool has_thighs = std::count(coverages[0].bones.begin(), coverages[0].bones.end(), lfemur) > 0;
+        EXPECT_EQ(has_thighs, coverage_kind_of(type) != CoverageKind::top);
+    }
+}
+
+TEST(Coverage, ACoarseWordLeavesTheKindsOfItsGroup)
+{
+    using enum CoverageKind;
+    EXPECT_EQ(kinds_of(GarmentType::automatic, k_tube), (std::vector { skirt, top, legs, dress, jumpsuit }));
+    EXPECT_EQ(kinds_of(GarmentType::top, k_tube), (std::vector { top }));
+    EXPECT_EQ(kinds_of(GarmentType::bottom, k_tube), (std::vector { skirt, legs }));
+    EXPECT_EQ(kinds_of(GarmentType::whole, k_tube), (std::vector { dress, jumpsuit }));
+}
+
+TEST(Coverage, OnlyTheGuessOfTheShapeCountsAsGuessed)
+{
+    EXPECT_TRUE(possible_coverages(GarmentType::bottom, k_tube)[0].is_guessed);
+    EXPECT_FALSE(possible_coverages(GarmentType::top, k_tube)[0].is_guessed);
+}
+
+TEST(Coverage, OneOpeningNeedsAWordAboutTheType)
+{
+    const std::vector<Opening> one { opening_at(0, -1) };
+    EXPECT_THROW(possible_coverages(GarmentType::automatic, one), InvalidInput);
+    EXPECT_THROW(resolve_type(GarmentType::automatic, one), InvalidInput);
+    EXPECT_EQ(kinds_of(GarmentType::top, one), (std::vector { CoverageKind::top }));
+}
+
+TEST(Coverage, ACoarseWordIsResolvedToATypeOfItsGroup)
+{
+    EXPECT_EQ(resolve_type(GarmentType::automatic, k_tube), GarmentType::skirt);
+    EXPECT_EQ(resolve_type(GarmentType::bottom, k_tube), GarmentType::skirt);
+    EXPECT_EQ(resolve_type(GarmentType::top, k_tube), GarmentType::vest);
+    EXPECT_EQ(resolve_type(GarmentType::whole, k_tube), GarmentType::dress);
+}
+
+}  // namespace
