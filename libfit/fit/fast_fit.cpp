@@ -130,7 +130,8 @@ void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::v
 {
     const Coverage& coverage = chosen.attempt->coverage();
     result.type_probability
-        = probability_of(all, [&](const Hypothesis& other) { return other.attempt->coverage().kind == coverage.kind; });
+        = probability_of(all, [&](const Hypothesis& other) { return other.attempt->coverage().kind == coverage.kind; })
+        * coverage.name_probability;
     result.front_probability = probability_of(
         all, [&](const Hypothesis& other) { return other.wearing.front.dot(chosen.wearing.front) > k_same_direction; });
     result.up_probability

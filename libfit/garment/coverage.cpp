@@ -2,10 +2,12 @@
 #include "coverage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
 #include "garmentfit/error.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -51,10 +53,15 @@ GarmentType name_coverage(CoverageKind kind, const std::vector<Bone>& bones, con
     return GarmentType::automatic;
 }
 
+double name_probability(double margin)
+{
+    return 1 / (1 + std::exp(-(garment_tuning::k_name_log_odds + garment_tuning::k_name_margin_log_odds * margin)));
+}
+
 // The sleeves are those of the openings.
 Coverage coverage_of(CoverageKind kind, const std::vector<Opening>& openings)
 {
-    Coverage coverage { kind, GarmentType::automatic, {} };
+    Coverage coverage { kind, GarmentType::automatic, {}, false, name_probability(0) };
     for (const Bone bone : bones_covered_by(GarmentType::suit, openings))
         if (covers(kind, bone))
             coverage.bones.push_back(bone);
@@ -104,10 +111,12 @@ CoverageKind coverage_kind_of(GarmentType type)
 std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Opening>& openings)
 {
     const bool is_given = given != GarmentType::automatic && !is_coarse(given);
-    const GarmentType guess = is_given ? given : guess_type(openings).type;
+    const TypeGuess guessed = is_given ? TypeGuess { given, 1 } : guess_type(openings);
+    const GarmentType guess = guessed.type;
     std::vector<Coverage> coverages;
     if (guess != GarmentType::automatic && (is_given || allows(given, coverage_kind_of(guess))))
-        coverages.push_back({ coverage_kind_of(guess), guess, bones_covered_by(guess, openings), true });
+        coverages.push_back({ coverage_kind_of(guess), guess, bones_covered_by(guess, openings), true,
+                              is_given ? 1 : name_probability(guessed.margin) });
     else if (given == GarmentType::automatic && openings.size() < k_min_openings)
         throw no_type(openings);
     for (int kind = 0; kind < int(k_coverage_kind_names.size()) && !is_given; ++kind)

@@ -23,6 +23,7 @@ struct Coverage {
     GarmentType type;  ///< what a garment with these openings is called if it covers these bones
     std::vector<Bone> bones;
     bool is_guessed = false;  ///< by the shape of the openings (guess_type), or given
+    double name_probability = 1;  ///< that the type is right, given the kind; tops with sleeves count as one
 };
 
 /// One for each kind, the guessed one first; a given type leaves only its own, a coarse word those of its group.

@@ -77,6 +77,15 @@ TEST(Coverage, OnlyTheGuessOfTheShapeCountsAsGuessed)
     EXPECT_FALSE(possible_coverages(GarmentType::top, k_tube)[0].is_guessed);
 }
 
+TEST(Coverage, OnlyAGivenNameIsCertain)
+{
+    EXPECT_EQ(possible_coverages(GarmentType::skirt, k_tube)[0].name_probability, 1);
+    for (const Coverage& coverage : possible_coverages(GarmentType::automatic, k_tube)) {
+        EXPECT_LT(coverage.name_probability, 1);
+        EXPECT_GT(coverage.name_probability, 0.95);  // else nothing is said with more than 0.9
+    }
+}
+
 TEST(Coverage, OneOpeningNeedsAWordAboutTheType)
 {
     const std::vector<Opening> one { opening_at(0, -1) };
