@@ -225,9 +225,11 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
 
     const Vec3 other = std::abs(body.up.y()) > 0.5 ? Vec3::UnitZ() : Vec3::UnitY();
     const double other_is_better = preference(shape_of(samples), body.up, other);
-    if (other_is_better > k_clear_preference)
+    // Another unit is evidence for another program, whose axes are others as often as not: the shape decides.
+    const double least = guess.frame.metres_per_unit == body.metres_per_unit ? k_clear_preference : 0;
+    if (other_is_better > least)
         guess.frame.up = other;
-    guess.up_margin = margin_between(std::abs(other_is_better - k_clear_preference), 0);
+    guess.up_margin = margin_between(std::abs(other_is_better - least), 0);
     guess.why = "the garment's longest side is " + text_of_length(longest) + " units, "
         + text_of_length(longest * guess.frame.metres_per_unit) + " m in " + unit_name(guess.frame.metres_per_unit)
         + (guess.frame.metres_per_unit == body.metres_per_unit ? " like the body" : " unlike the body")

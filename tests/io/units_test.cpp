@@ -166,6 +166,15 @@ TEST(Units, AGarmentOfOtherUnitsOrAxesIsNoticed)
         }
 }
 
+TEST(Units, InAnotherUnitTheShapeAloneDecidesTheAxis)
+{
+    TriangleMesh deep = shirt();
+    deep.positions.col(2) *= 4;  // as a cape: deeper than tall, so the shape says little
+    const Frame body = frame_of("m", "+y"), other = frame_of("cm", "+z"), same = frame_of("m", "+z");
+    EXPECT_EQ(guess_garment_frame(other.to_file(deep.positions), deep.triangles, body).frame.up, other.up);
+    EXPECT_EQ(guess_garment_frame(same.to_file(deep.positions), deep.triangles, body).frame.up, body.up);
+}
+
 TEST(Units, ATriangleThatNamesNoVertexIsRefusedNotRead)
 {
     TriangleMesh mesh = shirt();
