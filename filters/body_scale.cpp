@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "garmentfit/filters/frame_choice.h"
+
 namespace garmentfit {
 namespace {
 
 // derived: a human of height h, m, and body mass index 24 weighs 24 h^2 kg and displaces a litre a kilogram. At 1.7 m
 // that is 0.069 m^3, whose cube root goes 4.1 times into the height; 4.7 times at an index of 16, 3.6 times at one of
 // 36.
-constexpr double k_height_by_volume = 4.1;
+constexpr double k_height_by_volume = 4.1, k_least_by_volume = 3.6, k_most_by_volume = 4.7;
 // derived: 0.5 m and 2.5 m tall, with the spread above and rounded outwards, so that no body between them is scaled. m
 constexpr double k_smallest = 0.4, k_largest = 3;
 // unit: where a power of ten makes an adult of the body it is taken, and a body at a tenth of its size gets the result
@@ -130,6 +132,12 @@ std::optional<Dressing> restore_given(const std::optional<Dressing>& made, const
 }
 
 }  // namespace
+
+double stature_of(const BodyMesh& body)
+{
+    const double root = std::cbrt(volume_of(body.closed)), height = height_of(body.surface.positions, {});
+    return std::clamp(height, k_least_by_volume * root, k_most_by_volume * root);
+}
 
 double factor_to_human_size(const BodyMesh& body)
 {

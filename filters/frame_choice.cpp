@@ -5,8 +5,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "garment_scale.h"
 #include "garmentfit/error.h"
 #include "garmentfit/filters/schema.h"
+#include "garmentfit/garment_size.h"
 
 namespace garmentfit {
 namespace {
@@ -58,6 +60,25 @@ void set_height(FrameGuess& guess, const Positions& positions, double height)
     guess.why = "the body is " + text_of_number(units) + " units tall, " + text_of_number(height) + " m as given";
 }
 
+/// By the parts of the garment. What is no garment is left alone: its defects are found where it is prepared.
+void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body,
+                   double stature)
+{
+    std::vector<double> statures;
+    try {
+        statures = wearer_heights(make_garment(guess.frame.to_metres(positions), triangles));
+    } catch (const InvalidInput&) {
+        return;
+    }
+    const double own_unit = guess.frame.metres_per_unit;
+    const ScaleGuess scale = guess_scale(statures, stature, own_unit, own_unit == in_named_unit(body).metres_per_unit);
+    guess.scale = scale.factor;
+    guess.scale_probability = scale.probability;
+    guess.frame.metres_per_unit *= scale.factor;
+    if (scale.factor != 1)
+        guess.why += "; its parts fit the body when it is scaled by " + text_of_number(scale.factor);
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& unit_choices()
@@ -83,7 +104,7 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
 }
 
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
-                         const GarmentChoice& choice)
+                         const GarmentChoice& choice, std::optional<double> stature)
 {
     const GarmentSizes sizes { choice.scale };
     describe(sizes, CheckRanges());
@@ -91,6 +112,8 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
     if (choice.as_placed)
         guess = { body, 1, 1, "the garment lies on the body in its file, in the same units and axes" };
     guess = apply_choice(guess, choice);
+    if (stature && choice.unit == "auto" && choice.scale == 1 && !choice.as_placed)
+        scale_to_body(guess, positions, triangles, body, *stature);
     guess.frame.metres_per_unit *= choice.scale;
     if (choice.scale != 1)
         guess.why += ", scaled by " + text_of_number(choice.scale) + " as given";

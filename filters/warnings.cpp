@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/number_text.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -70,6 +71,11 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
     if (guess.unit_margin < k_low_confidence)
         warnings.push_back("the unit of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
                            + set(prefix + "unit"));
+    if (guess.scale != 1)
+        warnings.push_back(mesh + " fits the body in the guessed unit nowhere: it was scaled by "
+                           + rounded_text(guess.scale, 3) + percent_text(guess.scale_probability) + " (" + guess.why
+                           + "); if it is wrong, " + set(prefix + "unit") + ", and " + set(prefix + "scale")
+                           + " where the unit is not enough");
     if (guess.up_margin < k_low_confidence)
         warnings.push_back("the up axis of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
                            + set(prefix + "up"));

@@ -449,6 +449,34 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
     return bones;
 }
 
+GarmentMeasures measures_of(const std::vector<Opening>& openings)
+{
+    GarmentMeasures measures;
+    double tallest = 0;
+    for (const Piece& piece : pieces_of(openings)) {
+        if (piece.height <= tallest || piece.others.empty())
+            continue;
+        tallest = piece.height;
+        measures = {};
+        if (!piece.sleeves.empty()) {
+            measures.shoulders = level_between(piece.sleeves[0], piece.sleeves[1]).norm();
+            if (!are_armholes(piece)) {
+                Vec3 across = piece.sleeves[1].tube_end - piece.sleeves[0].tube_end;
+                across.y() = 0;
+                measures.shoulders = across.norm();
+                measures.sleeve = std::max(piece.sleeves[0].tube_girth, piece.sleeves[1].tube_girth);
+            }
+            measures.neck = piece.others.back().girth;
+        }
+        if (!piece.legs.empty()) {
+            measures.leg = std::max(piece.legs[0].tube_girth, piece.legs[1].tube_girth);
+            measures.inseam = length_of(piece.legs);
+        }
+        measures.trunk = piece.legs.empty() ? piece.others.front().tube_waist : piece.others.back().tube_waist;
+    }
+    return measures;
+}
+
 GarmentCues cues_of(const std::vector<Opening>& openings)
 {
     GarmentCues cues;

@@ -27,4 +27,15 @@ struct GarmentCues {
 };
 GarmentCues cues_of(const std::vector<Opening>& openings);
 
+/// Measures of the tallest piece of a garment, m; 0 where it has no such part.
+struct GarmentMeasures {
+    double shoulders = 0;  ///< from sleeve to sleeve, where they meet the trunk, or from armhole to armhole
+    double sleeve = 0;  ///< girth of the wider sleeve; not of an armhole
+    double neck = 0;  ///< girth of the highest opening above sleeves
+    double trunk = 0;  ///< girth, the narrowest of the tube that ends at the hem; or of the waist, above legs
+    double leg = 0;  ///< girth of the wider leg
+    double inseam = 0;  ///< length of the legs
+};
+GarmentMeasures measures_of(const std::vector<Opening>& openings);
+
 }  // namespace garmentfit

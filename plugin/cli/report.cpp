@@ -217,6 +217,8 @@ Json garment_of(const Session& session, std::size_t i)
     }
     const GarmentFile& file = session.garments[i];
     json["guesses"] = guess_of(file.frame);
+    json["guesses"]["scale"] = file.frame.scale;
+    json["guesses"]["scale_probability"] = file.frame.scale_probability;
     if (const std::optional<GarmentChoice>& choice = file.choice)
         json["given"] = { { "front", choice->front }, { "as_placed", choice->as_placed }, { "scale", choice->scale } };
     return json;

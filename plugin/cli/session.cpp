@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "garmentfit/error.h"
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/snapshot.h"
@@ -158,8 +159,8 @@ void add_garment(Session& session, const fs::path& path, GarmentType type, const
     GarmentFile garment { path, MeshFile::read(path), {} };
     garment.choice = choice;
     try {
-        garment.frame
-            = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame, choice);
+        garment.frame = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame,
+                                      choice, stature_of(*session.scene.body));
     } catch (const InvalidInput& error) {
         throw InvalidInput(error.code(), garment.name() + ": " + error.what());
     }

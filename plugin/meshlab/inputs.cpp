@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inputs.h"
 
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/warnings.h"
 #include "layers.h"
@@ -42,7 +43,8 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
             const TriangleMesh mesh = mesh_of(*choice.garments[i]);
             const GarmentChoice garment { choice.garment_frame, choice.parameters.garment_sizes.scale,
                                           choice.parameters.fit.as_placed, choice.garment_fronts[i] };
-            const FrameGuess guess = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment);
+            const FrameGuess guess
+                = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment, stature_of(*scene.body));
             scene.garments.push_back({ make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles),
                                        choice.types[i],
                                        {},

@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include "garmentfit/error.h"
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/outcome.h"
@@ -177,7 +178,8 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
     const std::optional<Frame> known = garment_frame_from(find_with(find));
     const Parameters p = parameters_of(filter_of("fit"), sizes, { "garment_scale", "as_placed" });
     const GarmentChoice choice { { unit, up }, p.garment_sizes.scale, p.fit.as_placed, front };
-    const Frame frame = known ? *known : garment_frame(in_file, faces, scene.body_frame, choice).frame;
+    const Frame frame
+        = known ? *known : garment_frame(in_file, faces, scene.body_frame, choice, stature_of(*scene.scene.body)).frame;
     scene.scene.garments.push_back({ make_garment(frame.to_metres(in_file), faces),
                                      garment_type_of(type),
                                      {},

@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/scene_arrays.h"
 #include "garmentfit/filters/snapshot.h"
@@ -86,7 +87,8 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
     if (seen)
         frame = garment_frame_from(find_in(garment));
     if (!frame)
-        frame = garment_frame(mesh.positions, mesh.triangles, known.body_frame, choice).frame;
+        frame = garment_frame(mesh.positions, mesh.triangles, known.body_frame, choice, stature_of(*known.scene.body))
+                    .frame;
     known.garment_frames.push_back(*frame);
     known.scene.garments.push_back({ make_garment(frame->to_metres(mesh.positions), mesh.triangles),
                                      given_type(garment),

@@ -10,6 +10,10 @@
 
 namespace garmentfit {
 
+/// How tall the body is when it stands upright, m: its height along y, as far as its volume allows. The volume leaves
+/// 15 %, whatever the posture. O(n).
+double stature_of(const BodyMesh& body);
+
 /// What lengths of this body are multiplied by to be those of a body of human size: 1 for bodies between about 0.5 m
 /// and 2.5 m tall, whatever their posture. O(n).
 double factor_to_human_size(const BodyMesh& body);

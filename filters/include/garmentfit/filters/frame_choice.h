@@ -35,9 +35,11 @@ const std::vector<std::string_view>& axis_choices();
 /// What the user says, and a guess of the rest; margins are 1 where the user said it. @throws InvalidInput.
 FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const BodyChoice& choice = {});
 /// The same for a garment, given the body's frame. A body whose height was given may have any scale; its garments are
-/// taken to be in the nearest known unit. @throws InvalidInput.
+/// taken to be in the nearest known unit. A garment whose parts fit the body in no unit is scaled until they do, where
+/// the user gives neither unit nor scale. @throws InvalidInput.
+/// @param stature  of the body, m (body_scale.h); without it, garments are not scaled
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
-                         const GarmentChoice& choice = {});
+                         const GarmentChoice& choice = {}, std::optional<double> stature = {});
 
 /// The axis of a file as a direction in metres with +y up; none for "auto". @throws InvalidInput.
 std::optional<Vec3> front_of_body(const Frame& frame, const std::string& axis);

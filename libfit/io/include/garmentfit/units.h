@@ -34,6 +34,9 @@ struct FrameGuess {
     Frame frame;
     double unit_margin = 0, up_margin = 0;  ///< confidence, from 0 (several are equally likely) to 1 (certain)
     std::string why;  ///< one sentence for the user
+    /// Of a garment that fits the body in no unit: what its unit was multiplied by; contained in the frame. And the
+    /// probability that this scale, or 1, is right.
+    double scale = 1, scale_probability = 1;
 };
 
 /// Guesses units and up axis of a human body from its size and shape. @throws InvalidInput: index out of range.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/filters/body_scale.h"
+#include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/filters/warnings.h"
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
+
+constexpr PersonOptions k_person { .arm_angle = 40 };
+
+const TriangleMesh& shirt()
+{
+    static const TriangleMesh mesh = [] {
+        const Skeleton s = person_skeleton(k_person);
+        const double cuff = std::abs(s.tail(lradius).x()) - 0.03;
+        return garment_round(
+            s, 0.03, [&](const Vec3& p) { return p.y() > 0.95 && p.y() < 1.47 && std::abs(p.x()) < cuff; });
+    }();
+    return mesh;
+}
+
+double body_stature()
+{
+    static const double stature = [] {
+        const Person person = capsule_person(k_person);
+        return stature_of(make_body(person.mesh.positions, person.mesh.triangles));
+    }();
+    return stature;
+}
+
+/// Of the shirt, its coordinates multiplied by `size`, with a body in metres.
+FrameGuess guess_of(double size, const GarmentChoice& choice = {}, double body = 1)
+{
+    return garment_frame(size * shirt().positions, shirt().triangles, { body }, choice, body * body_stature());
+}
+
+TEST(GarmentScale, AGarmentWithAUnitKeepsItsSize)
+{
+    for (const double metres : { 1.0, 0.01, 0.001 }) {
+        const FrameGuess guess = guess_of(1 / metres);
+        EXPECT_EQ(guess.frame.metres_per_unit, metres) << guess.why;
+        EXPECT_EQ(guess.scale, 1);
+        EXPECT_GT(guess.scale_probability, 0.8) << guess.why;
+    }
+}
+
+TEST(GarmentScale, ClothesOfOtherPeopleKeepTheirSize)
+{
+    for (const double size : { 0.7, 0.85, 1.15, 1.3 })
+        EXPECT_EQ(guess_of(size).scale, 1) << size;
+}
+
+TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
+{
+    for (const double size : { 1.9, 2.1, 2.6, 17.0, 19.0 }) {
+        const FrameGuess guess = guess_of(size);
+        EXPECT_NEAR(size * guess.frame.metres_per_unit, 1, 0.25) << size << ": " << guess.why;
+        EXPECT_GT(guess.scale_probability, 0.5);
+    }
+}
+
+TEST(GarmentScale, WhatTheUserSaysIsNotScaled)
+{
+    GarmentChoice in_metres;
+    in_metres.unit = "m";
+    EXPECT_EQ(guess_of(2.1, in_metres).frame.metres_per_unit, 1);
+    GarmentChoice scaled;
+    scaled.scale = 0.9;
+    EXPECT_DOUBLE_EQ(guess_of(2.1, scaled).frame.metres_per_unit, 0.9);
+    GarmentChoice placed;
+    placed.as_placed = true;
+    EXPECT_EQ(guess_of(2.1, placed).frame.metres_per_unit, 1);
+}
+
+TEST(GarmentScale, OneGirthIsNoEvidence)
+{
+    TriangleMesh tube = shirt();
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < tube.triangles.rows(); ++f) {
+        const Vec3 centre = tube.positions(tube.triangles.row(f), Eigen::all).colwise().mean().transpose();
+        if (centre.y() < 1.2 && std::abs(centre.x()) < 0.25)
+            rows.push_back(f);
+    }
+    const Triangles trunk = tube.triangles(rows, Eigen::all);
+    EXPECT_EQ(garment_frame(2.1 * tube.positions, trunk, {}, {}, body_stature()).scale, 1);
+}
+
+TEST(GarmentScale, IsSaidInAWarningWithTheOptionsThatSettleIt)
+{
+    const FrameGuess guess = guess_of(2.1);
+    std::string all;
+    for (const std::string& warning : warnings_about_frame("shirt.obj", guess, "garment_", set_by_name))
+        all += warning + "\n";
+    EXPECT_NE(all.find("it was scaled by 0."), std::string::npos) << all;
+    EXPECT_NE(all.find("probability"), std::string::npos) << all;
+    EXPECT_NE(all.find("set garment_unit"), std::string::npos) << all;
+    EXPECT_NE(all.find("set garment_scale"), std::string::npos) << all;
+}
+
+}  // namespace
