@@ -14,6 +14,7 @@
 #include "buckets.h"
 #include "disjoint_sets.h"
 #include "parallel.h"
+#include "sewn_pieces.h"
 #include "surface_measures.h"
 #include "tuning.h"
 
@@ -246,6 +247,29 @@ std::vector<int> pieces_of(const TriangleMesh& mesh)
     return pieces;
 }
 
+/// Drops the borders of pieces that are sewn on larger ones: pockets, flaps, belt loops, buttons, linings. A tube that
+/// is sewn on by one of its ends keeps the other one.
+std::vector<Ring> drop_sewn_on(const TriangleMesh& mesh, const std::vector<int>& pieces, std::vector<Ring> rings)
+{
+    const GarmentMesh cloth { mesh.positions, mesh.triangles };
+    const SewnPieces sewn = find_sewn_pieces(cloth, { mesh.triangles, int(mesh.positions.rows()) });
+    if (sewn.ties.empty())
+        return rings;
+    std::vector<Eigen::AlignedBox3d> boxes(pieces.size());  // by the piece's number
+    for (std::size_t v = 0; v < pieces.size(); ++v)
+        boxes[pieces[v]].extend(Vec3(mesh.positions.row(Eigen::Index(v))));
+    std::vector<char> is_sewn_on(pieces.size(), 0);  // by vertex
+    for (const Tie& tie : sewn.ties)
+        is_sewn_on[tie.vertex]
+            |= boxes[pieces[tie.vertex]].diagonal().norm() < boxes[pieces[tie.corners[0]]].diagonal().norm();
+    std::erase_if(rings, [&](const Ring& ring) {
+        const auto count
+            = std::count_if(ring.begin(), ring.end(), [&](const auto& edge) { return is_sewn_on[edge.first]; });
+        return double(count) >= k_sewn_on * double(ring.size());
+    });
+    return rings;
+}
+
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
@@ -277,8 +301,9 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
     const double size = diagonal(outward.positions), width = k_slice * size;
     const std::vector<int> pieces = pieces_of(outward);
     const std::vector<Range> ranges = ranges_of(outward.positions, pieces);
-    const auto rings = keep_large(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
-                                  k_smallest_girth * size);
+    auto rings = keep_large(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
+                            std::max(k_smallest_girth * size, k_narrowest_girth));
+    rings = drop_sewn_on(outward, pieces, std::move(rings));
     const EdgeGraph graph(outward);
     std::vector<Opening> openings(rings.size());
     parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {

@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "buckets.h"
+#include "close_seams.h"
 #include "disjoint_sets.h"
+#include "near_vertices.h"
 #include "outer_sheet.h"
 #include "parallel.h"
+#include "sewn_pieces.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -102,6 +105,33 @@ Triangles drop_equal_faces(const Triangles& triangles, int vertices)
         if (is_kept[f])
             rows.push_back(f);
     return triangles(rows, Eigen::all);
+}
+
+/// Without equal vertices, equal faces and degenerate faces.
+GarmentMesh weld(const GarmentMesh& garment)
+{
+    TriangleMesh cloth = weld_vertices(garment);
+    cloth.triangles = drop_equal_faces(cloth.triangles, int(cloth.positions.rows()));
+    return { std::move(cloth.positions), std::move(cloth.triangles) };
+}
+
+MeshTopology topology_of(const GarmentMesh& cloth) { return { cloth.triangles, int(cloth.positions.rows()) }; }
+
+/// Closes the gaps between panels that draping holds closed: a seam is no opening.
+/// @param cloth  from weld
+TriangleMesh close_gaps(GarmentMesh cloth)
+{
+    if (auto merged = merge_near_vertices(cloth, topology_of(cloth))) {
+        cloth.positions = std::move(*merged);
+        cloth = weld(cloth);
+    }
+    const MeshTopology topology = topology_of(cloth);
+    const SewnPieces sewn = find_sewn_pieces(cloth, topology);
+    if (sewn.counts.seamed > 0) {
+        TriangleMesh closed = close_seams({ cloth.positions, cloth.triangles }, topology, sewn.ties);
+        cloth = weld({ std::move(closed.positions), std::move(closed.triangles) });
+    }
+    return { std::move(cloth.positions), std::move(cloth.triangles) };
 }
 
 /// Half-edge k of face f has number 3 f + k. The other half-edge between the same vertices; -1 if there is none or more
@@ -300,8 +330,7 @@ void orient_outwards(TriangleMesh& cloth, const std::vector<Patch>& patches)
 
 TriangleMesh outward_cloth(const GarmentMesh& garment)
 {
-    TriangleMesh cloth = weld_vertices(garment);
-    cloth.triangles = drop_equal_faces(cloth.triangles, int(cloth.positions.rows()));
+    TriangleMesh cloth = close_gaps(weld(garment));
     const std::vector<Patch> patches = collect_patches(cloth);
     orient_outwards(cloth, patches);
     return drop_inner_sheets(cloth, patches);

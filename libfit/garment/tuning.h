@@ -16,6 +16,12 @@ namespace garmentfit::garment_tuning {
 
 /// fitted: guess, on the garments. Girth as a share of the garment's diagonal: a cuff has 0.12, a buttonhole 0.03.
 inline constexpr double k_smallest_girth = 0.07;
+/// fitted: guess, on garments of strangers. m, girth below which no hand passes: a child's wrist has 0.12, a slit at a
+/// seam 0.08.
+inline constexpr double k_narrowest_girth = 0.1;
+/// fitted: guess. Share of the vertices of a border that are sewn on a larger piece: from here on it is no opening. A
+/// flap has a quarter at its seam.
+inline constexpr double k_sewn_on = 0.2;
 /// fitted: guess. Width of a tube's slices as a share of the garment's diagonal: two or three edges.
 inline constexpr double k_slice = 0.02;
 /// fitted: guess, on the garments. A tube ends where its girth exceeds the median of its slices by this factor.

@@ -100,4 +100,13 @@ inline constexpr double k_holder_share = 0.2;
 /// fitted: guess, on the wild and the house data.
 inline constexpr double k_lining_distance = 0.01, k_lining_share = 0.9;
 
+// ---- close_seams.cpp -----------------------------------------------------------------------------------------------
+
+/// Dimensionless, a share of the shorter of two border edges. A vertex of one border that is this close to one of the
+/// other, along the seam, becomes one with it. derived: below a half, two vertices of one border never become one.
+inline constexpr double k_same_vertex_share = 0.25;
+/// Dimensionless: cosine between the directions from the seam into the two pieces. Above, one is folded back on the
+/// other, as a lining on its cloth, and the hem between them stays a hem. fitted: guess.
+inline constexpr double k_folded_back = 0.5;
+
 }  // namespace garmentfit

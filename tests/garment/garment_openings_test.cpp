@@ -34,6 +34,29 @@ TriangleMesh tube()
     return outward_cloth(make_garment(mesh.positions, mesh.triangles));
 }
 
+/// Part of the tube, open at its sides, from one angle to another; the radius is larger by `out`.
+TriangleMesh panel(double from, double to, double low, double high, int columns, int rows, double out = 0)
+{
+    TriangleMesh mesh { Positions(columns * rows, 3), Triangles(2 * (columns - 1) * (rows - 1), 3) };
+    for (int i = 0, f = 0; i < rows; ++i)
+        for (int k = 0; k < columns; ++k) {
+            const double angle = from + (to - from) * k / (columns - 1);
+            const int here = i * columns + k;
+            mesh.positions.row(here) << (k_radius + out) * std::sin(angle), low + (high - low) * i / (rows - 1),
+                (k_radius + out) * std::cos(angle);
+            if (i + 1 < rows && k + 1 < columns) {
+                mesh.triangles.row(f++) << here, here + 1, here + columns;
+                mesh.triangles.row(f++) << here + 1, here + 1 + columns, here + columns;
+            }
+        }
+    return mesh;
+}
+
+std::vector<Opening> openings_of_cloth(const TriangleMesh& mesh)
+{
+    return openings_of(outward_cloth(make_garment(mesh.positions, mesh.triangles)));
+}
+
 TriangleMesh ball()
 {
     return fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.3; }, Vec3::Constant(-0.5), Vec3::Constant(0.5),
@@ -56,6 +79,41 @@ TEST(GarmentOpenings, OfATubeAreItsTwoEndsWithTheTubeBetween)
     EXPECT_GT(openings[1].facing.dot(apart), 0);  // outwards
     EXPECT_LT(openings[0].facing.dot(apart), 0);
     EXPECT_TRUE(face_alike(openings[0], openings[1], axis));
+}
+
+TEST(GarmentOpenings, OfPanelsWithoutCommonVerticesAreThoseOfTheSewnGarment)
+{
+    // two halves with other vertices on either side of seams 0.4 mm wide
+    constexpr double pi = std::numbers::pi, gap = 0.0002 / k_radius;
+    const TriangleMesh front = panel(gap - pi / 2, pi / 2 - gap, 0, k_length, 25, 101),
+                       back = panel(pi / 2 + gap, 3 * pi / 2 - gap, 0, k_length, 21, 84);
+    const std::vector<Opening> openings = openings_of_cloth(fixtures::joined(front, back));
+    ASSERT_EQ(openings.size(), 2u);
+    for (const Opening& opening : openings) {
+        EXPECT_NEAR(opening.girth, 2 * pi * k_radius, 0.01);
+        EXPECT_NEAR(opening.tube_length, k_length, 0.1 * k_length);
+        EXPECT_NEAR(opening.piece_height, k_length, 1e-6);
+    }
+}
+
+TEST(GarmentOpenings, PocketsAndFlapsHaveNone)
+{
+    const TriangleMesh pocket = panel(-0.7, 0.7, 0.2, 0.3, 9, 9, 0.004),
+                       far = panel(-0.7, 0.7, 0.2, 0.3, 9, 9, 0.04);  // no part of the garment
+    EXPECT_EQ(openings_of_cloth(fixtures::joined(tube(), pocket)).size(), 2u);
+    EXPECT_EQ(openings_of_cloth(fixtures::joined(tube(), far)).size(), 3u);
+}
+
+TEST(GarmentOpenings, SlitsThatAreTooNarrowForAHandAreNone)
+{
+    TriangleMesh slit = tube();  // without the faces at an edge of some 10 mm, a hole with a border of 50 mm
+    slit.triangles = slit.triangles.topRows(slit.triangles.rows() / 2).eval();
+    const std::size_t whole = openings_of_cloth(slit).size();
+    Triangles kept(slit.triangles.rows() - 6, 3);
+    const Eigen::Index middle = slit.triangles.rows() / 2;
+    kept << slit.triangles.topRows(middle), slit.triangles.bottomRows(slit.triangles.rows() - middle - 6);
+    slit.triangles = kept;
+    EXPECT_EQ(openings_of_cloth(slit).size(), whole);
 }
 
 TEST(GarmentOpenings, RotateWithTheirGarment)
