@@ -113,6 +113,14 @@ const Dressing* final_dressing(const Scene& scene)
     return scene.recovered ? &*scene.recovered : scene.draped ? &*scene.draped : nullptr;
 }
 
+int closed_ends(const Scene& scene, std::size_t garment)
+{
+    const Dressing* end = final_dressing(scene);
+    const int of_fit = garment < scene.fits.size() ? scene.fits[garment].closed_ends : 0,
+              of_worn = end && end->is_worn(garment) ? end->garments[garment].closed_ends : 0;
+    return std::max(of_fit, of_worn);
+}
+
 bool all_clean(const std::vector<WornGarment>& garments)
 {
     return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });

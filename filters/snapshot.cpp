@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/error.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
@@ -94,9 +95,10 @@ Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& le
     dressing.outermost = scene.fits.size() == worn.size() ? outermost(scene.fits) : worn.size() - 1;
     dressing.body = keep_left(skinned(scene, pose), left);
     for (std::size_t i = 0; i < worn.size(); ++i) {
-        const GarmentMesh& rest = scene.garments[i].mesh;
+        const auto [rest, closed_ends] = open_ends(scene.garments[i].mesh);
         require_same_count(rest.positions, worn[i], names[i]);
         dressing.garments.push_back({ rest, worn[i], {} });
+        dressing.garments.back().closed_ends = closed_ends;
     }
     dressing.certified = certify_all(dressing.garments, { dressing.body, scene.body->surface.triangles });
     return dressing;

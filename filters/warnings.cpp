@@ -51,6 +51,15 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
                            + " cm: it is too wide for this body to stay where it is worn");
 }
 
+void warn_of_closed_ends(std::vector<std::string>& warnings, const std::string& name, int closed_ends)
+{
+    if (closed_ends > 0)
+        warnings.push_back(
+            name + " has " + std::to_string(closed_ends)
+            + (closed_ends == 1 ? " end that is closed by a flat cap" : " ends that are closed by flat caps")
+            + "; taken as openings, and not kept clear of the body");
+}
+
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
 {
     std::ostringstream text;
@@ -140,6 +149,8 @@ std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vec
                            + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         warn_of_guesses(warnings, names[i], scene.fits[i], set);
+    for (std::size_t i = 0; i < scene.garments.size(); ++i)
+        warn_of_closed_ends(warnings, names[i], closed_ends(scene, i));
     const std::vector<std::string> layers = warnings_about_layers(scene, names, set);
     warnings.insert(warnings.end(), layers.begin(), layers.end());
     if (const Dressing* end = final_dressing(scene)) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cloth_motion.h"
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/fit_skeleton.h"
 #include "growing_body.h"
 #include "held_back.h"
@@ -148,12 +149,20 @@ std::vector<TooTight> list_tight_parts(const ClothMotion& motion, const GrowingB
     return tightness.list_tight_parts(motion.cloth(), k_named_stretch_share * largest_stretch, growth);
 }
 
+/// How the new garment is made.
+struct Make {
+    PieceCounts pieces;
+    int closed_ends;
+};
+
 /// Writes body and garments at the end of the motion, and certifies them.
 void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const GrowingBody& inside,
-                        const Grading& grading, const PieceCounts& pieces, const Wearer& wearer)
+                        const Grading& grading, const Make& make, const Wearer& wearer)
 {
     const Positions reached = motion.obstacle();
-    std::vector<WornGarment> outermost { { grading.garment(), motion.cloth(), {}, grading.size(), 0, pieces } };
+    std::vector<WornGarment> outermost {
+        { grading.garment(), motion.cloth(), {}, grading.size(), 0, make.pieces, make.closed_ends }
+    };
     add_slips(outermost, outermost[0].rest.positions);
     static_cast<DressedBody&>(result) = wearer.dressed;
     result.body = inside.body_of(reached);
@@ -183,10 +192,11 @@ bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
     return clean;
 }
 
-DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& garment,
+DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
                           const DrapeOptions& options, const Progress& progress)
 {
-    require_wearable_size(rig, garment);
+    require_wearable_size(rig, given);
+    const auto [garment, closed_ends] = open_ends(given);
     const Wearer wearer { rig, body, dressed, HandStretch(rig, body.surface.positions),
                           pose_skeleton(rig.skeleton, dressed.pose) };
     DrapeStart start = choose_start(wearer, garment);
@@ -213,7 +223,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
     } else if (!result.out_of_time)
         result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer, options.cloth.largest_stretch);
     result.seconds = motion.seconds();
-    write_dressed_body(result, motion, inside, grading, pieces, wearer);
+    write_dressed_body(result, motion, inside, grading, { pieces, closed_ends }, wearer);
     if (result.scale_reached == 1)
         result.held_back = list_held_back_parts(result.body, inside.body_of(inside.full.positions), rig.weights);
     return result;

@@ -7,6 +7,7 @@
 
 #include "baselines/baseline_fit.h"
 #include "fast_fit.h"
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
 #include "tuning.h"
@@ -72,8 +73,10 @@ FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMe
                                + " triangles, too few to go round a body; give a garment of at least "
                                + std::to_string(k_min_triangles));
     require_wearable_size(rig, garment);
-    FitResult result = options.method == FitMethod::fast ? fit_fast(rig, body, garment, options, progress)
-                                                         : fit_baseline(rig, body, garment, options, progress);
+    const OpenedGarment opened = open_ends(garment);
+    FitResult result = options.method == FitMethod::fast ? fit_fast(rig, body, opened.garment, options, progress)
+                                                         : fit_baseline(rig, body, opened.garment, options, progress);
+    result.closed_ends = opened.closed_ends;
     result.score_before = std::accumulate(result.scores_before.begin(), result.scores_before.end(), 0.0);
     result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);
     return result;

@@ -15,6 +15,7 @@
 #include "buckets.h"
 #include "close_seams.h"
 #include "disjoint_sets.h"
+#include "garmentfit/closed_ends.h"
 #include "near_vertices.h"
 #include "outer_sheet.h"
 #include "parallel.h"
@@ -330,7 +331,7 @@ void orient_outwards(TriangleMesh& cloth, const std::vector<Patch>& patches)
 
 TriangleMesh outward_cloth(const GarmentMesh& garment)
 {
-    TriangleMesh cloth = close_gaps(weld(garment));
+    TriangleMesh cloth = close_gaps(weld(open_ends(garment).garment));
     const std::vector<Patch> patches = collect_patches(cloth);
     orient_outwards(cloth, patches);
     return drop_inner_sheets(cloth, patches);

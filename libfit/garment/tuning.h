@@ -33,6 +33,29 @@ inline constexpr std::size_t k_hem_slices = 3;
 /// symmetric.
 inline constexpr double k_facing_alike = 0.7;
 
+// ---- closed ends (closed_ends.cpp) --------------------------------------------------------------------------------
+
+/// fitted: guess, by the caps found in open garments, of which there should be none. Girth of a cap as a share of the
+/// garment's diagonal: a cuff has 0.12, a facet between folds less.
+inline constexpr double k_cap_girth = 0.1;
+/// fitted: likewise. Cosine between the normals of neighbours in a cap: 20 degrees.
+inline constexpr double k_flat_cosine = 0.94;
+/// fitted: likewise. Sine between a cap and the cloth at its outline, 50 degrees, and share of the outline that is as
+/// steep.
+inline constexpr double k_steep_sine = 0.77, k_cap_outline = 0.9;
+/// fitted: likewise. Area of a cap, as a share of a disc of the same girth: a flattened cuff has 0.4.
+inline constexpr double k_cap_roundness = 0.2;
+/// fitted: likewise. Depth of a cap, and of a fan, as a share of the root of its area: hems are not flat.
+inline constexpr double k_cap_depth = 0.05, k_fan_depth = 0.35;
+/// fitted: guess. Faces of a fan that closes a hole, at least: vertices of cloth have half as many.
+inline constexpr std::size_t k_fan_faces = 12;
+/// fitted: guess. Cosine between each face of a fan and the whole. A corner of a cap has faces of the tube, too.
+inline constexpr double k_fan_cosine = 0.5;
+/// fitted: guess. Sum over the outline of a cap, signed by the side on which the cloth around it is, as a share.
+inline constexpr double k_fan_outline = 0.6;
+/// derived: caps of a closed surface from which on it is opened: a cylinder and a pillow have two, a skirt as well.
+inline constexpr std::size_t k_least_ends = 3;
+
 // ---- outward orientation (outward_cloth.cpp) ----------------------------------------------------------------------
 
 /// fitted: on the garments. Volume / area^1.5 of a patch: a sphere has 0.094, a sleeve 0.03, a pocket 0.002.

@@ -215,6 +215,7 @@ Json garment_of(const Session& session, std::size_t i)
             put_ease(json, *end, i, metres_per_unit);
         }
     }
+    json["closed_ends"] = closed_ends(scene, i);
     const GarmentFile& file = session.garments[i];
     json["guesses"] = guess_of(file.frame);
     json["guesses"]["scale"] = file.frame.scale;

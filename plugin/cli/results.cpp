@@ -101,7 +101,7 @@ void write_maps(const Session& session, const Dressing& dressing, const fs::path
         const FitMap& map = dressing.maps[i];
         const std::string name = session.garments[i].name();
         write_ply((folder / name).replace_extension(".ply"), frame.to_file(dressing.garments[i].positions),
-                  dressing.garments[i].rest.triangles,
+                  session.scene.garments[i].mesh.triangles,
                   { { "ease", values(map.ease / frame.metres_per_unit) },
                     { "strain", values(map.strain) },
                     { "pressure", values(map.pressure) } },
@@ -128,7 +128,7 @@ void write_frames(const Session& session, const Dressing& dressing, const fs::pa
     std::vector<MovingMesh> meshes { { "body", session.body.triangles, {}, { 0.55, 0.35, 0.25 } } };
     for (const std::size_t i : worn)
         meshes.push_back({ session.garments[i].path.stem().string(),
-                           dressing.garments[i].rest.triangles,
+                           session.scene.garments[i].mesh.triangles,
                            {},
                            { 0.1, 0.3 / double(i + 1), 0.5 } });
     for (const RecoverFrame& state : dressing.frames)

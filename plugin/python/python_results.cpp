@@ -54,7 +54,7 @@ nb::dict garment_of(const PythonScene& s, std::size_t i)
     nb::dict garment;
     garment["name"] = s.names[i];
     garment["positions"] = in_body_units(s, end.garments[i].positions);
-    garment["triangles"] = array_of(end.garments[i].rest.triangles);
+    garment["triangles"] = array_of(s.scene.garments[i].mesh.triangles);
     garment["certificate"] = certificate_of(end.garments[i].certificate, unit);
     garment["ease"] = array_of(Eigen::VectorXd(end.maps[i].ease / unit));
     garment["strain"] = array_of(end.maps[i].strain);

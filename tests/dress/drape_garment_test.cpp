@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/drape_garment.h"
+#include "topology.h"
 
 #include <chrono>
 #include <thread>
@@ -97,6 +98,37 @@ GarmentMesh trousers_with_badge()
     badge.positions.col(2).array() += front + 0.004;
     const TriangleMesh both = joined({ cloth.positions, cloth.triangles }, badge);
     return make_garment(both.positions, both.triangles);
+}
+
+/// The same with a fan of faces over each of these openings.
+GarmentMesh with_caps(const GarmentMesh& garment)
+{
+    const MeshTopology topology(garment.triangles, int(garment.positions.rows()));
+    GarmentMesh capped = garment;
+    for (const std::vector<int>& loop : topology.border_loops()) {
+        const Eigen::Index centre = capped.positions.rows(), first = capped.triangles.rows(), n = int(loop.size());
+        capped.positions.conservativeResize(centre + 1, 3);
+        const Eigen::RowVector3d mean = garment.positions(loop, Eigen::all).colwise().mean();
+        for (const int v : loop)
+            capped.positions(v, 1) = mean.y();  // the fixture's hems are jagged
+        capped.positions.row(centre) = mean;
+        capped.triangles.conservativeResize(first + n, 3);
+        for (Eigen::Index k = 0; k < n; ++k)
+            capped.triangles.row(first + k) << loop[(k + 1) % n], loop[k], int(centre);
+    }
+    return capped;
+}
+
+TEST(DrapeGarment, LeavesOutTheCapsOfClosedEnds)
+{
+    const Dressing d = person();
+    const GarmentMesh capped = with_caps(trousers(0.02));
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, capped, short_settling());
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.scale_reached, 1);
+    EXPECT_EQ(result.garments.back().closed_ends, 3);
+    EXPECT_EQ(result.garments.back().positions.rows(), capped.positions.rows());
+    EXPECT_EQ(fit_skeleton(d.rig, capped).closed_ends, 3);
 }
 
 TEST(DrapeGarment, KeepsPiecesWhereTheyAreSewnAndCountsThem)

@@ -39,8 +39,7 @@ TEST(CloseSeams, PanelsWithTheSameVerticesBecomeOneSheet)
 TEST(CloseSeams, VerticesWithNothingOppositeAreInsertedIntoTheEdgesThere)
 {
     // 38 cm and 36.8 cm long; the shorter border lies 5 mm from either end of the longer one
-    const TriangleMesh panels
-        = fixtures::joined(flat(20, 0.02, Vec3::Zero()), flat(17, 0.023, Vec3(0.3805, 0, 0.006)));
+    const TriangleMesh panels = fixtures::joined(flat(20, 0.02, Vec3::Zero()), flat(17, 0.023, Vec3(0.3805, 0, 0.006)));
     const TriangleMesh sheet = closed(panels);
     // What is left: three sides of either panel, and both ends of the longer seam.
     EXPECT_EQ(border_count(sheet), 3u * 19 + 3u * 16 + 2u);
@@ -53,10 +52,10 @@ TEST(CloseSeams, AHemBetweenClothAndLiningStaysOpen)
     // two sheets that meet at an angle of 20 degrees
     TriangleMesh lining = fixtures::sheet(20, 0.02, [](double x, double) { return 0.0005 + 0.36 * x; });
     const TriangleMesh both = fixtures::joined(flat(20, 0.02, Vec3::Zero()), lining);
-    ASSERT_EQ(find_sewn_pieces({ both.positions, both.triangles },
-                               MeshTopology(both.triangles, int(both.positions.rows())))
-                  .counts.seamed,
-              1);
+    ASSERT_EQ(
+        find_sewn_pieces({ both.positions, both.triangles }, MeshTopology(both.triangles, int(both.positions.rows())))
+            .counts.seamed,
+        1);
     EXPECT_EQ(border_count(closed(both)), border_count(both));
 }
 

@@ -46,7 +46,7 @@ struct HeldBack {
 
 /// A garment on a body.
 struct WornGarment {
-    GarmentMesh rest;  ///< as given, or enlarged: edge lengths and folds
+    GarmentMesh rest;  ///< as given without closed ends, or enlarged: edge lengths and folds
     Positions positions;  ///< as worn, n x 3
     Certificate certificate;
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
@@ -54,6 +54,7 @@ struct WornGarment {
     /// too wide to stay.
     double slipped = 0;
     PieceCounts pieces = {};  ///< how it was held together
+    int closed_ends = 0;  ///< flat caps at its ends, whose faces `rest` leaves out: a hand, foot or head passes there
 };
 
 /// A body in a pose, and the garments on it.

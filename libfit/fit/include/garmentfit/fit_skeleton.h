@@ -63,6 +63,7 @@ struct FitResult {
     Vec3 up = Vec3::UnitY(), front = Vec3::UnitZ();  ///< where the garment's top and front point, as it was given
     std::vector<Rejected> rejected;  ///< what was more probable at first
     std::vector<Bone> covered;
+    int closed_ends = 0;  ///< of the garment: flat caps that the fit takes for openings
     int layer = 0;  ///< of several garments worn together: 0 for the innermost
     /// E_B of equation (1) by the method's own metric, m, at the start and at the end; 0 for uncovered bones.
     std::array<double, bone_count> scores_before {}, scores {};

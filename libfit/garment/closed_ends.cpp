@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/closed_ends.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "disjoint_sets.h"
+#include "surface_measures.h"
+#include "topology.h"
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+using namespace garment_tuning;
+
+/// The faces with vertices at the same place as one; seams of UV charts are no borders.
+Triangles weld_faces(const GarmentMesh& garment)
+{
+    std::map<std::array<double, 3>, int> places;
+    std::vector<int> first(std::size_t(garment.positions.rows()));
+    for (int v = 0; v < int(first.size()); ++v)
+        first[v] = places
+                       .try_emplace({ garment.positions(v, 0), garment.positions(v, 1), garment.positions(v, 2) }, v)
+                       .first->second;
+    return garment.triangles.unaryExpr([&](int v) { return first[v]; });
+}
+
+/// Faces that are joined by flat edges, and the edges around them.
+struct Region {
+    std::vector<int> faces = {};
+    Vec3 area = Vec3::Zero();  // m^2, sum of area vectors: of a flat region its area times its normal
+    double girth = 0;  // m, of its outline
+    double steep = 0;  // m, of the outline where the next face is steep
+    double side = 0;  // m, of the outline, signed by the side on which the next face is
+    std::vector<int> next_to = {};  // regions
+    bool is_taken = false;  // in part, by a fan
+};
+
+class Caps {
+public:
+    explicit Caps(const GarmentMesh& garment) :
+        positions_(garment.positions), faces_(weld_faces(garment)), topology_(faces_, int(positions_.rows())),
+        smallest_girth_(k_cap_girth * diagonal(positions_))
+    {
+        collect_areas();
+        collect_regions();
+        for (int side = 0; side < 3 * int(faces_.rows()); ++side)
+            add_to_outline(side, regions_[region_of_[side / 3]]);
+    }
+
+    /// The faces of each cap.
+    std::vector<std::vector<int>> find()
+    {
+        std::vector<std::vector<int>> caps = find_fans();
+        for (const std::vector<int>& fan : caps)
+            for (const int f : fan)
+                regions_[region_of_[f]].is_taken = true;
+        const std::vector<std::vector<int>> steep = find_steep();
+        caps.insert(caps.end(), steep.begin(), steep.end());
+        return caps;
+    }
+
+    bool is_closed() const { return topology_.border_edges().empty(); }
+
+private:
+    /// Holes that were filled with a fan around a vertex. No garment has such a vertex elsewhere, so the cloth around
+    /// may be as flat as at a neck.
+    std::vector<std::vector<int>> find_fans()
+    {
+        std::vector<std::vector<int>> faces_at(std::size_t(positions_.rows())), fans;
+        for (int f = 0; f < int(faces_.rows()); ++f)
+            for (const int v : faces_.row(f))
+                faces_at[v].push_back(f);
+        for (const std::vector<int>& faces : faces_at) {
+            if (faces.size() < k_fan_faces)
+                continue;
+            Region fan { faces };
+            add_areas(fan);
+            std::vector<int> region_of(faces.size());
+            for (std::size_t i = 0; i < faces.size(); ++i)
+                region_of[i] = std::exchange(region_of_[faces[i]], int(regions_.size()));
+            for (const int f : faces)
+                for (int side = 3 * f; side < 3 * f + 3; ++side)
+                    add_to_outline(side, fan);
+            for (std::size_t i = 0; i < faces.size(); ++i)
+                region_of_[faces[i]] = region_of[i];
+            const bool is_even = std::all_of(faces.begin(), faces.end(), [&](int f) {
+                return std::abs(areas_[f].stableNormalized().dot(fan.area.stableNormalized())) > k_fan_cosine;
+            });
+            if (is_even && is_flat_disc(fan, k_fan_depth))
+                fans.push_back(faces);
+        }
+        return fans;
+    }
+
+    std::vector<std::vector<int>> find_steep() const
+    {
+        std::vector<char> is_candidate(regions_.size());
+        for (std::size_t r = 0; r < regions_.size(); ++r)
+            is_candidate[r] = is_flat_disc(regions_[r], k_cap_depth)
+                && regions_[r].steep > k_cap_outline * regions_[r].girth;
+        std::vector<std::vector<int>> caps;
+        for (std::size_t r = 0; r < regions_.size(); ++r)  // the sides of a block are next to each other
+            if (is_candidate[r]
+                && std::none_of(regions_[r].next_to.begin(), regions_[r].next_to.end(),
+                                [&](int other) { return is_candidate[other]; }))
+                caps.push_back(regions_[r].faces);
+        return caps;
+    }
+
+    void collect_areas()
+    {
+        for (Eigen::Index f = 0; f < faces_.rows(); ++f)
+            areas_.push_back(area_vector(positions_, faces_, f));
+    }
+
+    double cosine(int f, int g) const { return areas_[f].stableNormalized().dot(areas_[g].stableNormalized()); }
+
+    /// 1 if both faces run along their common edge in opposite directions, as oriented faces do; -1 if not.
+    double orientation(int side, int other) const
+    {
+        return faces_(side / 3, side % 3) == faces_(other / 3, other % 3) ? -1 : 1;
+    }
+
+    void collect_regions()
+    {
+        DisjointSets flat(int(faces_.rows()));
+        for (int side = 0; side < 3 * int(faces_.rows()); ++side)
+            if (const int other = topology_.opposite(side); other > side
+                && orientation(side, other) * cosine(side / 3, other / 3) > k_flat_cosine)
+                flat.join(side / 3, other / 3);
+        std::vector<int> number(std::size_t(faces_.rows()), -1);
+        for (int f = 0; f < int(faces_.rows()); ++f) {
+            int& region = number[flat.root(f)];
+            if (region < 0) {
+                region = int(regions_.size());
+                regions_.emplace_back();
+            }
+            regions_[region].faces.push_back(f);
+            region_of_.push_back(region);
+        }
+        for (Region& region : regions_)
+            add_areas(region);
+    }
+
+    void add_areas(Region& region) const
+    {
+        for (const int f : region.faces)  // of either orientation
+            region.area += (areas_[f].dot(areas_[region.faces[0]]) < 0 ? -1 : 1) * areas_[f];
+    }
+
+    void add_to_outline(int side, Region& region) const
+    {
+        const int f = side / 3, other = topology_.opposite(side);
+        if (other >= 0 && region_of_[other / 3] == region_of_[f])
+            return;
+        const Vec3 a = positions_.row(faces_(f, side % 3)), b = positions_.row(faces_(f, (side % 3 + 1) % 3));
+        const double length = (b - a).norm();
+        region.girth += length;
+        if (other < 0)
+            return;
+        region.next_to.push_back(region_of_[other / 3]);
+        const Vec3 normal = region.area.stableNormalized(), along = (b - a).stableNormalized(),
+                   apex = positions_.row(faces_(other / 3, (other % 3 + 2) % 3));
+        Vec3 away = apex - a;
+        away -= away.dot(along) * along;
+        const double rise = away.stableNormalized().dot(normal);
+        region.side += rise > 0 ? length : -length;
+        if (std::abs(rise) > k_steep_sine)
+            region.steep += length;
+    }
+
+    /// All cloth around on one side of it.
+    bool is_flat_disc(const Region& region, double depth) const
+    {
+        const double area = region.area.norm();
+        const double disc = region.girth * region.girth / (4 * std::numbers::pi);
+        return !region.is_taken && region.girth > smallest_girth_ && area > k_cap_roundness * disc
+            && std::abs(region.side) > k_fan_outline * region.girth && is_disc(region) && is_flat(region, depth);
+    }
+
+    /// Euler characteristic 1: one outline, no handle.
+    bool is_disc(const Region& region) const
+    {
+        std::vector<int> vertices, edges;
+        for (const int f : region.faces)
+            for (int k = 0; k < 3; ++k) {
+                vertices.push_back(faces_(f, k));
+                edges.push_back(topology_.edge_of(3 * f + k));
+            }
+        const auto count = [](std::vector<int>& list) {
+            std::sort(list.begin(), list.end());
+            return std::ptrdiff_t(std::unique(list.begin(), list.end()) - list.begin());
+        };
+        return count(vertices) - count(edges) + std::ptrdiff_t(region.faces.size()) == 1;
+    }
+
+    bool is_flat(const Region& region, double depth) const
+    {
+        const Vec3 normal = region.area.normalized();
+        double low = INFINITY, high = -INFINITY;
+        for (const int f : region.faces)
+            for (const int v : faces_.row(f)) {
+                low = std::min(low, positions_.row(v).dot(normal));
+                high = std::max(high, positions_.row(v).dot(normal));
+            }
+        return high - low < depth * std::sqrt(region.area.norm());
+    }
+
+    const Positions& positions_;
+    Triangles faces_;
+    MeshTopology topology_;
+    double smallest_girth_;  // m
+    std::vector<Vec3> areas_;
+    std::vector<Region> regions_;
+    std::vector<int> region_of_;
+};
+
+}  // namespace
+
+OpenedGarment open_ends(const GarmentMesh& garment)
+{
+    Caps found(garment);
+    const std::vector<std::vector<int>> caps = found.find();
+    if (caps.empty() || (found.is_closed() && caps.size() < k_least_ends))
+        return { garment, 0 };
+    std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
+    for (const std::vector<int>& cap : caps)
+        for (const int f : cap)
+            is_kept[f] = 0;
+    std::vector<int> kept;
+    for (int f = 0; f < int(is_kept.size()); ++f)
+        if (is_kept[f])
+            kept.push_back(f);
+    return { { garment.positions, garment.triangles(kept, Eigen::all) }, int(caps.size()) };
+}
+
+}  // namespace garmentfit
