@@ -26,8 +26,7 @@ Triangles weld_faces(const GarmentMesh& garment)
     std::map<std::array<double, 3>, int> places;
     std::vector<int> first(std::size_t(garment.positions.rows()));
     for (int v = 0; v < int(first.size()); ++v)
-        first[v] = places
-                       .try_emplace({ garment.positions(v, 0), garment.positions(v, 1), garment.positions(v, 2) }, v)
+        first[v] = places.try_emplace({ garment.positions(v, 0), garment.positions(v, 1), garment.positions(v, 2) }, v)
                        .first->second;
     return garment.triangles.unaryExpr([&](int v) { return first[v]; });
 }
@@ -104,13 +103,13 @@ private:
     {
         std::vector<char> is_candidate(regions_.size());
         for (std::size_t r = 0; r < regions_.size(); ++r)
-            is_candidate[r] = is_flat_disc(regions_[r], k_cap_depth)
-                && regions_[r].steep > k_cap_outline * regions_[r].girth;
+            is_candidate[r]
+                = is_flat_disc(regions_[r], k_cap_depth) && regions_[r].steep > k_cap_outline * regions_[r].girth;
         std::vector<std::vector<int>> caps;
         for (std::size_t r = 0; r < regions_.size(); ++r)  // the sides of a block are next to each other
-            if (is_candidate[r]
-                && std::none_of(regions_[r].next_to.begin(), regions_[r].next_to.end(),
-                                [&](int other) { return is_candidate[other]; }))
+            if (is_candidate[r] && std::none_of(regions_[r].next_to.begin(), regions_[r].next_to.end(), [&](int other) {
+                    return is_candidate[other];
+                }))
                 caps.push_back(regions_[r].faces);
         return caps;
     }
@@ -133,8 +132,8 @@ private:
     {
         DisjointSets flat(int(faces_.rows()));
         for (int side = 0; side < 3 * int(faces_.rows()); ++side)
-            if (const int other = topology_.opposite(side); other > side
-                && orientation(side, other) * cosine(side / 3, other / 3) > k_flat_cosine)
+            if (const int other = topology_.opposite(side);
+                other > side && orientation(side, other) * cosine(side / 3, other / 3) > k_flat_cosine)
                 flat.join(side / 3, other / 3);
         std::vector<int> number(std::size_t(faces_.rows()), -1);
         for (int f = 0; f < int(faces_.rows()); ++f) {

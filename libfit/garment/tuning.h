@@ -47,8 +47,8 @@ inline constexpr double k_steep_sine = 0.77, k_cap_outline = 0.9;
 inline constexpr double k_cap_roundness = 0.2;
 /// fitted: likewise. Depth of a cap, and of a fan, as a share of the root of its area: hems are not flat.
 inline constexpr double k_cap_depth = 0.05, k_fan_depth = 0.35;
-/// fitted: guess. Faces of a fan that closes a hole, at least: vertices of cloth have half as many.
-inline constexpr std::size_t k_fan_faces = 12;
+/// fitted: guess. Faces of a fan that closes a hole, at least: vertices of cloth have up to 12.
+inline constexpr std::size_t k_fan_faces = 16;
 /// fitted: guess. Cosine between each face of a fan and the whole. A corner of a cap has faces of the tube, too.
 inline constexpr double k_fan_cosine = 0.5;
 /// fitted: guess. Sum over the outline of a cap, signed by the side on which the cloth around it is, as a share.

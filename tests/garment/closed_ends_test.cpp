@@ -67,8 +67,8 @@ TEST(ClosedEnds, OfAnOpenGarmentAreNone)
 
 TEST(ClosedEnds, OfTwoPiecesAreCountedTogether)
 {
-    const OpenedGarment result = opened(fixtures::joined(tube(Cap::around_centre, Cap::none, -0.15),
-                                                         tube(Cap::around_corner, Cap::none, 0.15)));
+    const OpenedGarment result = opened(
+        fixtures::joined(tube(Cap::around_centre, Cap::none, -0.15), tube(Cap::around_corner, Cap::none, 0.15)));
     EXPECT_EQ(result.closed_ends, 2);
 }
 
