@@ -56,9 +56,8 @@ ScaleGuess guess_scale(const std::vector<double>& statures, double height, doubl
     double sum = 0;
     for (const ScaleGuess& hypothesis : hypotheses)
         sum += hypothesis.probability;
-    ScaleGuess best = *std::max_element(hypotheses.begin(), hypotheses.end(), [](const auto& a, const auto& b) {
-        return a.probability < b.probability;
-    });
+    ScaleGuess best = *std::max_element(hypotheses.begin(), hypotheses.end(),
+                                        [](const auto& a, const auto& b) { return a.probability < b.probability; });
     best.probability /= sum;
     return best;
 }

@@ -223,7 +223,10 @@ FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& 
         throw InvalidInput(ErrorCode::no_fit,
                            "garment: it does not lie round the body; leave as_placed out, or check the garment's unit "
                            "and axes");
-    return choose(hypotheses, options.skipped);
+    FitResult result = choose(hypotheses, options.skipped);
+    if (result.type != options.type)
+        result.type = type_when_worn(result.type, result.covered);
+    return result;
 }
 
 }  // namespace garmentfit

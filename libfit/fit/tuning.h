@@ -114,43 +114,46 @@ inline constexpr double k_same_direction = 0.5;
 
 // ---------------------------------------------------------------- evidence
 
-/// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit.
+/// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit. Fitted by
+/// scripts/fit-evidence on 100 generated garments, 25 of them also placed anew, and 26 modelled ones, each on one to three
+/// bodies, every third also turned. On the half that the weights had not seen, the facing was right for 241 of 256, and
+/// for 220 of the 222 said with more than 0.9.
 inline constexpr std::array<double, 35> k_evidence_weights {
-    0.07,  // energy
-    3.09,  // clearance
-    -4.65,  // uncovered_cloth
-    -1.01,  // crossing
-    5.49,  // covered_inside
-    -2.45,  // uncovered_inside
-    2.15,  // as_given
-    -1.5,  // askew
-    2.31,  // upright
-    -2.95,  // legs
-    -1.37,  // skirt
-    1.06,  // dress
-    -3.65,  // jumpsuit
-    -1.6,  // legs_height
-    -1.6,  // skirt_height
-    0.65,  // dress_height
-    1.45,  // jumpsuit_height
-    5.26,  // legs_hems
-    2.52,  // skirt_hems
-    -2.81,  // dress_hems
-    4.83,  // jumpsuit_hems
-    -1.92,  // legs_arms
-    -1.86,  // skirt_arms
-    -2.81,  // dress_arms
-    1.15,  // jumpsuit_arms
-    1.81,  // type
-    1.6,  // input_front
-    0.68,  // openings
-    -0.6,  // torso
-    0.42,  // waist
-    -0.03,  // hems
-    0.1,  // cuffs
-    0.67,  // near_input
-    5.35,  // in_place
-    -3.5,  // in_place_inside
+    0.08,  // energy
+    4.77,  // clearance
+    -5.23,  // uncovered_cloth
+    -0.97,  // crossing
+    3.62,  // covered_inside
+    -3.17,  // uncovered_inside
+    1.92,  // as_given
+    -1.82,  // askew
+    1.26,  // upright
+    -2.86,  // legs
+    -1.09,  // skirt
+    1.07,  // dress
+    -4.19,  // jumpsuit
+    -0.12,  // legs_height
+    2.04,  // skirt_height
+    3.38,  // dress_height
+    6.69,  // jumpsuit_height
+    8.56,  // legs_hems
+    -0.17,  // skirt_hems
+    -1,  // dress_hems
+    8.36,  // jumpsuit_hems
+    -1.41,  // legs_arms
+    -2.98,  // skirt_arms
+    -2.57,  // dress_arms
+    1.8,  // jumpsuit_arms
+    1.88,  // type
+    1.57,  // input_front
+    2.22,  // openings
+    -0.11,  // torso
+    0.29,  // waist
+    -0.24,  // hems
+    -0.25,  // cuffs
+    0.38,  // near_input
+    6.61,  // in_place
+    -3.53,  // in_place_inside
 };
 inline constexpr double k_hopeless = 8;  ///< log odds behind the best, before the ascent: not looked at closely. guess
 inline constexpr int k_max_crossing_evidence = 3;  ///< bones; more say no more. guess

@@ -90,6 +90,12 @@ bool allows(GarmentType said, CoverageKind kind)
 
 }  // namespace
 
+GarmentType type_when_worn(GarmentType found, const std::vector<Bone>& covered)
+{
+    const bool is_short = found == GarmentType::trousers && !has(covered, ltibia) && !has(covered, rtibia);
+    return is_short ? GarmentType::shorts : found;
+}
+
 CoverageKind coverage_kind_of(GarmentType type)
 {
     switch (type) {

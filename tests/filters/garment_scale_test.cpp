@@ -17,8 +17,8 @@ const TriangleMesh& shirt()
     static const TriangleMesh mesh = [] {
         const Skeleton s = person_skeleton(k_person);
         const double cuff = std::abs(s.tail(lradius).x()) - 0.03;
-        return garment_round(
-            s, 0.03, [&](const Vec3& p) { return p.y() > 0.95 && p.y() < 1.47 && std::abs(p.x()) < cuff; });
+        return garment_round(s, 0.03,
+                             [&](const Vec3& p) { return p.y() > 0.95 && p.y() < 1.47 && std::abs(p.x()) < cuff; });
     }();
     return mesh;
 }

@@ -102,4 +102,11 @@ TEST(Coverage, ACoarseWordIsResolvedToATypeOfItsGroup)
     EXPECT_EQ(resolve_type(GarmentType::whole, k_tube), GarmentType::dress);
 }
 
+TEST(Coverage, TrousersThatLeaveTheShinsUncoveredAreShorts)
+{
+    EXPECT_EQ(type_when_worn(GarmentType::trousers, { lfemur, rfemur }), GarmentType::shorts);
+    EXPECT_EQ(type_when_worn(GarmentType::trousers, { lfemur, rfemur, ltibia }), GarmentType::trousers);
+    EXPECT_EQ(type_when_worn(GarmentType::skirt, { lfemur, rfemur }), GarmentType::skirt);
+}
+
 }  // namespace
