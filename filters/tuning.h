@@ -14,8 +14,8 @@ inline constexpr double k_low_confidence = 0.2;
 /// (libfit/fit/evidence.h)
 inline constexpr double k_low_probability = 0.8;
 
-/// Probability below which another way of wearing a garment is not tried, where the most probable one ends badly, and how
-/// many are. fitted: guess
+/// Probability below which another way of wearing a garment is not tried, where the most probable one ends badly, and
+/// how many are. fitted: guess
 inline constexpr double k_worth_trying = 0.05;
 inline constexpr int k_other_wearings = 2;
 

@@ -48,7 +48,7 @@ enum Evidence {
     jumpsuit_arms_evidence,
     type_evidence,  ///< 1 where it is that of the type guessed by the openings; tops, too
     // The facing
-    input_front_evidence,  ///< cosine of the held garment's front to the input body's: most come in the frame of their body
+    input_front_evidence,  ///< cosine of the held garment's front to that of the input body: most share a frame
     openings_evidence,  ///< openings that face forwards less those that face backwards (cues_of)
     torso_evidence,  ///< FrontShape, of tops, dresses and jumpsuits
     waist_evidence,  ///< of trousers and skirts
@@ -83,8 +83,8 @@ struct WearingContext {
     double inside_share = 0;  ///< of the garment's vertices in the input body
 };
 
-/// The best wearings of each facing among the postures, at most three, best evidence first. Facings less than 60 degrees
-/// apart are one.
+/// The best wearings of each facing among the postures, at most three, best evidence first. Facings less than 60
+/// degrees apart are one.
 /// @param in_place  the input pose, or none
 std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,
                                  const std::vector<Posture>& in_place);

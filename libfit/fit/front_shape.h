@@ -10,8 +10,8 @@
 
 namespace garmentfit {
 
-/// Offsets along a direction that may be the front, in tenths of the garment's width at its top, at most 3. Each of them
-/// changes its sign with the direction.
+/// Offsets along a direction that may be the front, in tenths of the garment's width at its top, at most 3. Each of
+/// them changes its sign with the direction.
 struct FrontShape {
     double torso = 0;  ///< of the middle of the cloth against its sides, mean over six heights: backs are rounder
     double waist = 0;  ///< the same at the top: trousers stand further out over the seat

@@ -115,9 +115,9 @@ inline constexpr double k_same_direction = 0.5;
 // ---------------------------------------------------------------- evidence
 
 /// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit. Fitted by
-/// scripts/fit-evidence on 100 generated garments, 25 of them also placed anew, and 26 modelled ones, each on one to three
-/// bodies, every third also turned. On the half that the weights had not seen, the facing was right for 241 of 256, and
-/// for 220 of the 222 said with more than 0.9.
+/// scripts/fit-evidence on 100 generated garments, 25 of them also placed anew, and 26 modelled ones, each on one to
+/// three bodies, every third also turned. On the half that the weights had not seen, the facing was right for 241 of
+/// 256, and for 220 of the 222 said with more than 0.9.
 inline constexpr std::array<double, 35> k_evidence_weights {
     0.08,  // energy
     4.77,  // clearance

@@ -26,8 +26,8 @@ struct Coverage {
     double name_probability = 1;  ///< that the type is right, given the kind; tops with sleeves count as one
 };
 
-/// What a garment that was found to be of a type is called if it covers these bones in the end: trousers that leave both
-/// shins uncovered are shorts.
+/// What a garment that was found to be of a type is called if it covers these bones in the end: trousers that leave
+/// both shins uncovered are shorts.
 GarmentType type_when_worn(GarmentType found, const std::vector<Bone>& covered);
 
 /// One for each kind, the guessed one first; a given type leaves only its own, a coarse word those of its group.

@@ -113,9 +113,9 @@ inline constexpr double k_arm_height = 0.45;
 // ---- probability of a name (coverage.cpp) -------------------------------------------------------------------------
 
 /// Log odds that the name is right where the kind of coverage is: constant, and change with the margin of guess_type.
-/// Tops with sleeves are one name. fitted: logistic regression, ridge 0.1 and 1, on the 126 fits of two catalogues whose
-/// kind was the guessed one and right: 125 names were right, and the margin says next to nothing. (Of the exact names,
-/// such as blouse or tshirt, 107 were.)
+/// Tops with sleeves are one name. fitted: logistic regression, ridge 0.1 and 1, on the 126 fits of two catalogues
+/// whose kind was the guessed one and right: 125 names were right, and the margin says next to nothing. (Of the exact
+/// names, such as blouse or tshirt, 107 were.)
 inline constexpr double k_name_log_odds = 4.55, k_name_margin_log_odds = -0.17;
 
 // ---- type (type_guess.cpp) ----------------------------------------------------------------------------------------

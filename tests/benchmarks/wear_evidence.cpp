@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Prints the evidence for each way of wearing garments on a body, one line of JSON for each garment: scripts/fit-evidence
-// fits the weights of libfit/fit/evidence.h on them.
+// Prints the evidence for each way of wearing garments on a body, one line of JSON for each garment:
+// scripts/fit-evidence fits the weights of libfit/fit/evidence.h on them.
 //   wear_evidence BODY GARMENT...
 
 #include <array>

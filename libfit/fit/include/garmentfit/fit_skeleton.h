@@ -95,8 +95,8 @@ GARMENTFIT_API void require_wearable_size(const Rig& rig, const GarmentMesh& gar
 GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const GarmentMesh& garment, const FitOptions& options = {},
                                       const Progress& progress = {});
 
-/// The same for any method. The body's surface, whose vertices are those of the rig's weights, tells whether the garment
-/// lies round it already; tisserand cannot do without.
+/// The same for any method. The body's surface, whose vertices are those of the rig's weights, tells whether the
+/// garment lies round it already; tisserand cannot do without.
 GARMENTFIT_API FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment,
                                       const FitOptions& options = {}, const Progress& progress = {});
 
