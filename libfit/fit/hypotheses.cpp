@@ -50,7 +50,6 @@ std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& o
 // A garment as it was given.
 struct Garment {
     HeldGarment held;
-    bool has_body = false;  // the body's surface is known
     bool may_lie_in_place = false;  // it lies round the body, as far as its vertices tell
     double inside_share = 0;  // of these in the body
 };
@@ -58,8 +57,7 @@ struct Garment {
 // One coverage of a held garment, before and after the ascent of its postures.
 struct Search {
     std::shared_ptr<const Attempt> attempt;
-    std::vector<Posture> rough, input;  // the latter: the input pose, where some of the body is inside then
-    std::vector<Posture> in_place;  // the input pose, where the garment lies round the body
+    std::vector<Posture> rough, in_place;  // the latter: the input pose, where the garment lies round the body
     std::vector<Wearing> wearings;
 
     double best_log_odds() const { return wearings.empty() ? FitEnergy::k_any : log_odds(wearings[0].evidence); }
@@ -86,13 +84,11 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
 
 Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garment& given, const FitOptions& options)
 {
-    Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {}, {} };
+    Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {} };
     const Posture input = input_posture(attempt->energy().rest());
-    if (given.has_body && attempt->garment().turn.w() == 1
+    if (given.may_lie_in_place && attempt->garment().turn.w() == 1
         && !bones_inside(attempt->energy(), input, k_partly_inside).empty())
-        search.input.push_back(input);
-    if (given.may_lie_in_place)
-        search.in_place = search.input;
+        search.in_place.push_back(input);
     search.wearings = wearings_of(search, search.rough, given, options);
     return search;
 }
@@ -118,7 +114,7 @@ void search_closely(std::vector<Search>& searches, const Garment& given, const F
         Search& search = searches[i];
         if (search.best_log_odds() < best - k_hopeless)
             continue;
-        const auto ascended = ascend_starts(search.attempt->energy(), search.rough, search.input);
+        const auto ascended = ascend_starts(search.attempt->energy(), search.rough, search.in_place);
         search.wearings = wearings_of(search, ascended, given, options);
     }
 }
@@ -204,9 +200,10 @@ Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
     given.held.turn = Eigen::Quaterniond::Identity();
     given.held.outward = outward;
     given.held.openings = openings_of(outward);
-    given.has_body = body.positions.rows() > 0;
-    given.inside_share = given.has_body ? inside_share(outward, body) : 0;
-    given.may_lie_in_place = given.has_body && given.inside_share <= k_lies_round_body;
+    if (body.positions.rows() == 0)
+        return given;
+    given.inside_share = inside_share(outward, body);
+    given.may_lie_in_place = given.inside_share <= k_lies_round_body;
     return given;
 }
 
