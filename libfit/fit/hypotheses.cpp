@@ -50,7 +50,7 @@ std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& o
 // A garment as it was given.
 struct Garment {
     HeldGarment held;
-    bool may_lie_in_place = false;  // it lies round the body, as far as its vertices tell
+    bool may_lie_in_place = false;  // the body's surface is known
     double inside_share = 0;  // of these in the body
 };
 
@@ -194,7 +194,7 @@ double inside_share(const TriangleMesh& garment, const TriangleMesh& body)
     return double(inside) / std::max(count, 1);
 }
 
-Garment measure(const TriangleMesh& outward, const TriangleMesh& body, const FitOptions& options)
+Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
 {
     Garment given;
     given.held.turn = Eigen::Quaterniond::Identity();
@@ -203,7 +203,7 @@ Garment measure(const TriangleMesh& outward, const TriangleMesh& body, const Fit
     if (body.positions.rows() == 0)
         return given;
     given.inside_share = inside_share(outward, body);
-    given.may_lie_in_place = options.as_placed || given.inside_share <= k_lies_round_body;
+    given.may_lie_in_place = true;
     return given;
 }
 
@@ -238,7 +238,7 @@ std::vector<Bone> bones_inside(const FitEnergy& energy, const Posture& posture, 
 std::vector<Hypothesis> find_hypotheses(const Rig& rig, const TriangleMesh& body, const TriangleMesh& outward,
                                         const FitOptions& options, const Progress& progress)
 {
-    const Garment given = measure(outward, body, options);
+    const Garment given = measure(outward, body);
     std::vector<WayUp> rest = ways_up(outward, given.held.openings);
     const std::vector<WayUp> likely = likely_ways(rest, options);
     std::vector<Hypothesis> all = search(rig, given, likely, options, progress.part(0, 0.5));

@@ -158,9 +158,6 @@ inline constexpr std::array<double, 35> k_evidence_weights {
 inline constexpr double k_hopeless = 8;  ///< log odds behind the best, before the ascent: not looked at closely. guess
 inline constexpr int k_max_crossing_evidence = 3;  ///< bones; more say no more. guess
 inline constexpr int k_wearings_of_a_facing = 3;  ///< where the best leads through cloth, the next are tried. guess
-/// Share of a garment's vertices inside the body. Garments on the body that they were made on, in its pose, have 0.04
-/// (median) to 0.14 (nine in ten), since bodies and clothes are simplified. fitted: guess, on 79 such pairs
-inline constexpr double k_lies_round_body = 0.1;
 inline constexpr double k_max_inside_evidence = 0.2;  ///< share of vertices; likewise. guess
 inline constexpr double k_max_opening_evidence = 2;  ///< dimensionless; likewise. guess
 
