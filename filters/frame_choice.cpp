@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "garment_scale.h"
 #include "garmentfit/error.h"
 #include "garmentfit/filters/schema.h"
 #include "garmentfit/garment_size.h"
+#include "garmentfit/number_text.h"
 
 namespace garmentfit {
 namespace {
@@ -41,14 +41,6 @@ Frame in_named_unit(Frame frame)
     return frame;
 }
 
-std::string text_of_number(double number)
-{
-    std::ostringstream text;
-    text.precision(3);
-    text << number;
-    return text.str();
-}
-
 /// Scales the body to a height.
 void set_height(FrameGuess& guess, const Positions& positions, double height)
 {
@@ -57,7 +49,7 @@ void set_height(FrameGuess& guess, const Positions& positions, double height)
         throw InvalidInput(ErrorCode::degenerate_mesh, "height: the body is flat along its up axis; give up, too");
     guess.frame.metres_per_unit = height / units;
     guess.unit_margin = 1;
-    guess.why = "the body is " + text_of_number(units) + " units tall, " + text_of_number(height) + " m as given";
+    guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
 }
 
 /// By the parts of the garment. What is no garment is left alone: its defects are found where it is prepared.
@@ -76,7 +68,7 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;
     if (scale.factor != 1)
-        guess.why += "; its parts fit the body when it is scaled by " + text_of_number(scale.factor);
+        guess.why += "; its parts fit the body when it is scaled by " + rounded_text(scale.factor, 3);
 }
 
 }  // namespace
@@ -116,7 +108,7 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
         scale_to_body(guess, positions, triangles, body, *stature);
     guess.frame.metres_per_unit *= choice.scale;
     if (choice.scale != 1)
-        guess.why += ", scaled by " + text_of_number(choice.scale) + " as given";
+        guess.why += ", scaled by " + rounded_text(choice.scale, 3) + " as given";
     front_of_garment(guess.frame, choice.front);
     return guess;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "garmentfit/filters/frame_choice.h"
 #include "tuning.h"
@@ -24,7 +25,7 @@ double common_deviation(const std::vector<double>& deviations, double shift)
 double likelihood(double deviation)
 {
     const double spread = deviation > 0 ? k_too_large_spread : k_too_small_spread;
-    return std::exp(-0.5 * std::pow(deviation / spread, 2)) / (std::sqrt(2 * std::acos(-1)) * spread);
+    return std::exp(-0.5 * std::pow(deviation / spread, 2)) / (std::sqrt(2 * std::numbers::pi) * spread);
 }
 
 double median(std::vector<double> values)

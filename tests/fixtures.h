@@ -164,6 +164,14 @@ inline TriangleMesh sheet(int n, double spacing, const std::function<double(doub
     return mesh;
 }
 
+/// A flat sheet from a corner on. @param n  as of sheet
+inline TriangleMesh flat(int n, double spacing, const Vec3& corner)
+{
+    TriangleMesh mesh = sheet(n, spacing, [](double, double) { return 0; });
+    mesh.positions.rowwise() += corner.transpose();
+    return mesh;
+}
+
 struct PersonOptions {
     double arm_angle = 45;  ///< degrees below the horizontal: 0 = T-pose, 70 = arms down, -70 = arms up
     double elbow_angle = 15;  ///< degrees that the elbows flex, forearms forward

@@ -8,6 +8,7 @@
 #include "disjoint_sets.h"
 #include "exact_crossings.h"
 #include "parallel.h"
+#include "quantile.h"
 #include "stretch.h"
 #include "used_vertices.h"
 #include "winding_number.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stretch.h"
 
-#include <algorithm>
-
 namespace garmentfit {
 
 std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions)
@@ -20,15 +18,6 @@ std::vector<double> stretches(const Positions& rest, const Positions& positions,
             result.push_back(l / l0 - 1);
     }
     return result;
-}
-
-double quantile(std::vector<double> values, double fraction)
-{
-    if (values.empty())
-        return 0;
-    const auto nth = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
 }
 
 }  // namespace garmentfit

@@ -15,7 +15,4 @@ std::vector<double> stretches(const GarmentMesh& rest, const Positions& position
 /// The same for edges that the caller has listed.
 std::vector<double> stretches(const Positions& rest, const Positions& positions, const Edges& edges);
 
-/// The value that this fraction of them does not exceed; 0 for no values. O(n).
-double quantile(std::vector<double> values, double fraction);
-
 }  // namespace garmentfit

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nearest.h"
+#include "quantile.h"
 #include "skin_weights.h"
 #include "stretch.h"
 #include "tuning.h"

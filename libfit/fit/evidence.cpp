@@ -132,6 +132,7 @@ std::vector<Wearing> wearings_of(const WearingContext& context, const std::vecto
 
 double log_odds(const WearEvidence& evidence)
 {
+    static_assert(k_evidence_weights.size() == evidence_count);
     return std::inner_product(evidence.begin(), evidence.end(), k_evidence_weights.begin(), 0.0);
 }
 

@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "best_start.h"
@@ -42,26 +43,27 @@ InvalidInput no_fit(const Hypothesis& hypothesis)
                  + "; check the garment's unit and give its type" };
 }
 
-void require_clear(const FitEnergy& energy, const Posture& posture)
+// Which bone passes through the cloth first, and where.
+std::optional<std::string> find_crossing(const FitEnergy& energy, const Posture& posture)
 {
     const Skeleton joints = place_bones(energy.rest(), posture).joints;
-    const auto require = [&](const std::string& name, const Vec3& from, const Vec3& to) {
-        if (!energy.metric().cloth().crosses(from, to))
-            return;
-        throw SolverFailure("no pose found that keeps the bones clear of the cloth: " + name
-                            + " passes through it between " + place_text(from) + " and " + place_text(to)
-                            + "; check the garment's type, and that its openings are open");
+    const auto crosses = [&](const Vec3& from, const Vec3& to) { return energy.metric().cloth().crosses(from, to); };
+    const auto describe = [](std::string_view name, const Vec3& from, const Vec3& to) {
+        return std::string(name) + " passes through it between " + place_text(from) + " and " + place_text(to);
     };
     for (int b = 0; b < bone_count; ++b)
-        require(std::string(bone_name(b)), joints.head(b), joints.tail(b));
-    require("the head", joints.tail(upperneck), joints.tips[head_top]);
+        if (crosses(joints.head(b), joints.tail(b)))
+            return describe(bone_name(b), joints.head(b), joints.tail(b));
+    if (crosses(joints.tail(upperneck), joints.tips[head_top]))
+        return describe("the head", joints.tail(upperneck), joints.tips[head_top]);
+    return {};
 }
 
-bool is_clear(const FitEnergy& energy, const Posture& posture)
+void require_clear(const FitEnergy& energy, const Posture& posture)
 {
-    const Skeleton joints = place_bones(energy.rest(), posture).joints;
-    return energy.bones_through_cloth(posture) == 0
-        && !energy.metric().cloth().crosses(joints.tail(upperneck), joints.tips[head_top]);
+    if (const std::optional<std::string> crossing = find_crossing(energy, posture))
+        throw SolverFailure("no pose found that keeps the bones clear of the cloth: " + *crossing
+                            + "; check the garment's type, and that its openings are open");
 }
 
 void require_openings(const TriangleMesh& outward)
@@ -150,7 +152,7 @@ FitResult finish(const Hypothesis& hypothesis)
     const BoneMetric metric(attempt.energy().metric().cloth(),
                             limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
     const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues());
-    const bool keeps_input = hypothesis.wearing.is_in_place && is_clear(energy, start);
+    const bool keeps_input = hypothesis.wearing.is_in_place && !find_crossing(energy, start);
     const Posture fitted = keeps_input ? start : ascend_fully(energy, start, attempt.garment().outward);
     require_clear(energy, fitted);
 
@@ -165,11 +167,6 @@ FitResult finish(const Hypothesis& hypothesis)
     result.clearance = metric.clearance_shares(place_bones(attempt.rig().skeleton, fitted).joints);
     result.scores_before = energy.bone_scores(start_at_barycentre(energy));
     return result;
-}
-
-bool is_same_way(const Hypothesis& a, const Hypothesis& b)
-{
-    return a.attempt == b.attempt && a.wearing.front.dot(b.wearing.front) > k_same_direction;
 }
 
 // The most probable hypothesis in which a body fits, `skipped` of those left out.

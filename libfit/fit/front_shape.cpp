@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "quantile.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -14,13 +16,6 @@ namespace {
 struct Point {
     double across, height, forwards;  // m; `across` from the middle
 };
-
-double percentile(std::vector<double> values, double share)
-{
-    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 template <class Keep, class Value>
 std::vector<double> collect(const std::vector<Point>& points, const Keep& keep, const Value& value)
@@ -57,14 +52,14 @@ std::optional<double> middle_against_sides(const std::vector<Point>& slice)
 {
     if (slice.size() < k_min_slice)
         return {};
-    const double width = percentile(collect(slice, any, breadth), 0.97);
+    const double width = quantile(collect(slice, any, breadth), 0.97);
     const auto middle = collect(
                    slice, [&](const Point&p) { return breadth(p) < k_slice_middle * width; }, forwards),
                sides = collect(
                    slice, [&](const Point&p) { return breadth(p) > k_slice_sides * width; }, forwards);
     if (middle.empty() || sides.empty())
         return {};
-    return percentile(middle, 0.97) + percentile(middle, 0.03) - 2 * percentile(sides, 0.5);
+    return quantile(middle, 0.97) + quantile(middle, 0.03) - 2 * quantile(sides, 0.5);
 }
 
 Vec3 mean_of(const std::vector<Vec3>& points)
@@ -104,7 +99,7 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
                  high = *std::max_element(heights.begin(), heights.end()), tall = std::max(high - low, 1e-9);
     const auto top = collect(
         points, [&](const Point& p) { return p.height > high - 0.2 * tall; }, breadth);
-    const double width = std::max(2 * percentile(top, 0.95), 1e-9);
+    const double width = std::max(2 * quantile(top, 0.95), 1e-9);
     const auto in_tenths
         = [&](double offset) { return std::clamp(10 * offset / width, -k_max_front_shape, k_max_front_shape); };
 

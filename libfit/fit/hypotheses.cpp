@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "best_start.h"
@@ -50,8 +51,7 @@ std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& o
 // A garment as it was given.
 struct Garment {
     HeldGarment held;
-    bool may_lie_in_place = false;  // the body's surface is known
-    double inside_share = 0;  // of these in the body
+    std::optional<double> inside_share;  // of its vertices in the body, where the body's surface is known
 };
 
 // One coverage of a held garment, before and after the ascent of its postures.
@@ -73,7 +73,7 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
                                    garment.openings,
                                    garment.upright,
                                    garment.askew,
-                                   given.inside_share };
+                                   given.inside_share.value_or(0) };
     std::vector<Wearing> wearings = garmentfit::wearings_of(context, postures, search.in_place);
     std::erase_if(wearings, [&](const Wearing& wearing) {
         return (options.as_placed && !wearing.is_in_place)
@@ -86,7 +86,7 @@ Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garme
 {
     Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {} };
     const Posture input = input_posture(attempt->energy().rest());
-    if (given.may_lie_in_place && attempt->garment().turn.w() == 1
+    if (given.inside_share && attempt->garment().turn.w() == 1
         && !bones_inside(attempt->energy(), input, k_partly_inside).empty())
         search.in_place.push_back(input);
     search.wearings = wearings_of(search, search.rough, given, options);
@@ -158,10 +158,8 @@ bool any_possible(const std::vector<Hypothesis>& hypotheses)
 
 const Hypothesis& first_of_its_facing(const std::vector<Hypothesis>& all, const Hypothesis& one)
 {
-    return *std::find_if(all.begin(), all.end(), [&](const Hypothesis& other) {
-        return other.attempt == one.attempt && other.wearing.rank == 0
-            && other.wearing.front.dot(one.wearing.front) > k_same_direction;
-    });
+    return *std::find_if(all.begin(), all.end(),
+                         [&](const Hypothesis& other) { return other.wearing.rank == 0 && is_same_way(other, one); });
 }
 
 void sort_by_probability(std::vector<Hypothesis>& hypotheses)
@@ -200,10 +198,8 @@ Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
     given.held.turn = Eigen::Quaterniond::Identity();
     given.held.outward = outward;
     given.held.openings = openings_of(outward);
-    if (body.positions.rows() == 0)
-        return given;
-    given.inside_share = inside_share(outward, body);
-    given.may_lie_in_place = true;
+    if (body.positions.rows() > 0)
+        given.inside_share = inside_share(outward, body);
     return given;
 }
 
@@ -223,6 +219,11 @@ bool Hypothesis::is_possible() const
     return 2 * bones_inside(energy, wearing.posture, k_mostly_inside).size() >= attempt->coverage().bones.size()
         && energy.clearance_share(wearing.posture) >= k_min_clearance_share
         && (wearing.is_in_place || energy.bones_through_cloth(wearing.posture) <= k_max_crossing_bones);
+}
+
+bool is_same_way(const Hypothesis& a, const Hypothesis& b)
+{
+    return a.attempt == b.attempt && a.wearing.front.dot(b.wearing.front) > k_same_direction;
 }
 
 std::vector<Bone> bones_inside(const FitEnergy& energy, const Posture& posture, int samples)

@@ -59,6 +59,9 @@ struct Hypothesis {
     bool is_possible() const;
 };
 
+/// Whether one stands in for the other: the same garment, held alike, on the same bones, and facing alike.
+bool is_same_way(const Hypothesis& a, const Hypothesis& b);
+
 /// The most probable first. @param options  type, front and as_placed leave only the hypotheses that agree with them
 /// @throws InvalidInput when there are too few openings for a body, and no type is given.
 /// @param body  with the vertices of the rig's weights; without vertices, no garment is taken to lie round it

@@ -2,9 +2,7 @@
 #include "garmentfit/closed_ends.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -14,22 +12,12 @@
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
+#include "weld.h"
 
 namespace garmentfit {
 namespace {
 
 using namespace garment_tuning;
-
-/// The faces with vertices at the same place as one; seams of UV charts are no borders.
-Triangles weld_faces(const GarmentMesh& garment)
-{
-    std::map<std::array<double, 3>, int> places;
-    std::vector<int> first(std::size_t(garment.positions.rows()));
-    for (int v = 0; v < int(first.size()); ++v)
-        first[v] = places.try_emplace({ garment.positions(v, 0), garment.positions(v, 1), garment.positions(v, 2) }, v)
-                       .first->second;
-    return garment.triangles.unaryExpr([&](int v) { return first[v]; });
-}
 
 /// Faces that are joined by flat edges, and the edges around them.
 struct Region {
@@ -44,9 +32,11 @@ struct Region {
 
 class Caps {
 public:
-    explicit Caps(const GarmentMesh& garment) :
-        positions_(garment.positions), faces_(weld_faces(garment)), topology_(faces_, int(positions_.rows())),
-        smallest_girth_(k_cap_girth * diagonal(positions_))
+    /// @param weld  of the garment: seams of UV charts are no borders
+    Caps(const GarmentMesh& garment, const Weld& weld) :
+        positions_(weld.gather(garment.positions)),
+        faces_(garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); })),
+        topology_(faces_, int(positions_.rows())), smallest_girth_(k_cap_girth * diagonal(garment.positions))
     {
         collect_areas();
         collect_regions();
@@ -213,7 +203,7 @@ private:
         return high - low < depth * std::sqrt(region.area.norm());
     }
 
-    const Positions& positions_;
+    Positions positions_;
     Triangles faces_;
     MeshTopology topology_;
     double smallest_girth_;  // m
@@ -226,7 +216,7 @@ private:
 
 OpenedGarment open_ends(const GarmentMesh& garment)
 {
-    Caps found(garment);
+    Caps found(garment, Weld(garment));
     const std::vector<std::vector<int>> caps = found.find();
     if (caps.empty() || (found.is_closed() && caps.size() < k_least_ends))
         return { garment, 0 };

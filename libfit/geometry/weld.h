@@ -19,6 +19,7 @@ public:
     Positions spread(const Positions& cloth) const;  ///< values at the garment's vertices, from those of the cloth
     Positions place(const Positions& cloth) const;  ///< positions; a stray vertex keeps its offset at rest
     int given() const { return int(cloth_vertex_.size()); }  ///< vertices of the garment
+    int cloth_vertex(int given) const { return cloth_vertex_[given]; }  ///< that at one of the garment's
     int given_vertex(int cloth) const { return last_[cloth]; }  ///< one of the garment's vertices at this of the cloth
 
 private:

@@ -9,12 +9,7 @@
 namespace garmentfit {
 namespace {
 
-TriangleMesh flat(int n, double spacing, const Vec3& corner)
-{
-    TriangleMesh mesh = fixtures::sheet(n, spacing, [](double, double) { return 0; });
-    mesh.positions.rowwise() += corner.transpose();
-    return mesh;
-}
+using fixtures::flat;
 
 TriangleMesh closed(const TriangleMesh& mesh)
 {
