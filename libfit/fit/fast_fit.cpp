@@ -220,6 +220,11 @@ FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& 
         throw InvalidInput(ErrorCode::no_fit,
                            "garment: it does not lie round the body; leave as_placed out, or check the garment's unit "
                            "and axes");
+    if (options.front && hypotheses.empty())
+        throw InvalidInput(
+            ErrorCode::no_fit,
+            "garment: no body that faces as its front was given fits into it; check the front, or leave it "
+            "out and let the program find it");
     FitResult result = choose(hypotheses, options.skipped);
     if (result.type != options.type)
         result.type = type_when_worn(result.type, result.covered);

@@ -133,10 +133,20 @@ double FitEnergy::tip_value(int extremity, const PlacedBones& bones) const
                                        bones.joints.tips[extremity]);
 }
 
+// The cloth may turn the body a little, but not away from where the user says that it faces.
+double FitEnergy::facing_cost(const Posture& posture) const
+{
+    if (!cues_.front_given)
+        return 0;
+    const double excess = angle_between(posture.turn * rig_.front, *cues_.front_given) - k_facing_play;
+    return excess > 0 ? weights_.facing * excess * excess : 0;
+}
+
 double FitEnergy::stance_value(const Posture& posture) const
 {
     const double tilt = angle_between(posture.turn * rig_.up.normalized(), Vec3::UnitY());
-    return hang_slope() * std::clamp(posture.root.y(), lowest_root_, highest_root_) - weights_.upright * tilt * tilt;
+    return hang_slope() * std::clamp(posture.root.y(), lowest_root_, highest_root_) - weights_.upright * tilt * tilt
+        - facing_cost(posture);
 }
 
 CoverageDistances FitEnergy::coverage_distances(int bone, const Vec3& head, const Vec3& tail) const

@@ -18,7 +18,9 @@ namespace {
 
 constexpr Eigen::Index k_vertices_looked_at = 1000;  // derived: a share of 1 % is known to a third of it
 
-std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& way)
+Vec3 level(const Vec3& direction) { return Vec3(direction.x(), 0, direction.z()).normalized(); }
+
+std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& way, const std::optional<Vec3>& front)
 {
     auto held = std::make_shared<HeldGarment>();
     held->turn = way.turn;
@@ -26,6 +28,9 @@ std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& w
     held->askew = way.askew;
     held->outward = rotate(given.outward, way.turn);
     held->openings = rotate(given.openings, held->outward, way.turn);
+    held->cues = cues_of(held->openings);
+    if (front)
+        held->cues.front_given = level(way.turn * *front);
     held->clearance = std::make_unique<const ClearanceField>(held->outward);
     return held;
 }
@@ -35,8 +40,8 @@ bool is_as_given(const WayUp& way) { return way.turn.w() == 1; }
 // A body that faces as the garment does, according to the user; the garment is held upright.
 StartHypothesis facing_like(const Rig& rig, const Vec3& front)
 {
-    const Vec3 level = upright_turn(rig, 0) * rig.front;
-    return { upright_turn(rig, std::atan2(front.x(), front.z()) - std::atan2(level.x(), level.z())) };
+    const Vec3 own = upright_turn(rig, 0) * rig.front;
+    return { upright_turn(rig, std::atan2(front.x(), front.z()) - std::atan2(own.x(), own.z())) };
 }
 
 std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& options)
@@ -44,7 +49,7 @@ std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& o
     if (options.as_placed)
         return {};
     if (options.front)
-        return { facing_like(attempt.rig(), attempt.garment().turn * *options.front) };
+        return { facing_like(attempt.rig(), *attempt.cues().front_given) };
     return facing_hypotheses(attempt.energy());
 }
 
@@ -95,7 +100,7 @@ Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garme
 
 std::vector<Search> search_roughly(const Rig& rig, const Garment& given, const WayUp& way, const FitOptions& options)
 {
-    const std::shared_ptr<const HeldGarment> held = hold(given.held, way);
+    const std::shared_ptr<const HeldGarment> held = hold(given.held, way, options.front);
     std::vector<Search> searches;
     for (const Coverage& coverage : possible_coverages(options.type, held->openings))
         searches.push_back(search_roughly(std::make_shared<const Attempt>(rig, held, coverage), given, options));
@@ -206,8 +211,8 @@ Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
 }  // namespace
 
 Attempt::Attempt(const Rig& rig, std::shared_ptr<const HeldGarment> garment, const Coverage& coverage) :
-    rig_(rig), garment_(std::move(garment)), coverage_(coverage), cues_(cues_of(garment_->openings)), limits_(rig),
-    metric_(*garment_->clearance, limb_radii_of(rig, coverage.bones)), energy_(rig_, limits_, metric_, cues_)
+    rig_(rig), garment_(std::move(garment)), coverage_(coverage), limits_(rig),
+    metric_(*garment_->clearance, limb_radii_of(rig, coverage.bones)), energy_(rig_, limits_, metric_, garment_->cues)
 {
 }
 

@@ -20,6 +20,7 @@ struct HeldGarment {
     double upright = 0, askew = 0;  ///< WayUp::evidence and askew
     TriangleMesh outward;
     std::vector<Opening> openings;
+    GarmentCues cues;
     std::unique_ptr<const ClearanceField> clearance;
 };
 
@@ -34,14 +35,13 @@ public:
     const HeldGarment& garment() const { return *garment_; }
     const Coverage& coverage() const { return coverage_; }
     const JointLimits& limits() const { return limits_; }
-    const GarmentCues& cues() const { return cues_; }
+    const GarmentCues& cues() const { return garment_->cues; }
     const FitEnergy& energy() const { return energy_; }
 
 private:
     const Rig& rig_;
     std::shared_ptr<const HeldGarment> garment_;
     Coverage coverage_;
-    GarmentCues cues_;
     JointLimits limits_;
     BoneMetric metric_;
     FitEnergy energy_;

@@ -41,6 +41,7 @@ struct EnergyWeights {
     double cuff_direction          = 0.3;   // m/rad^2  arm from the line between shoulder and cuff
     // Stance, of the whole body.
     double upright                 = 3;     // m/rad^2  tilt of the trunk against the vertical
+    double facing                  = 30;    // m/rad^2  angle to the front that the user gives, beyond k_facing_play
     double hang                    = 1.5;   // m/m      height of the root: shirts hang from the shoulders, trousers
                                             //          are pulled up
     // Coverage, of the whole garment.
@@ -49,6 +50,7 @@ struct EnergyWeights {
 };
 // clang-format on
 inline constexpr EnergyWeights k_energy_weights;
+inline constexpr double k_facing_play = 0.4;  ///< rad; a front is given roughly. guess
 
 /// Winding numbers: at most the first is outside, at least the second is inside; linear between. About 0.5 in the plane
 /// of an opening, 0.25 one radius outside of it. Dimensionless; guess.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "garment_openings.h"
@@ -21,6 +22,7 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
 struct GarmentCues {
     Vec3 across = Vec3::Zero();  // horizontal: from sleeve to sleeve or leg to leg of the tallest piece that has two
     Vec3 front = Vec3::Zero();  // horizontal: sum of the normals of openings, longer the better they agree
+    std::optional<Vec3> front_given;  // horizontal: where the user says that the front is
     std::vector<Vec3> hems;  // centroids of the two leg openings, or empty
     bool has_arms = false;  // two openings are sleeves or armholes
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty

@@ -360,6 +360,20 @@ TEST(FitSkeleton, AGivenFrontIsTheFront)
     }
 }
 
+TEST(FitSkeleton, AGivenFrontHoldsWhereTheClothWouldTurnTheBody)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    GarmentMesh oval = skirt(0.15, 0.2, 0.2, 0.5);
+    oval.positions.col(2) *= 0.7;
+    for (const Vec3& front : { Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1) }) {
+        FitOptions options;
+        options.type = GarmentType::skirt;
+        options.front = front;
+        const FitResult result = fit_skeleton(rig, oval, options);
+        EXPECT_GT((result.pose.root_rotation * rig.front).dot(front), 0.8) << front.transpose();
+    }
+}
+
 TEST(FitSkeleton, TheNextProbableWayIsAnotherOne)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });
