@@ -91,7 +91,8 @@ Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garme
 {
     Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {} };
     const Posture input = input_posture(attempt->energy().rest());
-    if (given.inside_share && attempt->garment().turn.w() == 1
+    const bool lies_round_body = given.inside_share && (options.as_placed || *given.inside_share <= k_most_inside_body);
+    if (lies_round_body && attempt->garment().turn.w() == 1
         && !bones_inside(attempt->energy(), input, k_partly_inside).empty())
         search.in_place.push_back(input);
     search.wearings = wearings_of(search, search.rough, given, options);

@@ -111,6 +111,9 @@ inline constexpr double k_same_heading = 0.25;  ///< rad; nearer headings are on
 /// Share of a crossing's cost before the ascent, which may still free bones. guess
 inline constexpr double k_early_crossing = 0.1;
 inline constexpr double k_promising = 0.3;  ///< m of energy; worth the work of freeing bones. guess
+/// Share of the vertices of a garment that may lie inside the body where the garment lies round it; the drape pushes
+/// them out. guess: a body heavier than the one that the garment was made for has up to a fifth
+inline constexpr double k_most_inside_body = 0.3;
 /// cosine; nearer ways up, or facings, are one: between quarter turns and noise. derived
 inline constexpr double k_same_direction = 0.5;
 
