@@ -47,7 +47,7 @@ InvalidInput no_fit(const Hypothesis& hypothesis)
 std::optional<std::string> find_crossing(const FitEnergy& energy, const Posture& posture)
 {
     const Skeleton joints = place_bones(energy.rest(), posture).joints;
-    const auto crosses = [&](const Vec3& from, const Vec3& to) { return energy.metric().cloth().crosses(from, to); };
+    const auto crosses = [&](const Vec3& from, const Vec3& to) { return energy.passes_through_cloth(from, to); };
     const auto describe = [](std::string_view name, const Vec3& from, const Vec3& to) {
         return std::string(name) + " passes through it between " + place_text(from) + " and " + place_text(to);
     };
@@ -151,10 +151,14 @@ FitResult finish(const Hypothesis& hypothesis)
     // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
     const BoneMetric metric(attempt.energy().metric().cloth(),
                             limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
-    const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues());
-    const bool keeps_input = hypothesis.wearing.is_in_place && !find_crossing(energy, start);
-    const Posture fitted = keeps_input ? start : ascend_fully(energy, start, attempt.garment().outward);
-    require_clear(energy, fitted);
+    const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues()),
+        thick(attempt.rig(), attempt.limits(), metric, attempt.cues(), k_bone_thickness);
+    const bool keeps_input = hypothesis.wearing.is_in_place && !find_crossing(thick, start);
+    Posture fitted = keeps_input ? start : ascend_fully(energy, start, attempt.garment().outward);
+    // The ascent may end with a bone that all but touches the cloth: no body can grow from there.
+    if (find_crossing(thick, fitted))
+        fitted = refine_posture(thick, fitted);
+    require_clear(thick, fitted);
 
     FitResult result;
     result.type = attempt.coverage().type;

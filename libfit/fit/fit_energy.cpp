@@ -65,10 +65,11 @@ private:
 
 }  // namespace
 
-FitEnergy::FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues) :
+FitEnergy::FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues,
+                     double bone_thickness) :
     rig_(rig), limits_(limits), metric_(metric), weights_(metric.weights()),
     coverage_points_(spread_points(metric.cloth(), k_coverage_cells)), cues_(cues),
-    hangs_from_shoulders_(metric.covers(lclavicle))
+    hangs_from_shoulders_(metric.covers(lclavicle)), bone_thickness_(bone_thickness)
 {
     const Skeleton& rest = rig.skeleton;
     const double trunk = rest.length(lowerback) + rest.length(upperback) + rest.length(thorax);
@@ -230,10 +231,23 @@ double FitEnergy::value(const Posture& posture, const EnergyTerms& near) const
     return sum_terms(posture, by_bone, by_tip, lower);
 }
 
+// A thick bone is tested along its axis and along four lines beside it.
+bool FitEnergy::passes_through_cloth(const Vec3& from, const Vec3& to) const
+{
+    const ClearanceField& cloth = metric_.cloth();
+    if (cloth.crosses(from, to))
+        return true;
+    if (bone_thickness_ <= 0 || from == to)
+        return false;
+    const Vec3 across = bone_thickness_ * (to - from).unitOrthogonal(), other = (to - from).normalized().cross(across);
+    const auto passes_beside = [&](const Vec3& offset) { return cloth.crosses(from + offset, to + offset); };
+    return passes_beside(across) || passes_beside(-across) || passes_beside(other) || passes_beside(-other);
+}
+
 double FitEnergy::tip_crossing_cost(const PlacedBones& bones, Extremity extremity) const
 {
     const bool crosses
-        = metric_.cloth().crosses(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
+        = passes_through_cloth(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
     return crosses ? (may_cross_cloth(extremity) ? weights_.tip_crossing : weights_.crossing) : 0;
 }
 
@@ -242,7 +256,7 @@ int FitEnergy::bones_through_cloth(const Posture& posture) const
     const Skeleton joints = place_bones(rig_.skeleton, posture).joints;
     int count = 0;
     for (int b = 0; b < bone_count; ++b)
-        count += metric_.cloth().crosses(joints.head(b), joints.tail(b));
+        count += passes_through_cloth(joints.head(b), joints.tail(b));
     return count;
 }
 
@@ -260,7 +274,7 @@ double FitEnergy::crossing_cost(const Posture& posture, const Limb& limb) const
     const PlacedBones bones = place_bones(rig_.skeleton, posture);
     double cost = tip_crossing_cost(bones, limb.end);
     for (const int b : limb.bones)
-        cost += metric_.cloth().crosses(bones.joints.head(b), bones.joints.tail(b)) ? weights_.crossing : 0;
+        cost += passes_through_cloth(bones.joints.head(b), bones.joints.tail(b)) ? weights_.crossing : 0;
     return cost;
 }
 

@@ -31,7 +31,9 @@ public:
     static constexpr double k_any = -std::numeric_limits<double>::infinity();  // unit: a bound that everything exceeds
 
     /// Keeps references: rig, limits and metric have to live as long.
-    FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues);
+    /// @param bone_thickness  m; a bone that passes cloth this closely counts as passing through it
+    FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues,
+              double bone_thickness = 0);
 
     EnergyTerms evaluate(const Posture& posture) const;
     /// Without the cost of crossings, m.
@@ -48,6 +50,7 @@ public:
     /// Of hands and feet alone.
     double tip_crossing_cost(const Posture& posture) const;
     int bones_through_cloth(const Posture& posture) const;
+    bool passes_through_cloth(const Vec3& from, const Vec3& to) const;
 
     /// E_B of each covered bone, m; 0 for the others.
     std::array<double, bone_count> bone_scores(const Posture& posture) const;
@@ -100,6 +103,7 @@ private:
     Eigen::ArrayX3f coverage_points_;  // m, spread over the garment
     GarmentCues cues_;
     bool hangs_from_shoulders_;
+    double bone_thickness_;  // m
     double lowest_root_, highest_root_;  // m, y: beyond the cloth the root gains nothing, or it would move on for ever
 };
 

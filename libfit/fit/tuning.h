@@ -114,6 +114,9 @@ inline constexpr double k_promising = 0.3;  ///< m of energy; worth the work of 
 /// Share of the vertices of a garment that may lie inside the body where the garment lies round it; the drape pushes
 /// them out. guess: a body heavier than the one that the garment was made for has up to a fifth
 inline constexpr double k_most_inside_body = 0.3;
+/// m; a bone that passes cloth more closely counts as crossing it: the drape starts with a body of a hundredth of its
+/// thickness, about a millimetre. derived
+inline constexpr double k_bone_thickness = 0.002;
 /// cosine; nearer ways up, or facings, are one: between quarter turns and noise. derived
 inline constexpr double k_same_direction = 0.5;
 
