@@ -2,6 +2,7 @@
 #include "garmentfit/filters/filters.h"
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -351,14 +352,25 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
-    run_stages(filter.stages, scene, parameters, progress);
-    if (!filter.has(Stage::fit) || !filter.has(Stage::recover) || parameters.fit.method != FitMethod::fast)
+    const bool tries_others
+        = filter.has(Stage::fit) && filter.has(Stage::recover) && parameters.fit.method == FitMethod::fast;
+    std::exception_ptr refused;
+    try {
+        run_stages(filter.stages, scene, parameters, progress);
+    } catch (const InvalidInput& error) {
+        if (!tries_others || error.code() != ErrorCode::crossing_start || scene.garments.size() > 1)
+            throw;
+        refused = std::current_exception();
+    }
+    if (!tries_others)
         return;
     const Progress again = progress.part(1, 1);
     const auto run = [&](std::vector<Stage> stages) {
         return [&, stages](Scene& s) { run_stages(stages, s, parameters, again); };
     };
     try_other_wearings(scene, { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) }, again);
+    if (refused && !final_dressing(scene))
+        std::rethrow_exception(refused);
 }
 
 std::string at_human_size(const std::string& line, double factor)

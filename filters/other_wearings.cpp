@@ -31,9 +31,13 @@ std::pair<int, double> badness(const Scene& scene)
     return { 2, -end->scale_reached - end->pose_reached };
 }
 
-// The garment with the tightest part, or the one that was put on last.
-std::size_t garment_at_fault(const Dressing& end)
+// The garment with the tightest part, or the one that was put on last; without an end, the first.
+std::size_t garment_at_fault(const Scene& scene)
 {
+    const Dressing* found = final_dressing(scene);
+    if (!found)
+        return 0;
+    const Dressing& end = *found;
     if (outcome_of(end) == Outcome::done) {
         const auto worst
             = std::max_element(end.overstretches.begin(), end.overstretches.end(),
@@ -58,7 +62,10 @@ Rejected rejected(const FitResult& fit, const std::string& reason)
 
 std::string reason_against(const Scene& scene)
 {
-    const Dressing& end = *final_dressing(scene);
+    const Dressing* found = final_dressing(scene);
+    if (!found)
+        return "its cloth lies across the bones of the body";
+    const Dressing& end = *found;
     return outcome_of(end) == Outcome::done ? "the cloth is stretched too far" : explain(end, names_of(scene));
 }
 
@@ -68,7 +75,7 @@ void try_other_wearings(Scene& scene, const DressingSteps& steps, const Progress
 {
     std::size_t garment = 0;
     for (int tried = 0; tried < k_other_wearings && badness(scene).first > 0 && !progress.is_late(); ++tried) {
-        const std::size_t at_fault = garment_at_fault(*final_dressing(scene));
+        const std::size_t at_fault = garment_at_fault(scene);
         if (tried > 0 && at_fault != garment)
             return;  // another garment hinders now
         garment = at_fault;

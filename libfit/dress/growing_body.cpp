@@ -51,35 +51,67 @@ std::optional<double> find_largest_free_scale(const GrowingBody& inside, const T
     return free == k_initial_body_scales.end() ? std::nullopt : std::optional(*free);
 }
 
-Vec3 nearest_joint(const Vec3& p, const Skeleton& bones)
+// The joint at the end of each bone, and the root, which has no bone.
+constexpr int k_at_root = -1;
+
+Vec3 place_of(int joint, const Skeleton& bones) { return joint == k_at_root ? bones.root : bones.tail(joint); }
+
+int nearest_joint(const Vec3& p, const Skeleton& bones)
 {
-    Vec3 nearest = bones.root;
-    for (const Vec3& joint : bones.tails)
-        if ((joint - p).squaredNorm() < (nearest - p).squaredNorm())
-            nearest = joint;
+    int nearest = k_at_root;
+    for (int b = 0; b < bone_count; ++b)
+        if ((bones.tail(b) - p).squaredNorm() < (place_of(nearest, bones) - p).squaredNorm())
+            nearest = b;
     return nearest;
 }
 
+int joint_before(int joint) { return joint == k_at_root ? k_at_root : parent_of(joint); }
+
+// Joints on the way to the root, the root among them.
+int depth(int joint) { return joint == k_at_root ? 0 : 1 + depth(joint_before(joint)); }
+
+// One bone along the skeleton.
+int step_towards(int from, int to)
+{
+    const int to_depth = depth(to), from_depth = depth(from);
+    int ancestor = to, next = to;
+    for (int d = to_depth; d > from_depth; --d) {
+        next = ancestor;
+        ancestor = joint_before(ancestor);
+    }
+    return ancestor == from ? next : joint_before(from);
+}
+
+bool are_joined(int a, int b) { return a == b || joint_before(a) == b || joint_before(b) == a; }
+
 /// Draws faces that cross the cloth along the bones to their joint, until none crosses or all are there: no cloth lies
-/// between.
+/// between. A face that still crosses spans several bones, such as thorax and clavicle round an armhole: its end nearer
+/// to the root moves along the bones towards the other.
 void tuck_corners(GrowingBody& inside, const TriangleMesh& cloth)
 {
     const auto edges = edges_of(inside.full.triangles);
     bool tucked = true;
-    const auto tuck = [&](int vertex) {
-        const Vec3 joint = nearest_joint(inside.core.row(vertex), inside.bones);
-        tucked |= inside.core.row(vertex) != joint.transpose();
-        inside.core.row(vertex) = joint;
+    const auto tuck_to = [&](int vertex, int joint) {
+        const Vec3 place = place_of(joint, inside.bones);
+        tucked |= inside.core.row(vertex) != place.transpose();
+        inside.core.row(vertex) = place;
     };
-    while (tucked) {
+    const auto tuck = [&](int a, int b) {
+        const int at_a = nearest_joint(inside.core.row(a), inside.bones),
+                  at_b = nearest_joint(inside.core.row(b), inside.bones);
+        const bool a_moves = depth(at_a) < depth(at_b);
+        const bool joined = are_joined(at_a, at_b);
+        tuck_to(a, !joined && a_moves ? step_towards(at_a, at_b) : at_a);
+        tuck_to(b, !joined && !a_moves ? step_towards(at_b, at_a) : at_b);
+    };
+    for (int round = 0; tucked && round < k_most_tucks; ++round) {
         tucked = false;
         const Crossings found = find_crossings(inside, k_initial_body_scales.back(), cloth);
         for (const Crossing& c : found.through_body)
             for (int k = 0; k < 3; ++k)
-                tuck(inside.full.triangles(c.second, k));
+                tuck(inside.full.triangles(c.second, k), inside.full.triangles(c.second, (k + 1) % 3));
         for (const Crossing& c : found.through_cloth)
-            for (int k = 0; k < 2; ++k)
-                tuck(edges(c.first, k));
+            tuck(edges(c.first, 0), edges(c.first, 1));
     }
 }
 
@@ -134,9 +166,10 @@ void refuse(const GrowingBody& inside, const TriangleMesh& cloth, const SkinWeig
     const std::string what = vertex < weights.bones.rows() ? "bone " + std::string(bone_name(weights.bones(vertex, 0)))
                                                            : std::string("a garment worn under it");
     throw InvalidInput(ErrorCode::crossing_start,
-                       "garment: in the fitted pose it crosses the bones of the body, " + what + " at "
+                       "garment: in the fitted pose its cloth lies across the bones of the body, " + what + " at "
                            + place_text(inside.core.row(vertex))
-                           + "; fit the skeleton to this garment first, or give its type");
+                           + ", so that no body can grow from there; check the garment's unit, and give its type or "
+                             "its front");
 }
 
 }  // namespace garmentfit

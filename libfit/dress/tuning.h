@@ -24,6 +24,8 @@ namespace garmentfit {
 /// nearer to the cloth. None leaves faces without area. Fitted: samples on all test bodies; with the first alone, poses
 /// with cloth very near to a bone were refused.
 inline constexpr std::array<double, 3> k_initial_body_scales { 0.01, 0.003, 0.001 };
+/// Rounds in which corners of the body are drawn to joints; each takes a search for crossings. guess
+inline constexpr int k_most_tucks = 20;
 /// m; the longest move of a vertex in one step while the body grows. Fitted: guess, on the house pairs.
 inline constexpr double k_growing_move = 1e-2;
 /// Where one part ends the growth, other parts stretched beyond this share of the limit are named, too. Fitted: guess,

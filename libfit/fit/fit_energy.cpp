@@ -67,7 +67,8 @@ private:
 
 FitEnergy::FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues,
                      double bone_thickness) :
-    rig_(rig), limits_(limits), metric_(metric), weights_(metric.weights()),
+    rig_(rig),
+    limits_(limits), metric_(metric), weights_(metric.weights()),
     coverage_points_(spread_points(metric.cloth(), k_coverage_cells)), cues_(cues),
     hangs_from_shoulders_(metric.covers(lclavicle)), bone_thickness_(bone_thickness)
 {
@@ -246,8 +247,7 @@ bool FitEnergy::passes_through_cloth(const Vec3& from, const Vec3& to) const
 
 double FitEnergy::tip_crossing_cost(const PlacedBones& bones, Extremity extremity) const
 {
-    const bool crosses
-        = passes_through_cloth(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
+    const bool crosses = passes_through_cloth(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
     return crosses ? (may_cross_cloth(extremity) ? weights_.tip_crossing : weights_.crossing) : 0;
 }
 
