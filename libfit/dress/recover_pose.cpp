@@ -23,6 +23,34 @@ namespace {
 
 // ---- before anything moves -----------------------------------------------------------------------------------------
 
+/// World-from-rest transform of the root.
+Eigen::Isometry3d root_transform(const Rig& rig, const Pose& pose)
+{
+    const Vec3& root = rig.skeleton.root;
+    return Eigen::Translation3d(root + pose.root_translation) * pose.root_rotation * Eigen::Translation3d(-root);
+}
+
+void apply(const Eigen::Isometry3d& transform, Positions& positions)
+{
+    positions = (positions * transform.linear().transpose()).rowwise() + transform.translation().transpose();
+}
+
+/// Carries body and cloth as one to where the target has the root: no cloth has to be moved for that, and what is left
+/// of the path is how the body bends.
+DressedBody carry_to_root(const Rig& rig, DressedBody dressed, const Pose& target)
+{
+    if (dressed.pose.root_translation == target.root_translation
+        && dressed.pose.root_rotation.coeffs() == target.root_rotation.coeffs())
+        return dressed;
+    const Eigen::Isometry3d carry = root_transform(rig, target) * root_transform(rig, dressed.pose).inverse();
+    dressed.pose.root_translation = target.root_translation;
+    dressed.pose.root_rotation = target.root_rotation;
+    apply(carry, dressed.body);
+    for (WornGarment& garment : dressed.garments)
+        apply(carry, garment.positions);
+    return dressed;
+}
+
 /// All garments as one mesh.
 struct Outfit {
     GarmentMesh rest;
@@ -68,33 +96,63 @@ SkinWeights smooth_weights(const SkinWeights& weights, const Triangles& triangle
 
 // ---- the motion ----------------------------------------------------------------------------------------------------
 
-/// Keeps states along the path, evenly spread.
+/// Keeps states along the path, evenly spread, with the root where the path has it.
 class FrameRecorder {
 public:
-    FrameRecorder(const std::vector<WornGarment>& garments, const Triangles& body, int frames) :
-        garments_(garments), body_(body), frames_(frames)
+    /// @param dressed  before it was carried to the target's root; the path begins there. Kept as a reference
+    FrameRecorder(const Rig& rig, const DressedBody& dressed, const Pose& target, const Triangles& body, int frames) :
+        rig_(rig), dressed_(dressed), target_(target), garments_(dressed.garments), body_(body), frames_(frames)
     {
     }
 
-    /// Keeps the state when its turn has come, and only if it is certified.
+    /// Keeps the start of the path as it was given.
+    void record_start(const Positions& body)
+    {
+        if (is_due(0))
+            keep(0, body);
+    }
+
     void record(const ClothMotion& motion, double share)
     {
-        constexpr double k_rounding = 1e-9;  // unit: shares are quotients of step counts
-        const double next = frames_ == 1 ? 1 : double(due_) / (frames_ - 1);
-        if (frames_ == 0 || share < next - k_rounding)
+        if (!is_due(share))
             return;
-        ++due_;
+        Positions body = motion.obstacle();
         set_positions(garments_, motion.cloth());
-        if (!certify_all(garments_, { motion.obstacle(), body_ }))
-            return;
-        kept_.push_back({ share, motion.obstacle(), {} });
-        for (const WornGarment& garment : garments_)
-            kept_.back().garments.push_back(garment.positions);
+        if (share < 1) {
+            const Eigen::Isometry3d carry
+                = root_transform(rig_, slerp(dressed_.pose, target_, share)) * root_transform(rig_, target_).inverse();
+            apply(carry, body);
+            for (WornGarment& garment : garments_)
+                apply(carry, garment.positions);
+        }
+        keep(share, body);
     }
 
     std::vector<RecoverFrame> take() && { return std::move(kept_); }
 
 private:
+    bool is_due(double share)
+    {
+        constexpr double k_rounding = 1e-9;  // unit: shares are quotients of step counts
+        const double next = frames_ == 1 ? 1 : double(due_) / (frames_ - 1);
+        const bool due = frames_ > 0 && share >= next - k_rounding;
+        due_ += due;
+        return due;
+    }
+
+    /// Only if it is certified.
+    void keep(double share, const Positions& body)
+    {
+        if (!certify_all(garments_, { body, body_ }))
+            return;
+        kept_.push_back({ share, body, {} });
+        for (const WornGarment& garment : garments_)
+            kept_.back().garments.push_back(garment.positions);
+    }
+
+    const Rig& rig_;
+    const DressedBody& dressed_;
+    const Pose& target_;
     std::vector<WornGarment> garments_;
     const Triangles& body_;
     int frames_, due_ = 0;
@@ -202,9 +260,9 @@ std::vector<TooTight> list_tight_parts(const Rig& rig, const DressedBody& before
 RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
                            const RecoverOptions& options, const Progress& progress)
 {
-    const Outfit outfit(dressed.garments);
-    const PosePath path(rig, body, dressed.pose, target, dressed.body, outfit.cloth.positions);
-    DressedBody start = dressed;
+    DressedBody start = carry_to_root(rig, dressed, target);
+    const Outfit outfit(start.garments);
+    const PosePath path(rig, body, start.pose, target, start.body, outfit.cloth.positions);
     if (start.body.rows() == 0)
         start.body = path.at(0);
     require_no_crossings(outfit.cloth, { start.body, body.surface.triangles });
@@ -214,8 +272,10 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
                                                 outfit.cloth.triangles) };
     ClothMotion motion(outfit.rest, outfit.cloth.positions, { start.body, body.surface.triangles }, options.cloth,
                        outfit.garment_of);
-    FrameRecorder recorder(start.garments, body.surface.triangles, options.frames);
-    recorder.record(motion, 0);
+    FrameRecorder recorder(rig, dressed, target, body.surface.triangles, options.frames);
+    recorder.record_start(dressed.body.rows() > 0
+                              ? dressed.body
+                              : skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, dressed.pose)));
     const PathOutcome outcome = follow_path(motion, path, weights, options, recorder, progress.part(0, 0.8));
 
     RecoverResult result;
@@ -233,7 +293,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     if (!outcome.ended_early())
         recorder.record(motion, 1);
 
-    result.pose = slerp(dressed.pose, target, outcome.reached());
+    result.pose = slerp(start.pose, target, outcome.reached());
     result.body = motion.obstacle();
     result.garments = start.garments;
     for (WornGarment& garment : result.garments)

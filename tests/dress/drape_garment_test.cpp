@@ -334,6 +334,34 @@ TEST(RecoverPose, ReturnsAsManyFramesAsAskedForAndOneIsTheEnd)
     }
 }
 
+TEST(RecoverPose, CarriesTheBodyAndItsClothesAsOneToTheirPlace)
+{
+    const Dressing d = person();
+    const DressedBody here = wearing(trousers(0.02));
+    RecoverOptions options;
+    options.settling_steps = 2;
+    options.frames = 3;
+    const RecoverResult expected = recover_pose(d.rig, d.body, here, Pose(), options);
+
+    DressedBody there = here;  // three metres away, its back turned
+    there.pose.root_translation = Vec3(3, 0, 0);
+    there.pose.root_rotation = Eigen::Quaterniond(Eigen::AngleAxisd(180 * k_degree, Vec3::UnitY()));
+    const Vec3& root = d.rig.skeleton.root;
+    Positions& cloth = there.garments[0].positions;
+    cloth = ((cloth.rowwise() - root.transpose()) * there.pose.root_rotation.toRotationMatrix().transpose()).rowwise()
+        + (root + there.pose.root_translation).transpose();
+    const Positions start = cloth;
+    const RecoverResult result = recover_pose(d.rig, d.body, there, Pose(), options);
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(result.body, d.body.surface.positions);
+    const Eigen::VectorXd apart = (result.garments[0].positions - expected.garments[0].positions).rowwise().norm();
+    EXPECT_LT(apart.mean(), 5e-4);  // rounding decides which contacts are active
+    EXPECT_LT(apart.maxCoeff(), 5e-3);
+    ASSERT_EQ(result.frames.size(), 3u);
+    EXPECT_EQ(result.frames[0].garments[0], start);
+    EXPECT_NEAR(result.frames[1].garments[0].col(0).mean(), 1.5, 0.2) << "half way";
+}
+
 TEST(RecoverPose, SaysWhereAGarmentIsTooSmallForThePoseAndStaysClean)
 {
     const Dressing d = person();
