@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "collision_free_step.h"
 #include "garmentfit/stopwatch.h"
@@ -44,6 +45,61 @@ Positions stack(const Positions& cloth, const Positions& obstacle)
     return result;
 }
 
+// How many vertices of a primitive its closest point lies between: 1 at a corner, 3 inside of a triangle.
+int vertices_at(const ContactPair& pair, int begin, int end)
+{
+    return int(std::count_if(pair.at.weights.begin() + begin, pair.at.weights.begin() + end,
+                             [](double weight) { return weight != 0; }));
+}
+
+// Whether the closest point of a vertex's triangle lies on a border that it has in common with another triangle.
+bool touches_border_of(const ContactPair& pair, const ContactPair& other)
+{
+    for (int k = 1; k < 4; ++k)
+        if (pair.at.weights[k] != 0
+            && std::find(other.vertices.begin() + 1, other.vertices.end(), pair.vertices[k]) == other.vertices.end())
+            return false;
+    return true;
+}
+
+// Where two edges are nearly parallel, their closest points jump along them, and faces tell the contact better.
+bool are_parallel(const ContactPair& pair, const Positions& x)
+{
+    constexpr double k_sine_square = 1e-2;  // unit: six degrees
+    const Corners c = corners_of(x, pair.vertices);
+    const Vec3 a = c[1] - c[0], b = c[3] - c[2];
+    return a.cross(b).squaredNorm() < k_sine_square * a.squaredNorm() * b.squaredNorm();
+}
+
+// Near a vertex that slides over a surface there are several triangles. Those beside the one below it are near, too, at
+// their borders, and in a direction that is tilted against its way: linear contacts with them would slow it down. A
+// contact at the end of an edge is one of the vertex there.
+std::vector<ContactPair> without_repeated_contacts(const std::vector<ContactPair>& pairs, const Positions& x)
+{
+    std::vector<ContactPair> edges, faces;
+    for (const ContactPair& pair : pairs)
+        if (pair.kind == PairKind::vertex_face)
+            faces.push_back(pair);
+        else if (vertices_at(pair, 0, 2) == 2 && vertices_at(pair, 2, 4) == 2 && !are_parallel(pair, x))
+            edges.push_back(pair);
+    std::stable_sort(faces.begin(), faces.end(), [](const ContactPair& a, const ContactPair& b) {
+        return std::tie(a.vertices[0], a.at.distance) < std::tie(b.vertices[0], b.at.distance);
+    });
+    std::vector<ContactPair> result;
+    std::size_t first = 0;  // of the vertex, in result
+    for (const ContactPair& pair : faces) {
+        if (result.empty() || result.back().vertices[0] != pair.vertices[0])
+            first = result.size();
+        const bool is_repeated = vertices_at(pair, 1, 4) < 3
+            && std::any_of(result.begin() + std::ptrdiff_t(first), result.end(),
+                           [&](const ContactPair& nearer) { return touches_border_of(pair, nearer); });
+        if (!is_repeated)
+            result.push_back(pair);
+    }
+    result.insert(result.end(), edges.begin(), edges.end());
+    return result;
+}
+
 void limit_lengths(Positions& displacements, double longest)
 {
     for (Eigen::Index v = 0; v < displacements.rows(); ++v)
@@ -55,9 +111,10 @@ void limit_lengths(Positions& displacements, double longest)
 
 /// A pair near contact, linear in the positions: distance = normal . (sum of weight * position).
 struct ClothMotion::ActiveContact {
-    const ContactPair* pair;
+    ContactPair pair;
     Vec3 normal;
     double rest_distance;  // m; force begins below it
+    Vec3 stored_slip;  // m, across the normal
 };
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
@@ -103,6 +160,7 @@ void ClothMotion::restore(const Positions& state)
 {
     x_ = state;
     velocity_.setZero();
+    sticking_.clear();
 }
 
 Positions ClothMotion::cloth() const { return weld_.place(x_.topRows(cloth_vertices_)); }
@@ -142,7 +200,7 @@ void ClothMotion::advect(const Positions& cloth, const Positions& obstacle)
 std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const Positions& targets) const
 {
     std::vector<ActiveContact> result;
-    for (const ContactPair& pair : contact_.pairs()) {
+    for (const ContactPair& pair : without_repeated_contacts(contact_.pairs(), x_)) {
         const Vec3 normal = separation(pair.at.weights, corners_of(x_, pair.vertices)) / pair.at.distance;
         double distance = contact_distance(pair.reason);
         if (normal.dot(separation(pair.at.weights, corners_of(targets, pair.vertices))) > k_active_distance * distance)
@@ -150,9 +208,21 @@ std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const 
         if (pair.reason == ContactReason::self)  // sheets that lie closer at rest stay as close
             distance
                 = std::min(distance, closest_points(pair.kind, corners_of(rest_.positions, pair.vertices)).distance);
-        result.push_back({ &pair, normal, distance });
+        result.push_back({ pair, normal, distance, sticking_.stored(pair, normal) });
     }
     return result;
+}
+
+// Whether a contact at the border of a triangle, which is linear in a direction tilted against the way of the vertex,
+// is in truth as far apart as it should be at the targets, and on the same side.
+bool ClothMotion::passes_by(const ActiveContact& contact, const Positions& targets)
+{
+    const ContactPair& pair = contact.pair;
+    if (pair.kind != PairKind::vertex_face || vertices_at(pair, 1, 4) == 3)
+        return false;
+    const Corners corners = corners_of(targets, pair.vertices);
+    const ClosestPoints at = closest_points(pair.kind, corners);
+    return at.distance >= contact.rest_distance && separation(at.weights, corners).dot(contact.normal) > 0;
 }
 
 // A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
@@ -165,9 +235,9 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
     std::vector<SoftConstraint> result;
     for (const ActiveContact& contact : contacts) {
         const Vec3& normal = contact.normal;
-        SoftConstraint constraint { contact.pair->vertices, contact.pair->at.weights,
-                                    Vec3::Zero(),           normal,
-                                    contact_stiffness,      0 };
+        SoftConstraint constraint { contact.pair.vertices, contact.pair.at.weights,
+                                    Vec3::Zero(),          normal,
+                                    contact_stiffness,     0 };
         Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
         for (int k = 0; k < 4; ++k) {
             const int v = constraint.vertices[k];
@@ -179,16 +249,38 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
             }
         }
         const double depth = contact.rest_distance - normal.dot(now);
-        if (depth <= 0)
+        if (depth <= 0 || passes_by(contact, targets))
             continue;
-        const Vec3 slip = (now - before) - (now - before).dot(normal) * normal;
+        const Vec3 slip = contact.stored_slip + (now - before) - (now - before).dot(normal) * normal;
         const double slipped = slip.norm();
         constraint.tangent_stiffness = constraint.normal_stiffness
             * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
-        constraint.target = contact.rest_distance * normal + (before - before.dot(normal) * normal) - obstacle;
+        constraint.target
+            = contact.rest_distance * normal + (before - before.dot(normal) * normal) - contact.stored_slip - obstacle;
         result.push_back(constraint);
     }
     return result;
+}
+
+// The spring of a contact that slides stays stretched as far as friction holds it.
+void ClothMotion::remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before,
+                                 const MotionStep& step)
+{
+    const double friction = step.friction_fraction * material_.friction;
+    std::vector<StickMemory::Slip> slips;
+    for (const ActiveContact& contact : contacts) {
+        const auto& [kind, reason, vertices, at] = contact.pair;
+        const Vec3 now = separation(at.weights, corners_of(x_, vertices)),
+                   moved = now - separation(at.weights, corners_of(before, vertices));
+        const double longest = friction * (contact.rest_distance - contact.normal.dot(now));
+        if (longest <= 0)
+            continue;
+        Vec3 slip = contact.stored_slip + moved - moved.dot(contact.normal) * contact.normal;
+        if (const double length = slip.norm(); length > longest)
+            slip *= longest / length;
+        slips.push_back({ kind, vertices, slip });
+    }
+    sticking_.assign(std::move(slips));
 }
 
 // A single motion uses up only a part of the free distance, so further ones follow as long as they get nearer.
@@ -205,11 +297,11 @@ double ClothMotion::advect_obstacle(const Positions& target)
 }
 
 // The cloth's targets, n x 3, while the obstacle makes these displacements (of all vertices).
-Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& displacements)
+Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& displacements,
+                                       const std::vector<ActiveContact>& contacts)
 {
     const Stopwatch watch(seconds_.solver);
     Positions targets = x_ + displacements;
-    const std::vector<ActiveContact> contacts = find_active_contacts(targets);
     energy_->set_time_step(step.time_step);
     Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
     inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
@@ -217,6 +309,8 @@ Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& 
     for (int i = 0; i < step.iterations; ++i) {
         if (i % k_active_set_period == 0) {
             targets.topRows(cloth_vertices_) = solver.positions();
+            if (i == 0)  // what slides at first goes on to
+                targets.topRows(cloth_vertices_) += step.time_step * velocity_;
             solver.set_constraints(contact_constraints(contacts, targets, step));
         }
         solver.iterate();
@@ -234,11 +328,14 @@ double ClothMotion::advance(const MotionStep& step)
         const Stopwatch watch(seconds_.detection);
         contact_.detect(x_, displacements, contact_margins());
     }
-    displacements.topRows(cloth_vertices_) = minimise_energy(step, displacements) - x_.topRows(cloth_vertices_);
+    const std::vector<ActiveContact> contacts = find_active_contacts(x_ + displacements);
+    displacements.topRows(cloth_vertices_)
+        = minimise_energy(step, displacements, contacts) - x_.topRows(cloth_vertices_);
     limit_lengths(displacements, step.largest_move);
-    const Positions before = x_.topRows(cloth_vertices_);
+    const Positions before = x_;
     move(displacements);
-    velocity_ = (x_.topRows(cloth_vertices_) - before) / step.time_step;
+    velocity_ = (x_ - before).topRows(cloth_vertices_) / step.time_step;
+    remember_slips(contacts, before, step);
     return snap_obstacle(*step.obstacle_target);
 }
 

@@ -15,6 +15,7 @@
 #include "contact.h"
 #include "garmentfit/progress.h"
 #include "prepared_cloth.h"
+#include "stick_memory.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -78,10 +79,13 @@ private:
     Margins contact_margins() const;
     double contact_distance(ContactReason reason) const;
     double snap_obstacle(const Positions& target);
-    Positions minimise_energy(const MotionStep& step, const Positions& displacements);
+    Positions minimise_energy(const MotionStep& step, const Positions& displacements,
+                              const std::vector<ActiveContact>& contacts);
     std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
+    static bool passes_by(const ActiveContact& contact, const Positions& targets);
     std::vector<SoftConstraint> contact_constraints(const std::vector<ActiveContact>& contacts,
                                                     const Positions& targets, const MotionStep& step) const;
+    void remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before, const MotionStep& step);
 
     ClothOptions options_;
     Material material_;
@@ -96,6 +100,7 @@ private:
     std::vector<Tie> sewn_;
     std::optional<ClothEnergy> energy_;  // its factor cannot be assigned
     Positions velocity_;  // of the cloth, m/s
+    StickMemory sticking_;
     ClothSeconds seconds_;
 };
 
