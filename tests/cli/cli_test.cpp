@@ -647,8 +647,8 @@ TEST_F(Slow, SaysWhereAGarmentIsTooSmallAndMarksTheStateItLeaves)
 {
     const auto skirt = garmentfit::MeshFile::read(k_skirt);
     garmentfit::Positions slimmer = skirt.positions();
-    slimmer.col(0) *= 0.8;
-    slimmer.col(2) *= 0.8;
+    slimmer.col(0) *= 0.65;
+    slimmer.col(2) *= 0.65;
     skirt.write(folder / "tight.ply", slimmer);
     const Ended ended
         = run({ "dress", k_body, folder / "tight.ply", "--type", "skirt", "--json", "-o", folder / "result" });
