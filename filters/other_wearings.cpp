@@ -19,16 +19,34 @@ double largest_stretch(const Dressing& end)
     return largest;
 }
 
-// Less is better: what hinders, then how far it came.
-std::pair<int, double> badness(const Scene& scene)
+double furthest_slip(const Dressing& end)
+{
+    double furthest = 0;
+    for (const WornGarment& garment : end.garments)
+        furthest = std::max(furthest, garment.slipped);
+    return furthest;
+}
+
+enum class End { worn, torn_or_slipped, hindered, refused };
+
+// Less is better: how it ended, then how far it came.
+std::pair<End, double> badness(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
     if (!end)
-        return { 3, 0 };
-    const Outcome outcome = outcome_of(*end);
-    if (outcome == Outcome::done)
-        return largest_stretch(*end) > k_torn ? std::make_pair(1, largest_stretch(*end)) : std::make_pair(0, 0.0);
-    return { 2, -end->scale_reached - end->pose_reached };
+        return { End::refused, 0 };
+    if (outcome_of(*end) != Outcome::done)
+        return { End::hindered, -end->scale_reached - end->pose_reached };
+    const bool is_worn = largest_stretch(*end) <= k_torn && furthest_slip(*end) <= k_slipped;
+    return { is_worn ? End::worn : End::torn_or_slipped, is_worn ? 0 : largest_stretch(*end) };
+}
+
+// A less probable way has to be worn as it should. Torn or round the knees it does not beat a more probable one, of
+// which the user is told that the garment is too small.
+bool is_better(const Scene& other, const Scene& present)
+{
+    const auto now = badness(present), then = badness(other);
+    return then < now && (then.first == End::worn || then.first == now.first || now.first == End::refused);
 }
 
 // The garment with the tightest part, or the one that was put on last; without an end, the first.
@@ -66,7 +84,9 @@ std::string reason_against(const Scene& scene)
     if (!found)
         return "its cloth lies across the bones of the body";
     const Dressing& end = *found;
-    return outcome_of(end) == Outcome::done ? "the cloth is stretched too far" : explain(end, names_of(scene));
+    if (outcome_of(end) != Outcome::done)
+        return explain(end, names_of(scene));
+    return largest_stretch(end) > k_torn ? "the cloth is stretched too far" : "it slips down";
 }
 
 }  // namespace
@@ -74,7 +94,7 @@ std::string reason_against(const Scene& scene)
 void try_other_wearings(Scene& scene, const DressingSteps& steps, const Progress& progress)
 {
     std::size_t garment = 0;
-    for (int tried = 0; tried < k_other_wearings && badness(scene).first > 0 && !progress.is_late(); ++tried) {
+    for (int tried = 0; tried < k_other_wearings && badness(scene).first != End::worn && !progress.is_late(); ++tried) {
         const std::size_t at_fault = garment_at_fault(scene);
         if (tried > 0 && at_fault != garment)
             return;  // another garment hinders now
@@ -93,10 +113,10 @@ void try_other_wearings(Scene& scene, const DressingSteps& steps, const Progress
         } catch (const SolverFailure&) {
             return;
         }
-        const bool is_better = badness(other) < badness(scene);
-        Scene& worse = is_better ? scene : other;
+        const bool wins = is_better(other, scene);
+        Scene& worse = wins ? scene : other;
         const Rejected loser = rejected(worse.fits[garment], reason_against(worse));
-        if (is_better) {
+        if (wins) {
             const std::vector<Rejected> before = std::exchange(scene, std::move(other)).fits[garment].rejected;
             auto& all = scene.fits[garment].rejected;
             all.insert(all.begin(), before.begin(), before.end());

@@ -65,7 +65,7 @@ inline constexpr double k_cloth_time_step = 0.02;
 /// Stiffness of contact, in stretch stiffnesses of the cloth, while something is held back. A larger one pushes harder
 /// and takes longer to balance.
 /// fitted: guess, on the house data, by the parts of the body that cloth holds back.
-inline constexpr double k_pushing_contact_stiffness = 3;
+inline constexpr double k_pushing_contact_stiffness = 6;
 /// The same once nothing is held back. A tight garment then still enters the contact distance by less than a
 /// millimetre, and forces balance in half the steps.
 /// fitted: on a sheet at rest on a ball, by the weight it presses with (93 % instead of 52 %), and on the house data.
