@@ -35,6 +35,13 @@ void apply(const Eigen::Isometry3d& transform, Positions& positions)
     positions = (positions * transform.linear().transpose()).rowwise() + transform.translation().transpose();
 }
 
+void apply(const Eigen::Isometry3d& transform, Positions& body, std::vector<WornGarment>& garments)
+{
+    apply(transform, body);
+    for (WornGarment& garment : garments)
+        apply(transform, garment.positions);
+}
+
 /// Carries body and cloth as one to where the target has the root: no cloth has to be moved for that, and what is left
 /// of the path is how the body bends.
 DressedBody carry_to_root(const Rig& rig, DressedBody dressed, const Pose& target)
@@ -45,9 +52,7 @@ DressedBody carry_to_root(const Rig& rig, DressedBody dressed, const Pose& targe
     const Eigen::Isometry3d carry = root_transform(rig, target) * root_transform(rig, dressed.pose).inverse();
     dressed.pose.root_translation = target.root_translation;
     dressed.pose.root_rotation = target.root_rotation;
-    apply(carry, dressed.body);
-    for (WornGarment& garment : dressed.garments)
-        apply(carry, garment.positions);
+    apply(carry, dressed.body, dressed.garments);
     return dressed;
 }
 
@@ -121,9 +126,7 @@ public:
         if (share < 1) {
             const Eigen::Isometry3d carry
                 = root_transform(rig_, slerp(dressed_.pose, target_, share)) * root_transform(rig_, target_).inverse();
-            apply(carry, body);
-            for (WornGarment& garment : garments_)
-                apply(carry, garment.positions);
+            apply(carry, body, garments_);
         }
         keep(share, body);
     }

@@ -24,6 +24,18 @@ ClothOptions with_friction()
     return options;
 }
 
+/// Under gravity and full friction, over an obstacle that stands still.
+MotionStep hanging_step(const Positions& obstacle, int iterations)
+{
+    MotionStep step;
+    step.obstacle_target = &obstacle;
+    step.gravity = k_gravity;
+    step.friction_fraction = 1;
+    step.contact_stiffness = k_settling_contact_stiffness;
+    step.iterations = iterations;
+    return step;
+}
+
 TriangleMesh tilted(TriangleMesh mesh, double angle)
 {
     mesh.positions = (mesh.positions * Eigen::AngleAxisd(-angle, Vec3::UnitZ()).toRotationMatrix().transpose()).eval();
@@ -42,12 +54,7 @@ public:
 
     void go_on(int steps, double time_step, double velocity_kept)
     {
-        MotionStep step;
-        step.obstacle_target = &plane_.positions;
-        step.gravity = k_gravity;
-        step.friction_fraction = 1;
-        step.contact_stiffness = k_settling_contact_stiffness;
-        step.iterations = 40;
+        MotionStep step = hanging_step(plane_.positions, 40);
         step.time_step = time_step;
         step.velocity_kept = velocity_kept;
         for (int i = 0; i < steps; ++i)
@@ -104,12 +111,7 @@ public:
 
     void go_on(int steps)
     {
-        MotionStep step;
-        step.obstacle_target = &drum_.positions;
-        step.gravity = k_gravity;
-        step.friction_fraction = 1;
-        step.contact_stiffness = k_settling_contact_stiffness;
-        step.iterations = 100;
+        MotionStep step = hanging_step(drum_.positions, 100);
         step.velocity_kept = 0.3;
         for (int i = 0; i < steps; ++i)
             motion_.advance(step);
