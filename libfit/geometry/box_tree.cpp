@@ -49,7 +49,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes)
     if (boxes.empty())
         return;
     nodes_.reserve(2 * boxes.size());
-    nodes_.push_back({});
+    nodes_.resize(1);
     build(0, 0, int(boxes.size()), boxes);
     refit(boxes);
 }
@@ -57,7 +57,8 @@ BoxTree::BoxTree(const std::vector<Box>& boxes)
 int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
 {
     if (end - begin <= k_leaf_size) {
-        nodes_[node] = { {}, begin, end - begin };
+        nodes_[node].first = begin;  // refit sets the box
+        nodes_[node].count = end - begin;
         return node;
     }
     Box centres;
@@ -71,7 +72,8 @@ int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
         return ci != cj ? ci < cj : i < j;
     });
     const int children = int(nodes_.size());
-    nodes_[node] = { {}, children, 0 };
+    nodes_[node].first = children;
+    nodes_[node].count = 0;
     nodes_.resize(nodes_.size() + 2);
     build(children, begin, middle, boxes);
     build(children + 1, middle, end, boxes);
