@@ -7,6 +7,7 @@
 
 #include "fields.h"
 #include "fitting.h"
+#include "garmentfit/number_text.h"
 #include "layers.h"
 
 namespace garmentfit::meshlab {
@@ -17,12 +18,9 @@ namespace {
 /// another unit loses no further digits.
 double as_typed(double value)
 {
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general,
-                                   std::numeric_limits<float>::digits10)
-                         .ptr;
+    const std::string digits = rounded_text(value, std::numeric_limits<float>::digits10);
     double typed = value;
-    std::from_chars(digits, end, typed);
+    std::from_chars(digits.data(), digits.data() + digits.size(), typed);
     return typed;
 }
 

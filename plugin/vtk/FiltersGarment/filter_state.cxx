@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_state.h"
 
-#include <sstream>
-
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/warnings.h"
+#include "garmentfit/number_text.h"
 
 #include "vtkDataObject.h"
 #include "vtkPolyData.h"
 
 namespace garmentfit {
 namespace {
-
-std::string text_of_number(double number)
-{
-    std::ostringstream text;
-    text.precision(17);
-    text << number;
-    return text.str();
-}
 
 /// Parameters as plain numbers, to detect changes.
 struct Numbers {
@@ -35,14 +26,11 @@ struct Numbers {
     }
 };
 
-std::string sizes_of_body(const Parameters& p)
-{
-    return p.body_sizes.height ? text_of_number(*p.body_sizes.height) : "auto";
-}
+std::string sizes_of_body(const Parameters& p) { return p.body_sizes.height ? text_of(*p.body_sizes.height) : "auto"; }
 
 std::string sizes_of_garments(const Parameters& p)
 {
-    return text_of_number(p.garment_sizes.scale) + (p.fit.as_placed ? " placed" : "");
+    return text_of(p.garment_sizes.scale) + (p.fit.as_placed ? " placed" : "");
 }
 
 }  // namespace
@@ -183,8 +171,7 @@ Snapshot FilterState::snapshot(double time) const { return snapshot_of(known_.sc
 
 std::vector<std::string> FilterState::warnings() const
 {
-    const auto set = [](std::string_view parameter) { return "set " + std::string(parameter); };
-    std::vector<std::string> lines = warnings_about_layers(known_.scene, known_.garment_names, set);
+    std::vector<std::string> lines = warnings_about_layers(known_.scene, known_.garment_names, set_by_name);
     const Dressing* dressing = final_dressing(known_.scene);
     if (!dressing)
         return lines;

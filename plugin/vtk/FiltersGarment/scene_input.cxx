@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_input.h"
 
-#include <sstream>
-
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/scene_arrays.h"
 #include "garmentfit/filters/snapshot.h"
+#include "garmentfit/number_text.h"
 #include "named_arrays.h"
 #include "polydata.h"
 
@@ -107,12 +106,10 @@ std::string Hints::choice(const std::string& what) const
 
 std::string Hints::on_body() const
 {
-    std::ostringstream text;
-    text.precision(17);
-    text << choice("Unit") << ' ' << choice("Up") << ' ' << choice("Front");
+    std::string text = choice("Unit") + ' ' + choice("Up") + ' ' + choice("Front");
     for (const auto& [name, place] : joints)
-        text << ' ' << name << ' ' << place.transpose();
-    return text.str();
+        text += ' ' + name + ' ' + text_of(place);
+    return text;
 }
 
 std::string Hints::on_garments() const

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "garmentfit/error.h"
+#include "garmentfit/number_text.h"
 
 namespace garmentfit {
 
@@ -48,6 +49,8 @@ struct IsOptional<std::optional<Value>> : std::true_type {
 template <class Value>
 constexpr bool is_optional = IsOptional<std::decay_t<Value>>::value;
 
+constexpr int k_shown_digits = 6;  // unit: more than anybody chooses a parameter by
+
 /// The value as a host would write it: "0.0025", "on", "tshirt", "of the fabric".
 template <class Value>
 std::string text_of(const Value& value, const About& about)
@@ -58,10 +61,10 @@ std::string text_of(const Value& value, const About& about)
         return std::string(about.choices->at(static_cast<std::size_t>(value)));
     } else if constexpr (std::is_same_v<Value, bool>) {
         return value ? "on" : "off";
+    } else if constexpr (std::is_integral_v<Value>) {
+        return std::to_string(value);
     } else {
-        std::ostringstream text;
-        text << value;
-        return text.str();
+        return rounded_text(value, k_shown_digits);
     }
 }
 
@@ -69,18 +72,19 @@ std::string text_of(const Value& value, const About& about)
 template <class Value>
 std::string range_of(const About& about)
 {
-    std::ostringstream text;
     if constexpr (is_optional<Value>) {
         return range_of<typename Value::value_type>(about);
     } else if constexpr (std::is_enum_v<Value>) {
+        std::string text;
         for (const std::string_view choice : *about.choices)
-            text << (text.tellp() > 0 ? ", " : "") << choice;
+            text += (text.empty() ? "" : ", ") + std::string(choice);
+        return text;
     } else if constexpr (std::is_same_v<Value, bool>) {
-        text << "on or off";
+        return "on or off";
     } else {
-        text << about.min << ".." << about.max << (about.unit.empty() ? "" : " ") << about.unit;
+        return rounded_text(about.min, k_shown_digits) + ".." + rounded_text(about.max, k_shown_digits)
+            + (about.unit.empty() ? "" : " ") + std::string(about.unit);
     }
-    return text.str();
 }
 
 /// Reads a value from text. @throws InvalidInput naming the parameter, the text and the range.
