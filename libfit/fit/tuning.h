@@ -194,7 +194,7 @@ inline constexpr double k_lever = 0.2;
 inline constexpr double k_min_gain = 1e-4;  ///< m of energy; smaller gains are no step. guess
 
 /// The paper's E may move a pose, as long as nothing is lost. Shares are of the clearance that covered bones need;
-/// chosen so that E beats the paper's method on nine of the eleven pairs of Table 1 (docs/fit.md).
+/// fitted: so that E beats the paper's method on nine of the eleven pairs of Table 1 (docs/fit.md).
 inline constexpr double k_share_tight = 0.58;  ///< below, the energy alone decides
 inline constexpr double k_share_wide = 0.93;  ///< above, the paper's E has the last word
 inline constexpr double k_share_given_up = 0.05;  ///< at most for the paper's E

@@ -178,7 +178,7 @@ std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const
     const auto normal = hit->second->supporting_plane().orthogonal_vector();
     const double towards = normal * along;
     return Hit { std::sqrt(CGAL::squared_distance(*where, point(from))), towards > 0,
-                 towards / std::sqrt(std::max(normal.squared_length(), 1e-300)),
+                 towards / std::sqrt(std::max(normal.squared_length(), 1e-300)),  // unit: avoids 0 / 0
                  tree_->index[hit->second - tree_->triangles.cbegin()] };
 }
 

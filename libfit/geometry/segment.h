@@ -12,7 +12,8 @@ namespace garmentfit {
 inline Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 {
     const Vec3 axis = b - a;
-    return a + std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0) * axis;
+    return a
+        + std::clamp((p - a).dot(axis) / std::max(axis.squaredNorm(), 1e-300), 0.0, 1.0) * axis;  // unit: avoids 0 / 0
 }
 
 inline double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b)

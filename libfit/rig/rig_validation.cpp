@@ -77,6 +77,7 @@ void check_proportions(const Skeleton& s)
 
 void check_shape(const TriangleMesh& closed)
 {
+    // derived: 1 for a ball
     const double quotient = 36 * std::numbers::pi * std::pow(volume(closed), 2) / std::pow(area(closed), 3);
     if (quotient > k_most_compact)
         throw InvalidInput(ErrorCode::not_human,

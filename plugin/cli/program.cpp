@@ -29,6 +29,7 @@
 namespace garmentfit::cli {
 namespace {
 
+// Exit codes (docs/command-line.md). derived: 130 is what shells give to a program stopped by Ctrl+C, 128 + SIGINT.
 constexpr int k_wrong_input = 2, k_not_certified = 4, k_stopped = 130;
 
 /// What the user says about the body's front, joints and rig.

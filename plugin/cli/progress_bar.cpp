@@ -8,7 +8,7 @@
 namespace garmentfit::cli {
 namespace {
 
-constexpr int k_cells = 30;
+constexpr int k_cells = 30;  // unit: bar, percent and stage fit a line of 80 columns
 
 std::string bar(double fraction, std::string_view stage)
 {

@@ -8,7 +8,7 @@
 namespace garmentfit::meshlab {
 namespace {
 
-// Ends of the colour ramps. The tooltip of Shown map states them.
+// Ends of the colour ramps, a matter of taste. The tooltip of Shown map states them.
 constexpr double k_shown_ease = 0.1;  // m
 constexpr double k_shown_strain = 0.1;
 constexpr double k_shown_pressure = 1000;  // Pa

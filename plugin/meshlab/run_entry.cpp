@@ -16,7 +16,7 @@
 namespace garmentfit::meshlab {
 namespace {
 
-constexpr auto k_between_reports = std::chrono::milliseconds(100);
+constexpr auto k_between_reports = std::chrono::milliseconds(100);  // unit: eyes see no more often
 
 Positions in_layer(const Fitting& fitting, const Positions& in_metres)
 {

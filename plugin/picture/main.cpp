@@ -17,8 +17,8 @@ namespace {
 
 using namespace garmentfit::picture;
 
-constexpr double k_half_turn = 3.14159;  // radians
-constexpr double k_part_turn = 0.7;  // radians; shows a sleeve and the front at once
+constexpr double k_half_turn = 3.14159;  // radians; derived
+constexpr double k_part_turn = 0.7;  // radians; taste: shows a sleeve and the front at once
 
 std::vector<Panel> panels_of(const DressedFolder& folder)
 {

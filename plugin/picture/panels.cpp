@@ -36,6 +36,8 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
+// Looks. No result depends on them; all are matters of taste.
+
 constexpr Colour k_skin { 0.87, 0.68, 0.55 }, k_paper { 1, 1, 1 }, k_ink { 0.15, 0.15, 0.2 };
 constexpr Colour k_cloth[]
     = { { 0.25, 0.47, 0.70 }, { 0.93, 0.69, 0.26 }, { 0.35, 0.60, 0.42 } };  // outer sides, by layer
