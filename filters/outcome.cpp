@@ -102,7 +102,8 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
         text << "the body stopped at " << percent(end.pose_reached) << "% of the path between two poses";
     else
         text << "parts of the body are not in their places";
-    text << held_parts(end) << entered_parts(end);
+    text << held_parts(end) << entered_parts(end)
+         << "; give a wider garment, or a pose with more space between arms, legs and trunk";
     return text.str();
 }
 

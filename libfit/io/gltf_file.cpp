@@ -189,8 +189,8 @@ private:
             std::memcpy(&index, model_.buffers[column.buffer].data.data() + column.offset(i), bytes);
             if (index >= block.positions.count)
                 file_.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i)
-                               + ", names vertex " + std::to_string(index) + " of "
-                               + std::to_string(block.positions.count) + "; export the file again",
+                               + ", refers to vertex " + std::to_string(index) + ", but there are "
+                               + std::to_string(block.positions.count) + ", counted from 0; export the file again",
                            ErrorCode::bad_index);
             indices.push_back(static_cast<int>(index));
         }

@@ -23,8 +23,8 @@ template <class Item>
 const Item& checked(const FileBytes& file, const std::vector<Item>& items, int index, const char* what)
 {
     if (index < 0 || static_cast<std::size_t>(index) >= items.size())
-        file.fail("names " + std::string(what) + " " + std::to_string(index) + " of " + std::to_string(items.size())
-                  + "; export the file again");
+        file.fail("refers to " + std::string(what) + " " + std::to_string(index) + ", but there are "
+                  + std::to_string(items.size()) + ", counted from 0; export the file again");
     return items[index];
 }
 

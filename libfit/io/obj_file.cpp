@@ -36,8 +36,8 @@ int row_named(const FileBytes& file, Span word, Eigen::Index so_far, Eigen::Inde
     const long long row = index < 0 ? so_far + index : index - 1;
     if (row < 0 || row >= all)
         file.fail_at_line_of(word.begin,
-                             "the face names " + std::string(what) + " " + std::to_string(index) + " of "
-                                 + std::to_string(all) + "; export the file again",
+                             "the face refers to " + std::string(what) + " " + std::to_string(index)
+                                 + ", but there are " + std::to_string(all) + "; export the file again",
                              ErrorCode::bad_index);
     return static_cast<int>(row);
 }

@@ -109,8 +109,8 @@ std::vector<int> corners_in(const FileBytes& file, Words& words, int vertices)
         const long long index = words.next_integer();
         if (index < 0 || index >= vertices)
             file.fail_at_line_of(words.at(),
-                                 "the face names vertex " + std::to_string(index) + " of " + std::to_string(vertices)
-                                     + "; export the file again",
+                                 "the face refers to vertex " + std::to_string(index) + ", but there are "
+                                     + std::to_string(vertices) + ", counted from 0; export the file again",
                                  ErrorCode::bad_index);
         corners.push_back(static_cast<int>(index));
     }

@@ -313,8 +313,8 @@ std::vector<int> corners_of(const Body& body, std::size_t face, const std::vecto
     std::vector<int> corners;
     for (const double index : list) {
         if (!(index >= 0 && index < static_cast<double>(vertices)) || index != std::floor(index))
-            body.fail("face " + std::to_string(face) + " names vertex " + text_of(index) + " of "
-                          + std::to_string(vertices) + "; export the file again",
+            body.fail("face " + std::to_string(face) + " refers to vertex " + text_of(index) + ", but there are "
+                          + std::to_string(vertices) + ", counted from 0; export the file again",
                       ErrorCode::bad_index);
         corners.push_back(static_cast<int>(index));
     }

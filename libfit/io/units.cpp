@@ -36,7 +36,7 @@ double metres_per(std::string_view unit)
         if (known.name == unit)
             return known.metres;
     throw InvalidInput(ErrorCode::unknown_name,
-                       "unknown unit '" + std::string(unit) + "'; known are m, dm, cm, mm, in, ft");
+                       "unknown unit '" + std::string(unit) + "'; give m, dm, cm, mm, in or ft");
 }
 
 Vec3 axis_of(std::string_view name)
@@ -45,7 +45,7 @@ Vec3 axis_of(std::string_view name)
     const std::string_view letter = name.substr(is_signed ? 1 : 0);
     if (letter.size() != 1 || letter[0] < 'x' || letter[0] > 'z')
         throw InvalidInput(ErrorCode::unknown_name,
-                           "unknown axis '" + std::string(name) + "'; known are +x, -x, +y, -y, +z, -z");
+                           "unknown axis '" + std::string(name) + "'; give +x, -x, +y, -y, +z or -z");
     return (name[0] == '-' ? -1.0 : 1.0) * Vec3::Unit(letter[0] - 'x');
 }
 

@@ -77,7 +77,8 @@ TEST(DressingOutcome, ComesFromThePoseReachedLast)
     scene.recovered->certified = false;
     scene.recovered->pose_reached = 0.999;
     EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
-              "coat could not be certified: the body stopped at 99% of the path between two poses");
+              "coat could not be certified: the body stopped at 99% of the path between two poses; give a wider "
+              "garment, or a pose with more space between arms, legs and trunk");
 }
 
 TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoSpace)
@@ -91,7 +92,8 @@ TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoSpace)
               "at chest "
               "(held back by 28 mm); the body crosses itself, and no cloth fits between chest and left upper arm (27 "
               "mm deep), "
-              "chest and right upper arm (26 mm deep)");
+              "chest and right upper arm (26 mm deep); give a wider garment, or a pose with more space between arms, "
+              "legs and trunk");
 }
 
 TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)

@@ -224,7 +224,7 @@ TEST_F(Io, SaysWhatCannotBeDoneWithAGltf)
            "\"values\":{\"bufferView\":0}},\"count\":4,\"type\":\"VEC3\",\"min\"",
            "sparse");
     expect("[2,2,2]", "[2,0,2]", "flattens");
-    expect("\"mesh\":0", "\"mesh\":7", "mesh 7 of 1");
+    expect("\"mesh\":0", "\"mesh\":7", "mesh 7, but there are 1");
     expect("\"byteOffset\":12,", "\"byteOffset\":4,", "overlap");
     expect("\"2.0\"", "\"1.0\"", "version");
     expect_complaint("a.gltf", samples::gltf_json("\"uri\":\"none.bin\","), "none.bin");
@@ -247,15 +247,17 @@ TEST_F(Io, SaysWhatIsWrongAndWhere)
     expect_complaint("t.xyz", "hello", "unknown format");
     expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces");
     expect_complaint("a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", "line 2: '1 0 nan' is not finite");
-    expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: the face names vertex 4 of 3");
-    expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4: the face names vertex 0 of 3");
+    expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
+                     "line 4: the face refers to vertex 4, but there are 3");
+    expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n",
+                     "line 4: the face refers to vertex 0, but there are 3");
     expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: the face has 2 corners");
     expect_complaint("a.obj", "v 0 0\nv 1 0 0\n", "line 1: ends too soon");
     expect_complaint("a.obj", "v 0 0 zero\n", "line 1: 'zero' is not a number");
     expect_complaint("a.ply", with(samples::ascii_ply(), "vertex 4", "vertex 2000000000"),
                      "more than the file can hold");
     expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "4 0 1 2 4 42"),
-                     "line 23: face 0 names vertex 4 of 4");
+                     "line 23: face 0 refers to vertex 4, but there are 4, counted from 0");
     expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "2 0 1 42"), "face 0 has 2 corners");
     expect_complaint("a.ply", with(samples::ascii_ply(), "4 0 1 2 3 42", "200 0 1"), "a count of 200");
     expect_complaint("a.ply", with(samples::ascii_ply(), "ascii", "morse"), "line 2: unknown PLY encoding");
