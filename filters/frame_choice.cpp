@@ -18,11 +18,11 @@ FrameGuess apply_choice(FrameGuess guess, const FrameChoice& choice)
 {
     if (choice.unit != "auto") {
         guess.frame.metres_per_unit = metres_per(choice.unit);
-        guess.unit_margin = 1;
+        guess.unit_confidence = 1;
     }
     if (choice.up != "auto") {
         guess.frame.up = axis_of(choice.up);
-        guess.up_margin = 1;
+        guess.up_confidence = 1;
     }
     return guess;
 }
@@ -46,9 +46,10 @@ void set_height(FrameGuess& guess, const Positions& positions, double height)
 {
     const double units = height_of(positions, guess.frame) / guess.frame.metres_per_unit;
     if (!(units > 0))
-        throw InvalidInput(ErrorCode::degenerate_mesh, "height: the body is flat along its up axis; give up, too");
+        throw InvalidInput(ErrorCode::degenerate_mesh,
+                           "height: the body is flat along its up axis; give that axis as up, too");
     guess.frame.metres_per_unit = height / units;
-    guess.unit_margin = 1;
+    guess.unit_confidence = 1;
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
 }
 

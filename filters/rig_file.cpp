@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* k_format = "garmentfit-rig";
-constexpr int k_version = 1;
+constexpr int k_version = 2;  // 1 had margins in place of probabilities and confidences
 
 // ---- values in the file's units and axes -----------------------------------------------------------------------
 
@@ -232,16 +232,19 @@ SkinWeights weights_of(const Json& json)
 
 RigFile rig_file_of(const Json& json)
 {
-    if (json.at("format") != k_format || json.at("version") != k_version)
+    if (json.at("format") != k_format)
+        throw InvalidInput(ErrorCode::unreadable_file, "its format is not " + std::string(k_format));
+    if (const int version = json.at("version").get<int>(); version != k_version)
         throw InvalidInput(ErrorCode::unreadable_file,
-                           "not a " + std::string(k_format) + " of version " + std::to_string(k_version));
+                           "it has version " + std::to_string(version) + ", and this program reads version "
+                               + std::to_string(k_version));
     RigFile contents;
     contents.frame = frame_of(json);
     contents.rig.skeleton = skeleton_of(contents.frame, json);
     contents.rig.radii = radii_of(contents.frame, json);
     contents.rig.up = direction(contents.frame, json.at("trunk_up"));
     contents.rig.front = direction(contents.frame, json.at("front"));
-    contents.rig.side_margin = json.at("side_margin").get<double>();
+    contents.rig.side_confidence = json.at("side_confidence").get<double>();
     if (json.contains("weights"))
         contents.rig.weights = weights_of(json.at("weights"));
     for (const Json& garment : json.value("garments", Json::array()))
@@ -275,6 +278,14 @@ GivenJoints joints_of(const Frame& frame, const Json& json)
     return joints;
 }
 
+/// What the JSON library says, without the name and number of its exception.
+std::string reason_of(const Json::exception& error)
+{
+    const std::string text = error.what();
+    const std::size_t end = text.find("] ");
+    return end == std::string::npos ? text : text.substr(end + 2);
+}
+
 /// @throws InvalidInput naming the file, whatever is wrong in it.
 template <class Read>
 auto read_json(const std::filesystem::path& path, const char* remedy, const Read& read)
@@ -285,7 +296,7 @@ auto read_json(const std::filesystem::path& path, const char* remedy, const Read
     try {
         return read(Json::parse(file));
     } catch (const Json::exception& error) {
-        throw InvalidInput(ErrorCode::unreadable_file, path.string() + ": " + error.what() + "; " + remedy);
+        throw InvalidInput(ErrorCode::unreadable_file, path.string() + ": " + reason_of(error) + "; " + remedy);
     } catch (const InvalidInput& error) {
         throw InvalidInput(error.code(), path.string() + ": " + error.what() + "; " + remedy);
     }
@@ -329,7 +340,7 @@ void write_rig_file(const std::filesystem::path& path, const RigFile& contents)
     put_frame(json, contents.frame);
     json["front"] = direction(contents.frame, contents.rig.front);
     json["trunk_up"] = direction(contents.frame, contents.rig.up);
-    json["side_margin"] = contents.rig.side_margin;
+    json["side_confidence"] = contents.rig.side_confidence;
     json["root"] = point(contents.frame, skeleton.root);
     json["bones"] = bones_of(contents.frame, contents.rig);
     json["tips"] = tips_of(contents.frame, skeleton);
@@ -351,7 +362,7 @@ GivenJoints read_joints(const std::filesystem::path& path, const Frame& frame)
 
 RigFile read_rig_file(const std::filesystem::path& path)
 {
-    return read_json(path, "give a rig.json that garmentfit wrote", rig_file_of);
+    return read_json(path, "write it again: garmentfit rig or fit, or Save Rig in MeshLab", rig_file_of);
 }
 
 RigFile read_whole_rig(const std::filesystem::path& path)

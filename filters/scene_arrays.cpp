@@ -114,7 +114,7 @@ MeshArrays arrays_of(const Rig& rig, const Frame& body)
              { { "RigJoints", rows_of(rig.skeleton) },
                { "RigAxes", axes },
                numbers("RigRadii", { rig.radii.begin(), rig.radii.end() }),
-               numbers("RigSideMargin", { rig.side_margin }),
+               numbers("RigSideConfidence", { rig.side_confidence }),
                frame_array("BodyFrame", body) } };
 }
 
@@ -249,7 +249,7 @@ Rig rig_from(const FindArray& find, const Positions& own)
     rig.up = axes.row(0);
     rig.front = axes.row(1);
     std::copy_n(radii.data(), radii.size(), rig.radii.begin());
-    rig.side_margin = required(find, "RigSideMargin", 1, 1, k_rig_first)(0, 0);
+    rig.side_confidence = required(find, "RigSideConfidence", 1, 1, k_rig_first)(0, 0);
     return rig_on(std::move(rig), own);
 }
 

@@ -6,7 +6,7 @@
 
 namespace garmentfit {
 
-/// Dimensionless, 0 undecided to 1 certain. Guesses with a smaller margin get a warning.
+/// Dimensionless, 0 undecided to 1 certain. Guesses of a smaller confidence get a warning.
 /// fitted: guess, on the twelve pairs of the house data
 inline constexpr double k_low_confidence = 0.2;
 

@@ -77,7 +77,7 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
                                               const std::string& prefix, const HowToSet& set)
 {
     std::vector<std::string> warnings;
-    if (guess.unit_margin < k_low_confidence)
+    if (guess.unit_confidence < k_low_confidence)
         warnings.push_back("the unit of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
                            + set(prefix + "unit"));
     if (guess.scale != 1)
@@ -85,7 +85,7 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
                            + rounded_text(guess.scale, 3) + percent_text(guess.scale_probability) + " (" + guess.why
                            + "); if it is wrong, " + set(prefix + "unit") + ", and " + set(prefix + "scale")
                            + " where the unit is not enough");
-    if (guess.up_margin < k_low_confidence)
+    if (guess.up_confidence < k_low_confidence)
         warnings.push_back("the up axis of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
                            + set(prefix + "up"));
     return warnings;
@@ -144,7 +144,7 @@ std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vec
                                               const HowToSet& set)
 {
     std::vector<std::string> warnings = explain(scene.conflicts, names);
-    if (scene.rig && scene.rig->side_margin < k_low_confidence)
+    if (scene.rig && scene.rig->side_confidence < k_low_confidence)
         warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));
     for (std::size_t i = 0; i < scene.fits.size(); ++i)

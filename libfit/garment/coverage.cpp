@@ -53,9 +53,10 @@ GarmentType name_coverage(CoverageKind kind, const std::vector<Bone>& bones, con
     return GarmentType::automatic;
 }
 
-double name_probability(double margin)
+double name_probability(double confidence)
 {
-    return 1 / (1 + std::exp(-(garment_tuning::k_name_log_odds + garment_tuning::k_name_margin_log_odds * margin)));
+    return 1
+        / (1 + std::exp(-(garment_tuning::k_name_log_odds + garment_tuning::k_name_confidence_log_odds * confidence)));
 }
 
 // The sleeves are those of the openings.
@@ -122,7 +123,7 @@ std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Op
     std::vector<Coverage> coverages;
     if (guess != GarmentType::automatic && (is_given || allows(given, coverage_kind_of(guess))))
         coverages.push_back({ coverage_kind_of(guess), guess, bones_covered_by(guess, openings), true,
-                              is_given ? 1 : name_probability(guessed.margin) });
+                              is_given ? 1 : name_probability(guessed.confidence) });
     else if (given == GarmentType::automatic && openings.size() < k_min_openings)
         throw no_type(openings);
     for (int kind = 0; kind < int(k_coverage_kind_names.size()) && !is_given; ++kind)

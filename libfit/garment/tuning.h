@@ -112,11 +112,11 @@ inline constexpr double k_arm_height = 0.45;
 
 // ---- probability of a name (coverage.cpp) -------------------------------------------------------------------------
 
-/// Log odds that the name is right where the kind of coverage is: constant, and change with the margin of guess_type.
-/// Tops with sleeves are one name. fitted: logistic regression, ridge 0.1 and 1, on the 126 fits of two catalogues
-/// whose kind was the guessed one and right: 125 names were right, and the margin says next to nothing. (Of the exact
-/// names, such as blouse or tshirt, 107 were.)
-inline constexpr double k_name_log_odds = 4.55, k_name_margin_log_odds = -0.17;
+/// Log odds that the name is right where the kind of coverage is: constant, and change with the confidence of
+/// guess_type. Tops with sleeves are one name. fitted: logistic regression, ridge 0.1 and 1, on the 126 fits of two
+/// catalogues whose kind was the guessed one and right: 125 names were right, and the confidence says next to nothing.
+/// (Of the exact names, such as blouse or tshirt, 107 were.)
+inline constexpr double k_name_log_odds = 4.55, k_name_confidence_log_odds = -0.17;
 
 // ---- type (type_guess.cpp) ----------------------------------------------------------------------------------------
 // fitted: guesses, on the garments. Most garments are far from each limit, see the figures.
@@ -129,8 +129,8 @@ inline constexpr double k_armhole_normal = 0.15;
 inline constexpr double k_armhole_length = 0.25;
 /// Length in girths: a sleeve to the elbow has 0.5, to the wrist 1.4.
 inline constexpr double k_long_sleeve = 0.9;
-/// Relative distance from a limit at which the margin of a decision is 1 (a reciprocal).
-inline constexpr double k_margin_slope = 2;
+/// Relative distance from a limit at which the confidence of a decision is 1 (a reciprocal).
+inline constexpr double k_confidence_slope = 2;
 /// Height of a jumpsuit in lengths of its legs; length in girths of the legs of trousers.
 inline constexpr double k_jumpsuit_height = 1.5, k_trouser_length = 1.0;
 /// Length of a coat's skirts below the arms in widths of the chest; horizontal part of the normal of a jacket's open

@@ -42,12 +42,12 @@ struct Piece {
     std::vector<Opening> others;  // neck, hem, waist, an open front
     double height = 0;  // m
     double middle = 0;  // m, y that separates arms from legs
-    double margin = 1;  // smallest margin of all decisions
+    double confidence = 1;  // smallest confidence of all decisions
 
-    /// Whether `value` is above `threshold`; reduces the margin if it is close.
+    /// Whether `value` is above `threshold`; reduces the confidence if it is close.
     bool above(double value, double threshold)
     {
-        margin = std::min(margin, k_margin_slope * std::abs(value - threshold) / threshold);
+        confidence = std::min(confidence, k_confidence_slope * std::abs(value - threshold) / threshold);
         return value > threshold;
     }
 };
@@ -348,7 +348,7 @@ TypeGuess guess_type(const std::vector<Opening>& openings)
             continue;
         (is_for_legs(*type) ? legs : tops) = true;
         if (piece.height > largest)
-            guess = { *type, std::min(1.0, piece.margin) };
+            guess = { *type, std::min(1.0, piece.confidence) };
         largest = std::max(largest, piece.height);
     }
     if (legs && tops)

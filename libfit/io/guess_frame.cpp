@@ -105,11 +105,11 @@ double uprightness(const Samples& samples, const Vec3& up)
 double log_likelihood(double evidence) { return -std::log1p(std::exp(-2 * evidence)); }
 
 /// From 0, two logarithms of likelihood are equal, towards 1, they are far apart.
-double margin_between(double best, double second) { return 1 - std::exp(second - best); }
+double confidence_between(double best, double second) { return 1 - std::exp(second - best); }
 
 struct Ranked {
     int best = 0, second = 0;
-    double margin = 0;
+    double confidence = 0;  ///< of the first: 0 = several are equally likely, 1 = certain
 };
 
 template <std::size_t count>
@@ -119,7 +119,7 @@ Ranked rank(const std::array<double, count>& scores)
     for (std::size_t i = 0; i < count; ++i)
         order[i] = static_cast<int>(i);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return scores[a] > scores[b]; });
-    return { order[0], order[1], margin_between(scores[order[0]], scores[order[1]]) };
+    return { order[0], order[1], confidence_between(scores[order[0]], scores[order[1]]) };
 }
 
 Ranked rank_axes(const Samples& samples, const Shape& shape)
@@ -190,14 +190,14 @@ FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangl
     const Ranked axis = rank_axes(samples, shape_of(samples));
     FrameGuess guess;
     guess.frame.up = axis_of(k_axes[axis.best]);
-    guess.up_margin = axis.margin;
+    guess.up_confidence = axis.confidence;
 
     const double stature = samples.box.sizes().dot(guess.frame.up.cwiseAbs());
     const Ranked unit = rank_units(stature, k_usual_stature, k_stature_spread, k_least_stature, k_largest_stature);
     guess.frame.metres_per_unit = k_known_units[unit.best].metres;
     const double metres = stature * guess.frame.metres_per_unit;
     const bool is_plausible = metres >= k_least_stature && metres <= k_largest_stature;
-    guess.unit_margin = is_plausible ? unit.margin : 0;
+    guess.unit_confidence = is_plausible ? unit.confidence : 0;
     guess.why = "the body is " + text_of_length(stature) + " units tall along " + std::string(k_axes[axis.best])
         + ", read as " + std::string(k_known_units[unit.best].name) + " that is " + text_of_length(metres) + " m"
         + (is_plausible ? "" : ", which no human is: give the unit yourself");
@@ -217,10 +217,10 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
     if (as_body < k_least_garment || as_body > k_largest_garment) {
         const Ranked unit = rank_units(longest, k_usual_garment, k_garment_spread, k_least_garment, k_largest_garment);
         guess.frame.metres_per_unit = k_known_units[unit.best].metres;
-        guess.unit_margin = unit.margin;
+        guess.unit_confidence = unit.confidence;
     } else {
-        guess.unit_margin = margin_between(std::log(k_largest_garment / k_usual_garment),
-                                           std::abs(std::log(as_body / k_usual_garment)));
+        guess.unit_confidence = confidence_between(std::log(k_largest_garment / k_usual_garment),
+                                                   std::abs(std::log(as_body / k_usual_garment)));
     }
 
     const Vec3 other = std::abs(body.up.y()) > 0.5 ? Vec3::UnitZ() : Vec3::UnitY();
@@ -229,7 +229,7 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
     const double least = guess.frame.metres_per_unit == body.metres_per_unit ? k_clear_preference : 0;
     if (other_is_better > least)
         guess.frame.up = other;
-    guess.up_margin = margin_between(std::abs(other_is_better - least), 0);
+    guess.up_confidence = confidence_between(std::abs(other_is_better - least), 0);
     guess.why = "the garment's longest side is " + text_of_length(longest) + " units, "
         + text_of_length(longest * guess.frame.metres_per_unit) + " m in " + unit_name(guess.frame.metres_per_unit)
         + (guess.frame.metres_per_unit == body.metres_per_unit ? " like the body" : " unlike the body")

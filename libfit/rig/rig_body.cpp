@@ -124,7 +124,7 @@ VisibleRig find_bones(const TriangleMesh& proxy, const RigOptions& options, cons
     found.rig.skeleton = correct(build_skeleton(joints, sides), options.joints);
     found.rig.up = sides.up;
     found.rig.front = sides.front;
-    found.rig.side_margin = sides.margin;
+    found.rig.side_confidence = sides.confidence;
     return found;
 }
 
@@ -137,7 +137,7 @@ VisibleRig take_given_bones(const TriangleMesh& proxy, const GivenJoints& joints
     const Skeleton& s = given.rig.skeleton = skeleton_of(joints);
     given.rig.up = (s.tail(thorax) - s.root).normalized();
     given.rig.front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(given.rig.up).normalized();
-    given.rig.side_margin = 1;
+    given.rig.side_confidence = 1;
     return given;
 }
 

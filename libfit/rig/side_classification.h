@@ -11,13 +11,13 @@ namespace garmentfit {
 struct Sides {
     Vec3 up, front;  ///< of the trunk, unit, square to each other
     int left_arm = 0, left_leg = 0;  ///< rows of BodyJoints::arms and legs
-    double margin = 0;  ///< of the evidence: 0 = low confidence, 1 = all cues agree
+    double confidence = 0;  ///< of the evidence: 0 = low confidence, 1 = all cues agree
 };
 
 /// A human is nearly mirror symmetric, so front and back are classified by weighted evidence: toes point forward, knees
 /// flex back, hips and elbows flex forward, the face is in front of the neck. Each cue is transported along its limb to
 /// the trunk without twist. O(n).
-/// @param known_front  replaces all cues. The margin then says how well the found limbs agree with it.
+/// @param known_front  replaces all cues. The confidence then says how well the found limbs agree with it.
 Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_front = {});
 
 }  // namespace garmentfit

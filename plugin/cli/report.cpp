@@ -38,9 +38,9 @@ Json vector_of(const Vec3& v) { return Json { v.x(), v.y(), v.z() }; }
 Json guess_of(const FrameGuess& guess)
 {
     return { { "metres_per_unit", guess.frame.metres_per_unit },
-             { "unit_margin", guess.unit_margin },
+             { "unit_confidence", guess.unit_confidence },
              { "up", vector_of(guess.frame.up) },
-             { "up_margin", guess.up_margin },
+             { "up_confidence", guess.up_confidence },
              { "why", guess.why } };
 }
 
@@ -54,7 +54,7 @@ Json body_of(const Session& session)
     json["height"] = height_of(body.file.positions(), body.frame.frame);
     if (const auto& rig = session.scene.rig) {
         json["front"] = vector_of(body.frame.frame.rotation().transpose() * rig->front);
-        json["front_margin"] = rig->side_margin;
+        json["front_confidence"] = rig->side_confidence;
     }
     return json;
 }

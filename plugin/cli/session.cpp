@@ -94,7 +94,7 @@ void read_skinned(Session& session, const fs::path& glb)
     std::transform(rig.skeleton.tips.begin(), rig.skeleton.tips.end(), rig.skeleton.tips.begin(), in_metres);
     rig.up = (rig.skeleton.tail(thorax) - rig.skeleton.root).normalized();
     rig.front = (rig.skeleton.tail(lhipjoint) - rig.skeleton.tail(rhipjoint)).cross(rig.up).normalized();
-    rig.side_margin = 1;
+    rig.side_confidence = 1;
     session.scene.rig = rig_on(std::move(rig), session.scene.body->surface.positions, glb.string());
 }
 

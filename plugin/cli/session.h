@@ -19,13 +19,13 @@ struct BodyFile {
     std::filesystem::path path;
     MeshFile file;
     Triangles triangles;  ///< of the file, or reconstructed from its points
-    FrameGuess frame;  ///< margins are 1 where the user said it
+    FrameGuess frame;  ///< confidences are 1 where the user said it
 };
 
 struct GarmentFile {
     std::filesystem::path path;
     MeshFile file;  ///< as given, off the body
-    FrameGuess frame;  ///< margins are 1 where the user said it
+    FrameGuess frame;  ///< confidences are 1 where the user said it
     std::optional<GarmentChoice> choice = {};  ///< none where a folder of an earlier step was read
 
     std::string name() const { return path.filename().string(); }

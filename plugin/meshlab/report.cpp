@@ -13,7 +13,7 @@ void report_scene(Report& report, const Fitting& fitting)
 {
     const Scene& scene = fitting.scene;
     report.warn(warnings_about_scene(scene, fitting.garment_names, set_by_name));
-    report.numbers["side_margin"] = scene.rig->side_margin;
+    report.numbers["side_confidence"] = scene.rig->side_confidence;
     const Dressing* end = final_dressing(scene);
     for (std::size_t i = 0; i < scene.fits.size(); ++i) {
         const std::string& name = fitting.garment_names[i];

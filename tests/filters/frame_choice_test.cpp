@@ -19,8 +19,8 @@ TEST(FrameChoice, PutsWhatTheUserSaysBeforeTheGuess)
     const FrameGuess guess = body_frame(person().positions, person().triangles, { "in", "-z" });
     EXPECT_EQ(guess.frame.metres_per_unit, 0.0254);
     EXPECT_EQ(guess.frame.up, -Vec3::UnitZ());
-    EXPECT_EQ(guess.unit_margin, 1);
-    EXPECT_EQ(guess.up_margin, 1);
+    EXPECT_EQ(guess.unit_confidence, 1);
+    EXPECT_EQ(guess.up_confidence, 1);
 }
 
 TEST(FrameChoice, UnderstandsAllThatItOffers)
@@ -38,7 +38,7 @@ TEST(FrameChoice, MakesABodyAsTallAsItIsSaidToBe)
     const Positions in_cm = 100 * mesh.positions;
     const FrameGuess guess = body_frame(in_cm, mesh.triangles, { { "mm", "+y" }, 1.2 });
     EXPECT_NEAR(height_of(in_cm, guess.frame), 1.2, 1e-12) << "the height overrides the unit";
-    EXPECT_EQ(guess.unit_margin, 1);
+    EXPECT_EQ(guess.unit_confidence, 1);
     EXPECT_NE(guess.why.find("1.2 m as given"), std::string::npos) << guess.why;
     EXPECT_EQ(garment_frame(in_cm, mesh.triangles, guess.frame).frame.metres_per_unit, 0.01)
         << "garments keep their own scale";

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/filters/rig_file.h"
 
+#include <fstream>
+#include <sstream>
+
 #include "garmentfit/error.h"
 #include "temporary_folder.h"
 
@@ -53,6 +56,22 @@ TEST_F(RigFiles, SayWhichVertexHasAWeightOutOfRange)
     write_rig_file(folder / "man.rig.json", contents);
     EXPECT_NE(message_of(folder / "man.rig.json").find("vertex 1 has a bone or a weight out of range"),
               std::string::npos);
+}
+
+TEST_F(RigFiles, OfAnotherVersionAreRefusedByTheirVersionAndNotByAMissingKey)
+{
+    write_rig_file(folder / "man.rig.json", small_rig());
+    std::stringstream whole;
+    whole << std::ifstream(folder / "man.rig.json").rdbuf();
+    std::string text = whole.str();
+    const std::string current = "\"version\":2", key = "side_confidence";
+    ASSERT_NE(text.find(current), std::string::npos);
+    text.replace(text.find(current), current.size(), "\"version\":1");
+    text.replace(text.find(key), key.size(), "side_margin");
+    std::ofstream(folder / "man.rig.json") << text;
+    const std::string message = message_of(folder / "man.rig.json");
+    EXPECT_NE(message.find("has version 1, and this program reads version 2; write it again"), std::string::npos)
+        << message;
 }
 
 TEST_F(RigFiles, WithoutWeightsNeedThemBesideThem)

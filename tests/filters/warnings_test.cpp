@@ -12,7 +12,7 @@ using Lines = std::vector<std::string>;
 Scene worn_scene()
 {
     Scene scene;
-    scene.rig.emplace().side_margin = 1;
+    scene.rig.emplace().side_confidence = 1;
     scene.fits.resize(2);
     for (FitResult& fit : scene.fits)
         fit.type_probability = 1;
@@ -33,7 +33,7 @@ TEST(Warnings, AreNoneWhereEverythingIsSure)
 TEST(Warnings, SayWhichParameterSettlesThem)
 {
     Scene scene = worn_scene();
-    scene.rig->side_margin = 0.1;
+    scene.rig->side_confidence = 0.1;
     scene.fits[1].type = GarmentType::coat;
     scene.fits[1].type_probability = 0.1;
     EXPECT_EQ(warnings_of(scene),

@@ -83,9 +83,9 @@ TEST(Units, FindsUnitAndUpAxisOfABodyInAnyPose)
                 EXPECT_EQ(guess.frame.up, frame.up) << person.name << up << unit << ": " << guess.why;
                 EXPECT_EQ(guess.frame.metres_per_unit, frame.metres_per_unit)
                     << person.name << up << unit << ": " << guess.why;
-                EXPECT_GT(guess.unit_margin, 0);
-                EXPECT_GT(guess.up_margin, 0);
-                EXPECT_LE(guess.up_margin, 1);
+                EXPECT_GT(guess.unit_confidence, 0);
+                EXPECT_GT(guess.up_confidence, 0);
+                EXPECT_LE(guess.up_confidence, 1);
             }
     }
 }
@@ -113,9 +113,9 @@ TEST(Units, SaysSoWhenNoUnitMakesAHuman)
 {
     const TriangleMesh& mesh = standing_person();
     const FrameGuess guess = guess_body_frame(1e-6 * mesh.positions, mesh.triangles);
-    EXPECT_EQ(guess.unit_margin, 0);
+    EXPECT_EQ(guess.unit_confidence, 0);
     EXPECT_NE(guess.why.find("no human"), std::string::npos) << guess.why;
-    EXPECT_EQ(guess_body_frame(Positions(), Triangles()).unit_margin, 0);
+    EXPECT_EQ(guess_body_frame(Positions(), Triangles()).unit_confidence, 0);
 }
 
 /// An open tube with two open tubes for sleeves, 1.2 m wide, 0.7 m tall and 0.3 m deep.

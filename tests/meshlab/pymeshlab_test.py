@@ -65,7 +65,7 @@ class GarmentFitting(unittest.TestCase):
         self.assertEqual(labels(meshes), ["walking_woman.ply", "walking_woman rigged", "walking_woman skeleton"])
         self.assertEqual(meshes.current_mesh_id(), 0)
         numpy.testing.assert_array_equal(meshes.mesh(0).vertex_matrix(), given)
-        self.assertGreater(numbers["side_margin"], 0.5)
+        self.assertGreater(numbers["side_confidence"], 0.5)
         self.assertEqual(meshes.mesh(2).edge_number(), 22)
         weights = [meshes.mesh(1).vertex_custom_scalar_attribute_array(f"weight{slot}") for slot in range(4)]
         numpy.testing.assert_allclose(sum(weights), 1, atol=1e-12)

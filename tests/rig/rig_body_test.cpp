@@ -81,7 +81,7 @@ TEST_P(RigBodyInPose, FindsSidesAndJointsInsideTheBody)
 
     EXPECT_GT(rig.up.y(), 0.95);
     EXPECT_GT(rig.front.z(), 0.95);
-    EXPECT_GT(rig.side_margin, 0.3);
+    EXPECT_GT(rig.side_confidence, 0.3);
 
     EXPECT_GT(winding_number(person.mesh, rig.skeleton.root), 0.5);
     for (int bone = 0; bone < bone_count; ++bone)
@@ -221,7 +221,7 @@ TEST(RigBody, FacesTheGivenFront)
     const Rig rig = rig_body(body, options);
     EXPECT_LT(rig.front.z(), -0.95);
     EXPECT_LT(rig.skeleton.tail(lfemur).x(), 0);
-    EXPECT_GT(rig.side_margin, 0.95);
+    EXPECT_GT(rig.side_confidence, 0.95);
 }
 
 TEST(RigBody, IsAsGoodFarFromTheOrigin)

@@ -31,7 +31,7 @@ TEST(SideClassification, FindsTheLeftLimbsInEitherOrder)
         EXPECT_EQ(sides.left_arm, left);
         EXPECT_EQ(sides.left_leg, left);
         EXPECT_GT(sides.front.z(), 0.95);
-        EXPECT_GT(sides.margin, 0.5);
+        EXPECT_GT(sides.confidence, 0.5);
     }
 }
 
@@ -49,7 +49,7 @@ TEST(SideClassification, AGivenFrontReplacesTheCues)
     const Sides sides = classify_sides(joints_of(fixtures::person_skeleton({}), 0), Vec3(0, 0, -1));
     EXPECT_EQ(sides.left_leg, 1);
     EXPECT_LT(sides.front.z(), -0.95);
-    EXPECT_GT(sides.margin, 0.95);
+    EXPECT_GT(sides.confidence, 0.95);
 }
 
 TEST(SideClassification, StraightLimbsWithoutFeetGiveNoEvidence)
@@ -59,7 +59,7 @@ TEST(SideClassification, StraightLimbsWithoutFeetGiveNoEvidence)
         leg.middle = 0.5 * (leg.root + leg.end);
         leg.tip = leg.end;
     }
-    EXPECT_LT(classify_sides(joints).margin, 0.2);
+    EXPECT_LT(classify_sides(joints).confidence, 0.2);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
  * - point data `JointIndices`, `JointWeights` (4 components each): skin weights, the bones of a vertex and their
  *   weights
  * - point data `InputPosition`: the points of the input, where they were moved
- * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideMargin`, `FitPoses`, `FitLayers`, `DressedPose`: in metres
- *   with +y up; `BodyFrame`: metres per unit and the up axis of the input
+ * - field data `RigJoints`, `RigAxes`, `RigRadii`, `RigSideConfidence`, `FitPoses`, `FitLayers`, `DressedPose`: in
+ *   metres with +y up; `BodyFrame`: metres per unit and the up axis of the input
  * - field data after a fit of several garments: `OnePose`; `ConflictBone`, `ConflictGarments`, `ConflictAngle`
  *   (degrees)
  * - field data of a dressed body: `Certified`, `ScaleReached`, `PoseReached`, `Speed` (m/s, of the cloth's fastest

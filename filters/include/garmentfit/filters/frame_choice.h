@@ -32,7 +32,7 @@ struct GarmentChoice : FrameChoice {
 const std::vector<std::string_view>& unit_choices();
 const std::vector<std::string_view>& axis_choices();
 
-/// What the user says, and a guess of the rest; margins are 1 where the user said it. @throws InvalidInput.
+/// What the user says, and a guess of the rest; confidences are 1 where the user said it. @throws InvalidInput.
 FrameGuess body_frame(const Positions& positions, const Triangles& triangles, const BodyChoice& choice = {});
 /// The same for a garment, given the body's frame. A body whose height was given may have any scale; its garments are
 /// taken to be in the nearest known unit. A garment whose parts fit the body in no unit is scaled until they do, where

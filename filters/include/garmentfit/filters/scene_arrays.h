@@ -36,7 +36,7 @@ struct MeshArrays {
 
 // ---- written --------------------------------------------------------------------------------------------------------
 
-/// Of the body: JointIndices, JointWeights; RigJoints, RigAxes, RigRadii, RigSideMargin, BodyFrame.
+/// Of the body: JointIndices, JointWeights; RigJoints, RigAxes, RigRadii, RigSideConfidence, BodyFrame.
 MeshArrays arrays_of(const Rig& rig, const Frame& body);
 /// Of the body: FitPoses, FitLayers, and where several garments were asked for one pose: OnePose, ConflictBone,
 /// ConflictGarments, ConflictAngle (degrees).

@@ -54,11 +54,11 @@ GARMENTFIT_API bool is_coarse(GarmentType type);
 
 struct TypeGuess {
     GarmentType type = GarmentType::automatic;
-    double margin = 0;  ///< of the evidence: 0 = low confidence, 1 = far from every limit. Not a probability.
+    double confidence = 0;  ///< of the evidence: 0 = low confidence, 1 = far from every limit. Not a probability.
 };
 
-/// Guesses the type from openings and the tubes that lead to them. Returns `automatic` with margin 0 when a body does
-/// not fit through the openings. Cost O(n log n).
+/// Guesses the type from openings and the tubes that lead to them. Returns `automatic` with confidence 0 when a body
+/// does not fit through the openings. Cost O(n log n).
 GARMENTFIT_API TypeGuess guess_garment_type(const GarmentMesh& garment);
 
 /// The bones that a type covers; none for `automatic` and coarse words.

@@ -32,7 +32,7 @@ GARMENTFIT_API Vec3 axis_of(std::string_view name);
 
 struct FrameGuess {
     Frame frame;
-    double unit_margin = 0, up_margin = 0;  ///< confidence, from 0 (several are equally likely) to 1 (certain)
+    double unit_confidence = 0, up_confidence = 0;  ///< 0: several are equally likely, 1: certain; no probabilities
     std::string why;  ///< one sentence for the user
     /// Of a garment that fits the body in no unit: what its unit was multiplied by; contained in the frame. And the
     /// probability that this scale, or 1, is right.

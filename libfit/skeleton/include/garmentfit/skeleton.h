@@ -112,7 +112,7 @@ struct Rig {
     Vec3 up = Vec3::UnitY();  ///< of the trunk, unit: from pelvis to neck
     Vec3 front = Vec3::UnitZ();  ///< of the trunk, unit: where the chest faces
     /// Evidence for left and right: 0 = low confidence, 1 = all cues agree. Not a probability.
-    double side_margin = 0;
+    double side_confidence = 0;
     /// m, radius of the limb around each bone, from bone_radii; 0 = unknown, then estimated from the leg's length.
     std::array<double, bone_count> radii {};
 };
