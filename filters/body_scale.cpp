@@ -81,6 +81,9 @@ void scale_measures(Dressing& dressing, double factor)
         overlap.depth *= factor;
     for (FitMap& map : dressing.maps)
         map.ease *= factor;
+    for (std::vector<PartLoad>& loads : dressing.loads)
+        for (PartLoad& load : loads)
+            load.girth *= factor;
     for (std::vector<Girth>& girths : dressing.girths)
         for (Girth& girth : girths) {
             girth.body *= factor;

@@ -131,6 +131,7 @@ Dressing among_all(Dressing some, const std::vector<std::size_t>& which, std::si
     spread(some.maps, which, count);
     spread(some.girths, which, count);
     spread(some.overstretches, which, count);
+    spread(some.loads, which, count);
     for (RecoverFrame& frame : some.frames)
         spread(frame.garments, which, count);
     return some;
@@ -201,14 +202,37 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
 {
     const TriangleMesh body { dressing.body, scene.body->surface.triangles };
     const Skeleton skeleton = pose_skeleton(scene.rig->skeleton, dressing.pose);
+    dressing.spikes = find_spikes(*scene.rig, *scene.body, dressing);
+    dressing.spiked_share = dressing.spikes.edges / (1.5 * double(scene.body->surface.triangles.rows()));
+    dressing.loads.clear();
     dressing.maps.clear();
     dressing.girths.clear();
     dressing.overstretches.clear();
     for (const WornGarment& garment : dressing.garments) {
         dressing.maps.push_back(fit_map(body, garment, cloth));
         dressing.girths.push_back(girths(skeleton, scene.rig->weights, body, garment));
-        dressing.overstretches.push_back(overstretch(scene.rig->weights, dressing.body, garment));
+        const double limit = std::max(k_overstretched, material_of(garment.fabric.value_or(cloth.fabric)).strain_limit);
+        dressing.overstretches.push_back(overstretch(scene.rig->weights, dressing.body, garment, limit));
+        dressing.loads.push_back(part_loads(skeleton, scene.rig->weights, dressing.body, garment, cloth));
     }
+}
+
+/// What the scene's garments are made of.
+void write_fabrics(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
+{
+    dressing.fabrics.clear();
+    dressing.fabric_stretches.clear();
+    for (const GarmentInput& garment : scene.garments) {
+        dressing.fabrics.push_back(garment.fabric.value_or(cloth.fabric));
+        dressing.fabric_stretches.push_back(material_of(cloth, dressing.fabrics.back()).largest_stretch);
+    }
+}
+
+/// The options of one garment among several.
+DrapeOptions options_for(const GarmentInput& garment, DrapeOptions options)
+{
+    options.cloth.fabric = garment.fabric.value_or(options.cloth.fabric);
+    return options;
 }
 
 std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
@@ -243,11 +267,14 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
             break;
         dressing.pose = pose;
         const DrapeResult result = for_garment(scene, order[layer], [&](std::size_t i) {
-            return drape_garment(*scene.rig, *scene.body, dressing, scene.garments[i].mesh, p.drape,
-                                 slice.part(layer > 0 ? 0.3 : 0, 1));
+            return drape_garment(*scene.rig, *scene.body, dressing, scene.garments[i].mesh,
+                                 options_for(scene.garments[i], p.drape), slice.part(layer > 0 ? 0.3 : 0, 1));
         });
         const ClothSeconds before = dressing.seconds;
+        const std::size_t worn_before = dressing.garments.size();
         dressing = dressing_of(result);
+        if (dressing.garments.size() > worn_before)
+            dressing.garments.back().fabric = scene.garments[order[layer]].fabric;
         dressing.too_tight = among_all(result.too_tight, order);
         dressing.outermost = order[layer];
         dressing.seconds += before;
@@ -256,6 +283,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     }
     measure(scene, dressing, p.drape.cloth);
     scene.draped = among_all(dressing, order, order.size());
+    write_fabrics(scene, *scene.draped, p.drape.cloth);
 }
 
 /// Without fits, the garments are in the order in which they were given.
@@ -271,11 +299,14 @@ std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
     const std::vector<std::size_t> worn = worn_from_inside_out(scene);
-    Dressing recovered
-        = move_to_pose(scene, select(*scene.draped, worn), worn, Pose(), p.recover, Stage::recover, progress);
+    Dressing draped = select(*scene.draped, worn);
+    for (std::size_t k = 0; k < worn.size(); ++k)
+        draped.garments[k].fabric = scene.garments[worn[k]].fabric;
+    Dressing recovered = move_to_pose(scene, draped, worn, Pose(), p.recover, Stage::recover, progress);
     measure(scene, recovered, p.recover.cloth);
     recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
+    write_fabrics(scene, *scene.recovered, p.recover.cloth);
 }
 
 // ---- the tables ------------------------------------------------------------------------------------------------

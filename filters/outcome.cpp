@@ -7,8 +7,10 @@
 #include <sstream>
 #include <utility>
 
+#include "garmentfit/filters/verdict.h"
 #include "garmentfit/number_text.h"
 #include "garmentfit/units.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -51,12 +53,26 @@ std::string entered_parts(const Dressing& dressing)
     return text.str();
 }
 
+/// The one with the tightest part, or the one that was to be put on.
+std::size_t garment_too_small(const Dressing& end)
+{
+    return end.too_tight.empty() ? end.outermost : std::size_t(end.too_tight.front().garment);
+}
+
+std::string why_spikes(const Dressing& end, const std::string& name)
+{
+    std::string text = name + " could not be certified: ";
+    return end.spiked_share > k_spiked_share
+        ? text + "it holds parts of the body far from where they belong, at " + end.spikes.part
+        : text + "its cloth is drawn out to several times its length, so it is caught";
+}
+
 std::string why_too_small(const Dressing& end, const std::vector<std::string>& names)
 {
     const std::vector<TooTight> parts = tight_parts(end);
+    const std::size_t garment = garment_too_small(end);
     std::ostringstream text;
-    text << names[parts.empty() ? end.outermost : parts.front().garment] << " is too small"
-         << (end.scale_reached < 1 ? "" : " for the input pose");
+    text << names[garment] << " is too small" << (end.scale_reached < 1 ? "" : " for the input pose");
     double enlargement = 0;
     for (const TooTight& part : parts) {
         text << (enlargement > 0 ? ", " : ": it lacks ") << millimetres(part.missing_girth) << " of girth at "
@@ -67,6 +83,9 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
         text << "; a body of " << percent(end.scale_reached) << "% of the thickness would fit";
     if (!parts.empty())
         text << "; a garment " << std::ceil(100 * enlargement) << "% larger would not be stretched there";
+    if (const std::optional<Fabric> fabric = fabric_that_would_do(end, garment))
+        text << "; in " << fabric_names()[static_cast<int>(*fabric)] << ", which gives "
+             << std::lround(100 * material_of(*fabric).largest_stretch) << "%, it would do";
     return text.str();
 }
 
@@ -88,6 +107,8 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
     const auto crossing = std::find_if_not(end.garments.begin(), end.garments.end(),
                                            [](const WornGarment& g) { return g.certificate.clean(); });
     const bool clean = crossing == end.garments.end();
+    if (clean && !end.out_of_time && ends_in_spikes(end, garment_too_small(end)))
+        return why_spikes(end, names[garment_too_small(end)]);
     std::ostringstream text;
     text << names[clean ? end.outermost : crossing - end.garments.begin()] << " could not be certified: ";
     if (!clean) {
@@ -140,7 +161,8 @@ Outcome outcome_of(const Dressing& end)
         return Outcome::done;
     if (end.out_of_time && (end.scale_reached < 1 || end.pose_reached < 1))
         return Outcome::not_certified;
-    const bool too_small = end.scale_reached < 1 || (!end.too_tight.empty() && all_clean(end.garments));
+    const bool too_small
+        = is_too_small(end, garment_too_small(end)) && (end.scale_reached < 1 || all_clean(end.garments));
     return too_small ? Outcome::too_small : Outcome::not_certified;
 }
 

@@ -8,6 +8,7 @@
 #include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "garmentfit/filters/warnings.h"
 
 namespace garmentfit {
@@ -172,6 +173,24 @@ MeshArrays arrays_of(const FitResult& fit)
                numbers("FoundTypeProbability", { fit.type_probability }) } };
 }
 
+/// How it fits, in words and by place.
+std::vector<NamedArray> verdict_arrays(const Dressing& dressing, std::size_t garment)
+{
+    const std::optional<FitVerdict> verdict = fit_verdict(dressing, garment);
+    if (!verdict)
+        return {};
+    const auto& places = verdict->places;
+    const std::string fabric
+        = verdict->would_do ? std::string(fabric_names()[static_cast<int>(*verdict->would_do)]) : std::string();
+    return { { "Verdict", Texts { std::string(name_of(verdict->verdict)) } },
+             { "FabricThatWouldDo", Texts { fabric } },
+             { "VerdictPlace", each(places, [](const PlaceVerdict& place) { return place.place; }) },
+             { "PlaceVerdict",
+               each(places, [](const PlaceVerdict& place) { return std::string(name_of(place.verdict)); }) },
+             numbers("PlaceStretch", each(places, [](const PlaceVerdict& place) { return place.stretch; })),
+             numbers("PlacePressure", each(places, [](const PlaceVerdict& place) { return place.pressure; })) };
+}
+
 MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const Frame& body)
 {
     const bool worn = dressing.is_worn(garment);
@@ -191,6 +210,8 @@ MeshArrays arrays_of_worn(const Dressing& dressing, std::size_t garment, const F
     add(counts("OverstretchedEdges", { stretch.edges }));
     add(numbers("LargestStretch", { stretch.largest }));
     add({ "OverstretchedPart", Texts { stretch.part } });
+    for (const NamedArray& array : verdict_arrays(dressing, garment))
+        add(array);
     add({ "TooTightPart", each(tight, [](const TooTight& part) { return part.part; }) });
     add(numbers("MissingGirth", each(tight, [unit](const TooTight& part) { return part.missing_girth / unit; })));
     return made;

@@ -23,6 +23,21 @@ inline constexpr int k_other_wearings = 2;
 /// wearing it may leave free. fitted: guess, on the wild clothes
 inline constexpr double k_torn = 2;
 
+/// Share of the body's edges. Where more are drawn out, the body ends in spikes: something is caught, and no girth is
+/// missing. fitted: guess, above what two garments of the house data leave that are too small by 20 and 25 % of girth
+inline constexpr double k_spiked_share = 1e-3;
+
+/// Share of what its fabric gives from which a garment counts as tight. The solver's stiffness is soft for woven cloth,
+/// so its pressure alone says too little. fitted: guess
+inline constexpr double k_tight_share = 0.5;
+
+/// Pa. Pressure of clothes is comfortable up to 1.96 to 3.92 kPa, by person and part of the body: here the lower end. literature: [denton_1972_fit], [makabe_1991_pressure]
+inline constexpr double k_comfortable_pressure = 1960;
+
+/// Share of the body's girth. A garment with more ease is roomy. literature: blouses and dresses are called loose-fitting
+/// from 13 cm of ease at a bust of 92 cm [mccall_ease]
+inline constexpr double k_roomy_ease = 0.14;
+
 /// Log of the stature that all parts of a garment have in common, over that of the body: its spread where the garment
 /// has the size of its unit. fitted: 0.12 upwards and 0.19 downwards on 141 pairs of two catalogues; made wider because
 /// those bodies are nearly all adults, and children's clothes are put on them.

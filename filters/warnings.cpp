@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "garmentfit/number_text.h"
 #include "tuning.h"
 
@@ -17,6 +18,8 @@ std::string percent_text(double probability)
 {
     return " (probability " + std::to_string(std::lround(100 * probability)) + "%)";
 }
+
+std::string percent_of(double share) { return std::to_string(std::lround(100 * share)) + "%"; }
 
 void warn_of_guesses(std::vector<std::string>& warnings, const std::string& name, const FitResult& fit,
                      const HowToSet& set)
@@ -51,6 +54,21 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
                            + " cm: it is too wide for this body to stay where it is worn");
 }
 
+/// Of one that is worn; whether it is tight, too.
+void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, const Dressing& end, std::size_t garment)
+{
+    warn_of_garment(warnings, name, end.garments[garment], end.to_human_size);
+    const std::optional<FitVerdict> verdict = fit_verdict(end, garment);
+    if (!verdict || verdict->verdict != Verdict::tight)
+        return;
+    std::string places;
+    for (const PlaceVerdict& place : verdict->places)
+        if (place.verdict == Verdict::tight)
+            places += (places.empty() ? "" : ", ") + place.place + " (" + percent_of(place.stretch) + ", "
+                + rounded_text(place.pressure / 1000, 2) + " kPa)";
+    warnings.push_back(name + " is tight at " + places);
+}
+
 void warn_of_closed_ends(std::vector<std::string>& warnings, const std::string& name, int closed_ends)
 {
     if (closed_ends > 0)
@@ -64,7 +82,7 @@ std::string overstretched_edges(const std::string& name, const Overstretch& stre
 {
     std::ostringstream text;
     text << name << " is overstretched: " << stretch.edges << (stretch.edges == 1 ? " edge" : " edges")
-         << " by more than " << percent(k_overstretched) << "%, the most by " << std::lround(100 * stretch.largest)
+         << " by more than " << percent(stretch.limit) << "%, the most by " << std::lround(100 * stretch.largest)
          << "%, at " << stretch.part;
     return text.str();
 }
@@ -116,15 +134,10 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
         warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
                            + " mm/s); give more "
                            + (end.out_of_time ? "time as time_limit: it was reached" : "settling steps"));
-    const auto is_too_small = [&](std::size_t i) {
-        return (i == end.outermost && end.scale_reached < 1 && !end.out_of_time)
-            || std::any_of(end.too_tight.begin(), end.too_tight.end(),
-                           [&](const TooTight& part) { return part.garment == int(i); });
-    };
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
-            warn_of_garment(warnings, names[i], end.garments[i], end.to_human_size);
-        else if (is_too_small(i))
+            warn_of_worn(warnings, names[i], end, i);
+        else if (is_too_small(end, i))
             warnings.push_back(names[i]
                                + " is left out of the result: it is too small to go over body and garments under it");
         else if (end.out_of_time)

@@ -79,21 +79,27 @@ Vec3 ClothEnergy::FramedSum::sum(const Positions& x) const
 }
 
 ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
-                         const std::vector<std::pair<int, int>>& pairs, const ClothOptions& options,
+                         const std::vector<std::pair<int, int>>& pairs, const Materials& materials,
                          const std::vector<Tie>& sewn) :
     masses_(rest.positions.rows(), k_least_mass)
 {
-    const Material material = material_of(options);
-    add_springs(rest, topology, pairs, material);
-    add_hinges(rest, topology, material.bend_stiffness);
-    add_ties(rest, sewn, material.stretch_stiffness);
+    add_springs(rest, topology, pairs, materials);
+    add_hinges(rest, topology, materials);
+    add_ties(rest, sewn, materials);
     assemble();
+}
+
+ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
+                         const std::vector<std::pair<int, int>>& pairs, const ClothOptions& options,
+                         const std::vector<Tie>& sewn) :
+    ClothEnergy(rest, topology, pairs, Materials(options), sewn)
+{
 }
 
 // A spring stands for the strip of cloth beside it, whose width is area / length.
 // derived: StretchesAndShearsAsAnIsotropicSheet in cloth_energy_test holds the moduli that follow.
 void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topology,
-                              const std::vector<std::pair<int, int>>& pairs, const Material& material)
+                              const std::vector<std::pair<int, int>>& pairs, const Materials& materials)
 {
     const Edges& edges = topology.edges();
     std::vector<double> area_at_edge(edges.rows(), 0);
@@ -102,23 +108,28 @@ void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topol
                    c = rest.positions.row(rest.triangles(f, 2));
         const double area = 0.5 * (b - a).cross(c - a).norm();
         for (int k = 0; k < 3; ++k) {
-            masses_[rest.triangles(f, k)] += material.density * area / 3;
+            const int v = rest.triangles(f, k);
+            masses_[v] += materials.at(v).density * area / 3;
             if (const int edge = topology.edge_of(3 * int(f) + k); edge >= 0)
                 area_at_edge[edge] += area;
         }
     }
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1);
+        const Material& material = materials.at(i);
         if (const double l = rest_length(rest, i, j); l > 0)
-            springs_.push_back(
-                { i, j, l, material.stretch_stiffness * std::min(area_at_edge[e] / (l * l), k_largest_cotangent) });
+            springs_.push_back({ i, j, l,
+                                 material.stretch_stiffness * std::min(area_at_edge[e] / (l * l), k_largest_cotangent),
+                                 (1 + material.strain_limit) * l });
     }
-    for (const auto& [i, j] : pairs)
-        springs_.push_back({ i, j, rest_length(rest, i, j), material.stretch_stiffness });
+    for (const auto& [i, j] : pairs) {
+        const double l = rest_length(rest, i, j);
+        springs_.push_back({ i, j, l, materials.at(i).stretch_stiffness, (1 + materials.at(i).strain_limit) * l });
+    }
 }
 
 // literature: [bergou_2006_quadratic_bending], the 3 over the areas and the coefficients of cotangents.
-void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topology, double bend_stiffness)
+void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topology, const Materials& materials)
 {
     const double mean_areas = 2 * area({ rest.positions, rest.triangles })
         / double(std::max<Eigen::Index>(1, rest.triangles.rows()));  // of a hinge
@@ -139,21 +150,21 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topolo
         const double areas = 0.5 * ((x(1) - x(0)).cross(x(2) - x(0)).norm() + (x(1) - x(0)).cross(x(3) - x(0)).norm());
         if (!(areas > 0))
             continue;
-        h.stiffness = bend_stiffness * 3 / std::max(areas, k_least_hinge_area * mean_areas);
+        h.stiffness = materials.at(a).bend_stiffness * 3 / std::max(areas, k_least_hinge_area * mean_areas);
         h.at_rest = h.frame(rest.positions).transpose() * h.sum(rest.positions);
         sums_.push_back(h);
     }
 }
 
 // derived: as stiff as the edges of an even mesh, so a seam gives no more than the cloth beside it.
-void ClothEnergy::add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, double stiffness)
+void ClothEnergy::add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials)
 {
     for (const Tie& tie : sewn) {
         FramedSum t { FramedSum::Kind::tie,
                       { tie.corners[0], tie.corners[1], tie.corners[2], tie.vertex },
                       { -tie.weights[0], -tie.weights[1], -tie.weights[2], 1 },
                       Vec3::Zero(),
-                      stiffness };
+                      materials.at(tie.vertex).stretch_stiffness };
         t.at_rest = t.frame(rest.positions).transpose() * t.sum(rest.positions);
         sums_.push_back(t);
     }
@@ -242,12 +253,12 @@ std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
     const auto limit = [&](std::size_t e) -> std::optional<SoftConstraint> {
         const Spring& s = springs_[e];
         const Vec3 edge = (x.row(s.i) - x.row(s.j)).transpose();
-        const double length = edge.norm(), longest = (1 + k_strain_limit) * s.length;
-        if (!(length > longest))
+        const double length = edge.norm();
+        if (!(length > s.longest))
             return {};
         return SoftConstraint { { s.i, s.j, -1, -1 },
                                 { 1, -1, 0, 0 },
-                                longest / length * edge,
+                                s.longest / length * edge,
                                 edge / length,
                                 k_strain_limit_stiffness * s.stiffness,
                                 0 };

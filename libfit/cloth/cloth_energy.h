@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "garmentfit/cloth.h"
 #include "garmentfit/mesh.h"
+#include "materials.h"
 #include "sewn_pieces.h"
 #include "single_precision_factor.h"
 #include "soft_constraint.h"
@@ -31,6 +31,9 @@ public:
     /// @param topology  of rest.triangles
     /// @param pairs     of vertices held at their rest distance, beside the edges
     /// @param sewn      of vertices held at their place over a triangle
+    ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<std::pair<int, int>>& pairs,
+                const Materials& materials, const std::vector<Tie>& sewn = {});
+    /// The same of one material.
     ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<std::pair<int, int>>& pairs,
                 const ClothOptions& options, const std::vector<Tie>& sewn = {});
 
@@ -61,6 +64,7 @@ private:
     struct Spring {
         int i, j;
         double length, stiffness;
+        double longest;  // m; beyond it the spring is stiffer
     };
     /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
     struct FramedSum {
@@ -74,9 +78,9 @@ private:
         Vec3 sum(const Positions& x) const;
     };
     void add_springs(const GarmentMesh& rest, const MeshTopology& topology,
-                     const std::vector<std::pair<int, int>>& pairs, const Material& material);
-    void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, double bend_stiffness);
-    void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, double stiffness);
+                     const std::vector<std::pair<int, int>>& pairs, const Materials& materials);
+    void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, const Materials& materials);
+    void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials);
     void assemble();
     static Positions multiply(const SparseRows& matrix, const Positions& x);
 

@@ -118,13 +118,17 @@ struct ClothMotion::ActiveContact {
 };
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
-                         const ClothOptions& options, const std::vector<int>& garments) :
-    ClothMotion(untangle_over(rest, start, obstacle, garments), { obstacle, int(obstacle.positions.rows()) }, options)
+                         const ClothOptions& options, const std::vector<int>& garments,
+                         const std::vector<Fabric>& fabrics) :
+    ClothMotion(untangle_over(rest, start, obstacle, garments), { obstacle, int(obstacle.positions.rows()) }, options,
+                fabrics)
 {
 }
 
-ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options) :
-    options_(options), material_(material_of(options)), weld_(std::move(cloth.weld)), rest_(cloth.rest),
+ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options,
+                         const std::vector<Fabric>& fabrics) :
+    options_(options),
+    materials_(options, fabrics, std::move(cloth.garments)), weld_(std::move(cloth.weld)), rest_(cloth.rest),
     topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())),
     self_contact_distance_(std::min(options_.contact_distance,
                                     k_self_contact_edges * mean_edge_length(rest_.positions, topology_.edges()))),
@@ -135,7 +139,7 @@ ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const Cl
     x_(stack(cloth.positions, obstacle.mesh.positions)), held_pairs_(find_crossing_pairs(cloth)),
     sewn_(std::move(cloth.sewn.ties)), velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    energy_.emplace(rest_, topology_, held_pairs_, options_, sewn_);
+    energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_);
 }
 
 // Half of the active distance of cloth and cloth for the cloth. The obstacle gets the rest of that between both.
@@ -153,7 +157,7 @@ double ClothMotion::contact_distance(ContactReason reason) const
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
     rest_ = weld_.gather(rest);
-    energy_.emplace(rest_, topology_, held_pairs_, options_, sewn_);
+    energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_);
 }
 
 void ClothMotion::restore(const Positions& state)
@@ -225,15 +229,31 @@ bool ClothMotion::passes_by(const ActiveContact& contact, const Positions& targe
     return at.distance >= contact.rest_distance && separation(at.weights, corners).dot(contact.normal) > 0;
 }
 
+// Two garments that touch: as soft as the softer, and as rough as both on the mean.
+Material ClothMotion::material_at(const ContactPair& pair) const
+{
+    const int first = pair.vertices[0], second = pair.vertices[pair.kind == PairKind::vertex_face ? 1 : 2];
+    if (first >= cloth_vertices_)
+        return materials_.at(second);
+    Material result = materials_.at(first);
+    if (second < cloth_vertices_) {
+        const Material& other = materials_.at(second);
+        result.stretch_stiffness = std::min(result.stretch_stiffness, other.stretch_stiffness);
+        result.friction = 0.5 * (result.friction + other.friction);
+    }
+    return result;
+}
+
 // A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
 // law.
 std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<ActiveContact>& contacts,
                                                              const Positions& targets, const MotionStep& step) const
 {
-    const double contact_stiffness = step.contact_stiffness * material_.stretch_stiffness;
-    const double friction = step.friction_fraction * material_.friction;
     std::vector<SoftConstraint> result;
     for (const ActiveContact& contact : contacts) {
+        const Material material = material_at(contact.pair);
+        const double contact_stiffness = step.contact_stiffness * material.stretch_stiffness;
+        const double friction = step.friction_fraction * material.friction;
         const Vec3& normal = contact.normal;
         SoftConstraint constraint { contact.pair.vertices, contact.pair.at.weights,
                                     Vec3::Zero(),          normal,
@@ -266,9 +286,9 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
 void ClothMotion::remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before,
                                  const MotionStep& step)
 {
-    const double friction = step.friction_fraction * material_.friction;
     std::vector<StickMemory::Slip> slips;
     for (const ActiveContact& contact : contacts) {
+        const double friction = step.friction_fraction * material_at(contact.pair).friction;
         const auto& [kind, reason, vertices, at] = contact.pair;
         const Vec3 now = separation(at.weights, corners_of(x_, vertices)),
                    moved = now - separation(at.weights, corners_of(before, vertices));

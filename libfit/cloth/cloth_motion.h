@@ -38,13 +38,16 @@ struct MotionStep {
 class ClothMotion {
 public:
     /// `cloth` and the obstacle must not cross.
-    ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options);
+    /// @param fabrics  of each garment, where the cloth has several; empty: that of `options`
+    ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const ClothOptions& options,
+                const std::vector<Fabric>& fabrics = {});
 
     /// The same from a garment as it is, over an obstacle that is all body: where the cloth crosses itself it is
     /// untangled first, as far as it can be. `start` is n x 3, the obstacle m x 3.
     /// @param garments  of each vertex its garment, where `rest` has several. Empty: one.
     ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
-                const ClothOptions& options, const std::vector<int>& garments = {});
+                const ClothOptions& options, const std::vector<int>& garments = {},
+                const std::vector<Fabric>& fabrics = {});
 
     /// Gives the cloth another rest shape: the same garment in another size.
     void set_rest(const GarmentMesh& rest);
@@ -83,12 +86,13 @@ private:
                               const std::vector<ActiveContact>& contacts);
     std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
     static bool passes_by(const ActiveContact& contact, const Positions& targets);
+    Material material_at(const ContactPair& pair) const;
     std::vector<SoftConstraint> contact_constraints(const std::vector<ActiveContact>& contacts,
                                                     const Positions& targets, const MotionStep& step) const;
     void remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before, const MotionStep& step);
 
     ClothOptions options_;
-    Material material_;
+    Materials materials_;
     Weld weld_;
     GarmentMesh rest_;  // welded
     MeshTopology topology_;  // of rest_

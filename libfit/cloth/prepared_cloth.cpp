@@ -55,9 +55,11 @@ PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, con
         topology = MeshTopology(cloth.triangles, int(cloth.positions.rows()));
     }
     Positions positions = weld.gather(start);
-    SewnPieces sewn = find_sewn_pieces(cloth, topology, gather(weld, garments, cloth.positions.rows()));
+    std::vector<int> garment_of = gather(weld, garments, cloth.positions.rows());
+    SewnPieces sewn = find_sewn_pieces(cloth, topology, garment_of);
     open_touching_seams(cloth, topology, sewn.ties, positions);
-    return { std::move(weld), std::move(cloth), std::move(topology), std::move(positions), std::move(sewn), {} };
+    return { std::move(weld),      std::move(cloth), std::move(topology), std::move(positions), std::move(sewn), {},
+             std::move(garment_of) };
 }
 
 void untangle_clear_of(PreparedCloth& cloth, const TriangleMesh& obstacle)

@@ -21,6 +21,7 @@ struct PreparedCloth {
     Positions positions;  ///< at the start, welded, n x 3
     SewnPieces sewn;  ///< of rest
     std::vector<Crossing> crossings;  ///< pairs of the cloth that cross there and stay as they are
+    std::vector<int> garments;  ///< of each vertex of the cloth its garment; empty: one
 };
 
 /// Welds the garment (near vertices, too: near_vertices.h), lists its edges, and finds which of its pieces are sewn

@@ -78,7 +78,8 @@ class Grading {
 public:
     /// @param tightness  of the garment as given
     Grading(const GarmentMesh& given, Tightness tightness, const ClothOptions& cloth) :
-        given_(given), tightness_(std::move(tightness)), cloth_(cloth)
+        given_(given), tightness_(std::move(tightness)), allowed_(material_of(cloth).largest_stretch),
+        largest_enlargement_(cloth.largest_enlargement)
     {
     }
 
@@ -86,10 +87,10 @@ public:
     bool enlarge_if_tight(ClothMotion& motion)
     {
         const double stretch = tightness_.largest_stretch(motion.cloth());
-        if (stretch <= cloth_.largest_stretch)
+        if (stretch <= allowed_)
             return true;
-        const double larger = size_ * (1 + stretch) / (1 + k_enlarged_stretch_share * cloth_.largest_stretch);
-        if (larger > 1 + cloth_.largest_enlargement)
+        const double larger = size_ * (1 + stretch) / (1 + k_enlarged_stretch_share * allowed_);
+        if (larger > 1 + largest_enlargement_)
             return false;
         size_ = larger;
         motion.set_rest(garment());
@@ -104,7 +105,8 @@ public:
 private:
     const GarmentMesh& given_;
     Tightness tightness_;
-    const ClothOptions& cloth_;
+    double allowed_;  // stretch
+    double largest_enlargement_;
     double size_ = 1;
 };
 
@@ -142,11 +144,11 @@ Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading,
 
 /// Where the garment is too small, on a body that ceased to grow.
 std::vector<TooTight> list_tight_parts(const ClothMotion& motion, const GrowingBody& inside, const Tightness& tightness,
-                                       const Wearer& wearer, double largest_stretch)
+                                       const Wearer& wearer)
 {
     const PerPart growth = growth_left(motion.cloth(), inside.body_of(motion.obstacle()),
                                        inside.body_of(inside.full.positions), wearer.rig.weights, wearer.joints);
-    return tightness.list_tight_parts(motion.cloth(), k_named_stretch_share * largest_stretch, growth);
+    return tightness.list_tight_parts(motion.cloth(), k_named_stretch_share, growth);
 }
 
 /// How the new garment is made.
@@ -180,6 +182,11 @@ void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const Gr
 
 }  // namespace
 
+Material material_of(const ClothOptions& options, const WornGarment& worn)
+{
+    return material_of(options, worn.fabric.value_or(options.fabric));
+}
+
 bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
 {
     bool clean = true;
@@ -205,7 +212,9 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
     const Edges edges = edges_of(garment.triangles);
     const SkinWeights weights
         = weights_of_nearest(garment.positions, inside.body_of(inside.full.positions), rig.weights);
-    Grading grading(garment, Tightness(garment.positions, edges, weights, wearer.joints, int(dressed.garments.size())),
+    const double allowed = material_of(options.cloth).largest_stretch;
+    Grading grading(garment,
+                    Tightness(garment.positions, edges, weights, wearer.joints, allowed, int(dressed.garments.size())),
                     options.cloth);
     const PieceCounts pieces = start.cloth.sewn.counts;
     ClothMotion motion(std::move(start.cloth),
@@ -221,7 +230,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
         result.speed = settled.speed;
         result.out_of_time = settled.out_of_time;
     } else if (!result.out_of_time)
-        result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer, options.cloth.largest_stretch);
+        result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer);
     result.seconds = motion.seconds();
     write_dressed_body(result, motion, inside, grading, { pieces, closed_ends }, wearer);
     if (result.scale_reached == 1)

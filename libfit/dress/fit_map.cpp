@@ -2,6 +2,7 @@
 #include "garmentfit/fit_map.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "body_parts.h"
 #include "cloth_energy.h"
@@ -10,6 +11,7 @@
 #include "parallel.h"
 #include "prepared_cloth.h"
 #include "skin_weights.h"
+#include "tightness.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -40,8 +42,10 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
 {
     const PreparedCloth cloth = prepare_cloth(worn.rest, worn.positions);
     const Positions& x = cloth.positions;
-    const double density = material_of(options).density;
-    const ClothEnergy energy(cloth.rest, cloth.topology, {}, options);
+    ClothOptions own = options;
+    own.fabric = worn.fabric.value_or(options.fabric);
+    const double density = material_of(own).density;
+    const ClothEnergy energy(cloth.rest, cloth.topology, {}, own);
     const Positions forces = energy.elastic_forces(x);
     const TriangleTree skin(body);
 
@@ -60,10 +64,26 @@ FitMap fit_map(const TriangleMesh& body, const WornGarment& worn, const ClothOpt
     return { result.col(0), result.col(1), result.col(2) };
 }
 
-Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn)
+std::vector<PartLoad> part_loads(const Skeleton& skeleton, const SkinWeights& weights, const Positions& body,
+                                 const WornGarment& worn, const ClothOptions& options)
+{
+    const Material material = material_of(options, worn);
+    const Edges edges = edges_of(worn.rest.triangles);
+    const Tightness tightness(worn.rest.positions, edges, weights_of_nearest(worn.positions, body, weights), skeleton,
+                              material.largest_stretch);
+    std::vector<PartLoad> result;
+    for (const auto& part : tightness.measure_parts(worn.positions)) {
+        const double tension = material.stretch_stiffness * std::max(0.0, part.mean);
+        result.push_back({ part_name(part.part), part.girth, part.mean, 2 * M_PI * tension / part.girth });
+    }
+    return result;
+}
+
+Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn, double limit)
 {
     const auto edges = edges_of(worn.rest.triangles);
     Overstretch result;
+    result.limit = limit;
     Vec3 place = Vec3::Zero();
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1);
@@ -71,7 +91,7 @@ Overstretch overstretch(const SkinWeights& weights, const Positions& body, const
         if (before == 0)
             continue;
         const double stretch = (worn.positions.row(i) - worn.positions.row(j)).norm() / before - 1;
-        result.edges += stretch > k_overstretched;
+        result.edges += stretch > limit;
         if (stretch > result.largest) {
             result.largest = stretch;
             place = 0.5 * (worn.positions.row(i) + worn.positions.row(j));
@@ -82,6 +102,29 @@ Overstretch overstretch(const SkinWeights& weights, const Positions& body, const
     const int bone = strongest_bones(weights_of_nearest(Positions(place.transpose()), body, weights))[0];
     if (const int part = part_of(bone); part >= 0)
         result.part = part_name(part);
+    return result;
+}
+
+Overstretch find_spikes(const Rig& rig, const BodyMesh& body, const DressedBody& dressed)
+{
+    Overstretch result;
+    if (dressed.body.rows() == 0)
+        return result;
+    const Positions posed = skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, dressed.pose));
+    const std::vector<int> bones = strongest_bones(rig.weights);
+    const Edges edges = edges_of(body.surface.triangles);
+    for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+        const int i = edges(e, 0), j = edges(e, 1);
+        const double before = (posed.row(i) - posed.row(j)).norm(),
+                     now = (dressed.body.row(i) - dressed.body.row(j)).norm();
+        if (now <= (1 + k_spike_stretch) * before || now - before <= k_least_spike)
+            continue;
+        ++result.edges;
+        if (const double stretch = now / std::max(before, k_least_spike) - 1; stretch > result.largest) {
+            result.largest = stretch;
+            result.part = part_of(bones[i]) < 0 ? "hand, foot or head" : part_name(part_of(bones[i]));
+        }
+    }
     return result;
 }
 

@@ -61,14 +61,16 @@ struct Outfit {
     GarmentMesh rest;
     TriangleMesh cloth;
     std::vector<int> garment_of;  // by vertex
+    std::vector<Fabric> fabrics;
 
-    explicit Outfit(const std::vector<WornGarment>& garments)
+    Outfit(const std::vector<WornGarment>& garments, Fabric otherwise)
     {
         TriangleMesh at_rest;
         for (int i = 0; i < int(garments.size()); ++i) {
             append(at_rest, { garments[i].rest.positions, garments[i].rest.triangles });
             append(cloth, { garments[i].positions, garments[i].rest.triangles });
             garment_of.resize(std::size_t(cloth.positions.rows()), i);
+            fabrics.push_back(garments[i].fabric.value_or(otherwise));
         }
         rest = { std::move(at_rest.positions), std::move(at_rest.triangles) };
     }
@@ -236,7 +238,7 @@ PathOutcome follow_path(ClothMotion& motion, const PosePath& path, const MovedWe
 /// Lists where garments are too small for a pose, though they were big enough for the one before. Where a garment was
 /// wider than the body before by more than it may be stretched, it is caught, not too small.
 std::vector<TooTight> list_tight_parts(const Rig& rig, const DressedBody& before, const DressedBody& now,
-                                       double allowed)
+                                       const ClothOptions& cloth)
 {
     const Skeleton joints_before = pose_skeleton(rig.skeleton, before.pose),
                    joints = pose_skeleton(rig.skeleton, now.pose);
@@ -244,9 +246,11 @@ std::vector<TooTight> list_tight_parts(const Rig& rig, const DressedBody& before
     for (std::size_t i = 0; i < now.garments.size(); ++i) {
         const WornGarment& garment = now.garments[i];
         const Edges edges = edges_of(garment.rest.triangles);
+        const double allowed = material_of(cloth, garment).largest_stretch;
         const Tightness tightness(garment.rest.positions, edges,
-                                  weights_of_nearest(garment.positions, now.body, rig.weights), joints, int(i));
-        const std::vector<TooTight> tight = tightness.list_tight_parts_at_rest(garment.positions, allowed);
+                                  weights_of_nearest(garment.positions, now.body, rig.weights), joints, allowed,
+                                  int(i));
+        const std::vector<TooTight> tight = tightness.list_tight_parts_at_rest(garment.positions);
         if (tight.empty())
             continue;
         const PerPart wider = slack(before.garments[i].positions, before.body, rig.weights, joints_before);
@@ -264,7 +268,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
                            const RecoverOptions& options, const Progress& progress)
 {
     DressedBody start = carry_to_root(rig, dressed, target);
-    const Outfit outfit(start.garments);
+    const Outfit outfit(start.garments, options.cloth.fabric);
     const PosePath path(rig, body, start.pose, target, start.body, outfit.cloth.positions);
     if (start.body.rows() == 0)
         start.body = path.at(0);
@@ -274,7 +278,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
                                  smooth_weights(weights_of_nearest(outfit.cloth.positions, start.body, rig.weights),
                                                 outfit.cloth.triangles) };
     ClothMotion motion(outfit.rest, outfit.cloth.positions, { start.body, body.surface.triangles }, options.cloth,
-                       outfit.garment_of);
+                       outfit.garment_of, outfit.fabrics);
     FrameRecorder recorder(rig, dressed, target, body.surface.triangles, options.frames);
     recorder.record_start(dressed.body.rows() > 0
                               ? dressed.body
@@ -313,7 +317,7 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     result.speed = speed;
     result.out_of_time = outcome.out_of_time || hurried;
     result.seconds = motion.seconds();
-    result.too_tight = list_tight_parts(rig, start, result, options.cloth.largest_stretch);
+    result.too_tight = list_tight_parts(rig, start, result, options.cloth);
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
     result.certified = clean && arrived && !outcome.ended_early() && result.too_tight.empty();
     if (!result.certified && !result.out_of_time)

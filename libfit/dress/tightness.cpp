@@ -33,9 +33,10 @@ std::vector<TooTight> sort_worst_first(std::vector<TooTight> parts)
 }  // namespace
 
 Tightness::Tightness(const Positions& rest, const Edges& edges, const SkinWeights& weights, const Skeleton& skeleton,
-                     int index) :
+                     double allowed, int index) :
     rest_(rest),
-    edges_(edges), skeleton_(skeleton), index_(index), bones_(strongest_bones(weights))
+    edges_(edges), skeleton_(skeleton), allowed_(allowed),
+    caught_(std::max(k_caught_stretch, k_caught_share * allowed)), index_(index), bones_(strongest_bones(weights))
 {
 }
 
@@ -55,7 +56,7 @@ std::vector<Tightness::PartStretch> Tightness::measure_parts(const Positions& po
             continue;
         Sums& s = sums[part];
         const double rest = (rest_.row(i) - rest_.row(j)).norm();
-        s.now += std::min(edge.norm(), (1 + k_caught_stretch) * rest);
+        s.now += std::min(edge.norm(), (1 + caught_) * rest);
         s.rest += rest;
         s.radius += distance_to_line(positions.row(i), skeleton_, bone);
         s.stretches.push_back(rest > 0 ? edge.norm() / rest - 1 : 0);
@@ -82,24 +83,23 @@ TooTight Tightness::missing_girth(const PartStretch& part, double stretch, doubl
     return { index_, part_name(part.part), needed - unstretched, needed / unstretched - 1 };
 }
 
-std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, double allowed,
-                                                  const PerPart& growth) const
+std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, double share, const PerPart& growth) const
 {
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
-        if (part.mean > allowed)
+        if (part.mean > share * allowed_)
             result.push_back(missing_girth(part, part.mean, growth[part.part]));
     return sort_worst_first(result);
 }
 
-std::vector<TooTight> Tightness::list_tight_parts_at_rest(const Positions& positions, double allowed) const
+std::vector<TooTight> Tightness::list_tight_parts_at_rest(const Positions& positions) const
 {
-    if (quantile(stretches(rest_, positions, edges_), k_stretch_quantile) < allowed)
-        return list_tight_parts(positions, allowed, {});
+    if (quantile(stretches(rest_, positions, edges_), k_stretch_quantile) < allowed_)
+        return list_tight_parts(positions, 1, {});
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
-        if (part.tightest > allowed)
-            result.push_back(missing_girth(part, std::min(part.tightest, k_caught_stretch), 0));
+        if (part.tightest > allowed_)
+            result.push_back(missing_girth(part, std::min(part.tightest, caught_), 0));
     return sort_worst_first(result);
 }
 

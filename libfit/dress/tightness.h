@@ -22,9 +22,10 @@ public:
     /// @param edges     of the garment; must outlive this
     /// @param weights   skin weights of the garment's vertices
     /// @param skeleton  in the pose of the garment
+    /// @param allowed   stretch that the fabric gives
     /// @param index     of the garment, from the inside out
     Tightness(const Positions& rest, const Edges& edges, const SkinWeights& weights, const Skeleton& skeleton,
-              int index = 0);
+              double allowed, int index = 0);
 
     /// From now on the rest shape is this: the same garment in another size.
     void set_rest(const Positions& rest) { rest_ = rest; }
@@ -32,27 +33,30 @@ public:
     /// The largest mean stretch round a part of the body; 0: nowhere stretched.
     double largest_stretch(const Positions& positions) const;
 
-    /// Lists the parts stretched beyond `allowed`, worst first, on a body below its full size.
+    /// Lists the parts stretched beyond a share of what is allowed, worst first, on a body below its full size.
     /// @param growth  by how much its girth under the cloth still has to grow, from growth_left
-    std::vector<TooTight> list_tight_parts(const Positions& positions, double allowed, const PerPart& growth) const;
+    std::vector<TooTight> list_tight_parts(const Positions& positions, double share, const PerPart& growth) const;
 
     /// The same for cloth at rest on a body of full size. When more than a twentieth of all edges is stretched beyond
-    /// `allowed`, a part also counts if a twentieth of the edges round it is.
-    std::vector<TooTight> list_tight_parts_at_rest(const Positions& positions, double allowed) const;
+    /// what is allowed, a part also counts if a twentieth of the edges round it is.
+    std::vector<TooTight> list_tight_parts_at_rest(const Positions& positions) const;
 
-private:
     struct PartStretch {
         int part;
-        double mean;  // over the edges that run round the part
-        double tightest;  // a twentieth of these edges is stretched more than this
-        double girth;  // m, of the cloth as it is now
+        double mean;  ///< over the edges that run round the part
+        double tightest;  ///< a twentieth of these edges is stretched more than this
+        double girth;  ///< m, of the cloth as it is now
     };
+    /// The parts that the cloth goes round.
     std::vector<PartStretch> measure_parts(const Positions& positions) const;
+
+private:
     TooTight missing_girth(const PartStretch& part, double stretch, double growth) const;
 
     Positions rest_;
     const Edges& edges_;
     Skeleton skeleton_;
+    double allowed_, caught_;  // stretches; beyond caught_, an edge is no measure of girth
     int index_;
     std::vector<int> bones_;  // of each garment vertex, the one it follows most
 };

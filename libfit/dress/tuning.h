@@ -92,6 +92,9 @@ inline constexpr double k_stretch_quantile = 0.95;
 /// An edge stretched by more is caught (a cuff on a thumb) and no measure of girth; it counts as stretched by this.
 /// Fitted: guess; without it, garments were called too small by up to 137 %.
 inline constexpr double k_caught_stretch = 0.5;
+/// The same in shares of what the fabric gives, where that is more: a knit may be stretched as far all round. Fitted:
+/// guess.
+inline constexpr double k_caught_share = 1.5;
 
 // ---- moving to another pose (pose_path.cpp, recover_pose.cpp) ------------------------------------------------------
 
@@ -121,6 +124,9 @@ inline constexpr double k_least_overlap = 2e-3;
 inline constexpr double k_clearly_wider = 0.05;
 /// In contact distances: cloth this near to the skin presses on it. Fitted: guess.
 inline constexpr double k_pressing_distance = 1.5;
+/// A spike of the body: l / l0 - 1 of an edge, against the pose, and m that it is longer by. Fitted: guess, on the house
+/// pairs; a hand that is stretched out and the folds of an armpit stay below.
+inline constexpr double k_spike_stretch = 2, k_least_spike = 0.03;
 /// Of the sectors about a bone, those in which a cut must have points to be a girth. Fitted: guess.
 inline constexpr int k_girth_sectors = 8, k_needed_sectors = 6;
 

@@ -71,6 +71,7 @@ private:
 
 bool starts_from_meshes(const Filter& filter) { return filter.has(Stage::rig) || filter.has(Stage::fit); }
 /// `fit` also rigs, unless it is given a rig.
+bool moves_cloth(const Filter& filter) { return filter.has(Stage::drape) || filter.has(Stage::recover); }
 bool takes_a_rig(const Filter& filter) { return filter.has(Stage::fit) && !filter.has(Stage::rig); }
 
 double scale_from(const std::string& text)
@@ -133,6 +134,21 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
                        "from this skinned glTF or GLB of the same vertices");
 }
 
+void add_fabric_option(CLI::App& command, Call& call)
+{
+    command
+        .add_option(
+            "--fabric", call.fabrics,
+            "Fabric of the garments, once for all or once for each; GARMENT=FABRIC for the one of this file "
+            "name. Sets density, stiffness, friction and largest stretch, where they are not given ("
+                + range_of<Fabric>({ .name = {}, .label = {}, .unit = {}, .help = {}, .choices = &fabric_names() })
+                + ")")
+        ->allow_extra_args(false)
+        ->type_name("")
+        ->default_str("cotton")
+        ->group("Parameters");
+}
+
 void add_command(CLI::App& app, const CommandText& text, Call& call)
 {
     const Filter& filter = filter_of(text.name);
@@ -151,6 +167,8 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
         ->default_str("0");
     command.add_flag("--quiet", call.quiet, "Print errors only");
     command.add_flag("--json", call.json, "Print report.json on standard output; after an error, its code and line");
+    if (moves_cloth(filter))
+        add_fabric_option(command, call);
     if (takes_a_rig(filter))
         describe(filter_of("rig"), call.parameters, AddFlags(command));
     describe(filter, call.parameters, AddFlags(command));
@@ -214,6 +232,36 @@ GarmentChoice Call::garment_choice(std::size_t garment) const
 {
     return { garment_frame, value_of(garment_scales, garment, 1.0), value_of(as_placed, garment, false),
              value_of<std::string>(garment_fronts, garment, "auto") };
+}
+
+std::vector<std::optional<Fabric>> Call::fabrics_of(const std::vector<std::string>& names) const
+{
+    std::vector<std::string> unnamed;
+    std::vector<std::optional<Fabric>> result(names.size());
+    std::vector<std::pair<std::size_t, Fabric>> named;
+    for (const std::string& text : fabrics) {
+        const std::size_t equals = text.rfind('=');
+        if (equals == std::string::npos) {
+            unnamed.push_back(text);
+            continue;
+        }
+        const std::string name = text.substr(0, equals);
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end())
+            throw InvalidInput(ErrorCode::wrong_call,
+                               "--fabric " + text + ": no garment has the file name " + name
+                                   + "; give the name of its file without folders");
+        named.emplace_back(std::size_t(found - names.begin()), fabric_of(text.substr(equals + 1)));
+    }
+    if (unnamed.size() > 1 && unnamed.size() != names.size())
+        throw InvalidInput(ErrorCode::wrong_call,
+                           std::to_string(unnamed.size()) + " values of --fabric for " + std::to_string(names.size())
+                               + " garments; give it once for all of them, once for each, or as GARMENT=FABRIC");
+    for (std::size_t i = 0; i < names.size() && !unnamed.empty(); ++i)
+        result[i] = fabric_of(unnamed.size() == 1 ? unnamed.front() : unnamed[i]);
+    for (const auto& [garment, fabric] : named)
+        result[garment] = fabric;
+    return result;
 }
 
 std::optional<Call> parse(int argc, char** argv)

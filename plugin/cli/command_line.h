@@ -24,6 +24,8 @@ struct Call {
     std::vector<double> garment_scales;
     std::vector<bool> as_placed;
     std::vector<std::string> as_placed_texts;  ///< from which as_placed is read
+    /// Values of --fabric: "jersey" for all garments, or once for each; "shirt.obj=jersey" for one.
+    std::vector<std::string> fabrics;
     std::string front;  ///< an axis of the body's file; empty: to be found
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
@@ -32,6 +34,9 @@ struct Call {
 
     /// What was said about one of the garments.
     GarmentChoice garment_choice(std::size_t garment) const;
+    /// What each garment is made of; empty for those of which nothing was said.
+    /// @param names  of the garments' files  @throws InvalidInput.
+    std::vector<std::optional<Fabric>> fabrics_of(const std::vector<std::string>& names) const;
 };
 
 /// Nothing when the call asked for help or the version only, which are printed.

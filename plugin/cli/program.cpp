@@ -58,6 +58,9 @@ Session read(Call& call)
                         i < call.types.size() ? garment_type_of(call.types[i]) : GarmentType::automatic,
                         call.garment_choice(i));
     }
+    const std::vector<std::optional<Fabric>> fabrics = call.fabrics_of(session.garment_names());
+    for (std::size_t i = 0; i < fabrics.size(); ++i)
+        session.scene.garments[i].fabric = fabrics[i];
     return session;
 }
 

@@ -10,6 +10,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "garmentfit/units.h"
 
 namespace garmentfit::cli {
@@ -119,16 +120,32 @@ Json overstretched_of(const Overstretch& stretch)
     return { { "edges", stretch.edges }, { "largest", stretch.largest }, { "part", stretch.part } };
 }
 
-/// What the garments are made of, SI units.
-Json cloth_of(const Call& call)
+/// What a garment is made of, SI units.
+Json cloth_of(const ClothOptions& cloth, Fabric fabric)
 {
-    const ClothOptions& cloth = call.filter->cloth(call.parameters);
-    const Material material = material_of(cloth);
-    return { { "fabric", fabric_names()[static_cast<int>(cloth.fabric)] },
+    const Material material = material_of(cloth, fabric);
+    return { { "fabric", fabric_names()[static_cast<int>(fabric)] },
              { "density", material.density },
              { "stretch_stiffness", material.stretch_stiffness },
              { "bend_stiffness", material.bend_stiffness },
-             { "friction", material.friction } };
+             { "friction", material.friction },
+             { "largest_stretch", material.largest_stretch },
+             { "thickness", material.thickness } };
+}
+
+/// How the garment fits: as a whole, and in each place.
+Json verdict_of(const FitVerdict& verdict)
+{
+    Json places = Json::array();
+    for (const PlaceVerdict& place : verdict.places)
+        places.push_back({ { "place", place.place },
+                           { "verdict", name_of(place.verdict) },
+                           { "stretch", place.stretch },
+                           { "pressure", place.pressure } });
+    return { { "fit", name_of(verdict.verdict) },
+             { "fabric_that_would_do",
+               verdict.would_do ? Json(fabric_names()[static_cast<int>(*verdict.would_do)]) : Json() },
+             { "places", places } };
 }
 
 Json held_back_of(const Dressing& dressing, double metres_per_unit)
@@ -190,7 +207,7 @@ std::size_t frames_written(const Dressing& dressing)
     return all_clean(dressing.garments) ? dressing.frames.size() : 0;
 }
 
-Json garment_of(const Session& session, std::size_t i)
+Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i)
 {
     const Scene& scene = session.scene;
     const double metres_per_unit = session.body.frame.frame.metres_per_unit;
@@ -207,6 +224,10 @@ Json garment_of(const Session& session, std::size_t i)
     }
     if (const Dressing* end = final_dressing(scene)) {
         json["worn"] = end->is_worn(i);
+        if (i < end->fabrics.size())
+            json["cloth"] = cloth_of(cloth, end->fabrics[i]);
+        const std::optional<FitVerdict> verdict = fit_verdict(*end, i);
+        json["verdict"] = verdict ? verdict_of(*verdict) : Json();
         if (end->is_worn(i)) {
             put_certificate(json, end->garments[i], metres_per_unit);
             json["size"] = end->garments[i].size;
@@ -241,9 +262,14 @@ Json json_of(const Call& call, const Session& session)
         json["pose_reached"] = end->pose_reached;
         json["settled"] = end->speed ? Json(*end->speed < k_at_rest) : Json();
         json["speed"] = end->speed ? Json(*end->speed) : Json();
-        json["cloth"] = cloth_of(call);
+        const ClothOptions& cloth = call.filter->cloth(call.parameters);
+        json["cloth"] = cloth_of(cloth, end->fabrics.empty() ? cloth.fabric : end->fabrics.front());
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
+        json["spikes"] = { { "edges", end->spikes.edges },
+                           { "share", end->spiked_share },
+                           { "largest", end->spikes.largest },
+                           { "part", end->spikes.part } };
         json["overlaps"] = overlaps_of(*end, session.body.frame.frame.metres_per_unit);
         if (const int asked = frames_asked(call); asked > 0)
             json["frames"] = { { "asked", asked }, { "written", frames_written(*end) } };
@@ -257,7 +283,7 @@ Json json_of(const Call& call, const Session& session)
     json["body"] = body_of(session);
     json["garments"] = Json::array();
     for (std::size_t i = 0; i < session.garments.size(); ++i)
-        json["garments"].push_back(garment_of(session, i));
+        json["garments"].push_back(garment_of(session, call.filter->cloth(call.parameters), i));
     if (session.scene.one_pose) {
         json["one_pose"] = *session.scene.one_pose;
         json["conflicts"] = conflicts_of(session);
@@ -287,7 +313,8 @@ std::string summary(const Call& call, const Session& session)
     text << body.path.filename().string() << ": " << body.frame.why << '\n';
     if (const Dressing* end = final_dressing(session.scene))
         for (const std::size_t i : end->worn())
-            text << in_one_line(session.garments[i].name(), session.scene.fits[i].type, end->garments[i]) << '\n';
+            text << in_one_line(session.garments[i].name(), session.scene.fits[i].type, end->garments[i])
+                 << verdict_in_words(*end, i) << '\n';
     else
         for (std::size_t i = 0; i < session.scene.fits.size(); ++i)
             text << session.garments[i].name() << " (" << name_of(session.scene.fits[i].type) << "): fitted\n";

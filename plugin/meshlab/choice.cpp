@@ -86,6 +86,15 @@ std::string read_word(const RichParameterList& list, const QString& name, const 
     return std::string(words[read_number<std::size_t>(list, name, words.size())]);
 }
 
+/// Of the second or third garment, where it is not that of the first.
+std::optional<Fabric> read_fabric(const RichParameterList& list, int garment, const Filter& filter)
+{
+    if (garment == 0 || !(filter.has(Stage::drape) || filter.has(Stage::recover)))
+        return {};
+    const auto number = read_number<std::size_t>(list, k_fabrics[garment], further_fabrics().size());
+    return number > 0 ? std::optional(Fabric(number - 1)) : std::nullopt;
+}
+
 void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& document, const MenuEntry& entry)
 {
     for (int i = 0; i < 3; ++i) {
@@ -105,6 +114,7 @@ void read_garments(Choice& choice, const RichParameterList& list, MeshDocument& 
         choice.types.push_back(entry.filter->has(Stage::fit)
                                    ? read_number<GarmentType>(list, k_types[i], garment_type_names().size())
                                    : GarmentType::automatic);
+        choice.fabrics.push_back(read_fabric(list, i, *entry.filter));
         choice.garment_fronts.push_back(
             entry.filter->has(Stage::fit) ? read_word(list, k_garment_fronts[i], axis_choices()) : "auto");
     }

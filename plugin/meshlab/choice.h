@@ -4,6 +4,7 @@
 // What the user chose in a dialog or a script.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Choice {
     MeshModel* body = nullptr;
     std::vector<MeshModel*> garments;  ///< innermost first
     std::vector<GarmentType> types;  ///< of the garments
+    std::vector<std::optional<Fabric>> fabrics;  ///< of the garments; empty: as in the parameters
     std::vector<std::string> garment_fronts;  ///< axes of the garments' layers, or "auto"
     MeshModel* worn = nullptr;  ///< the first garment, on the body
     FrameChoice body_frame, garment_frame;

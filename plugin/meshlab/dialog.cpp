@@ -136,6 +136,7 @@ void add_garments(RichParameterList& list, const Defaults& defaults, ShownDocume
     const char* labels[] = { "Garment", "Second garment (optional)", "Third garment (optional)" };
     const char* front_labels[]
         = { "Front of the garment", "Front of the second garment", "Front of the third garment" };
+    const char* fabric_labels[] = { "", "Fabric of the second garment", "Fabric of the third garment" };
     const char* type_labels[] = { "", "Type of the second garment", "Type of the third garment" };
     for (int i = 0; i < 3; ++i) {
         list.addParam(layer_parameter(
@@ -144,6 +145,8 @@ void add_garments(RichParameterList& list, const Defaults& defaults, ShownDocume
                    : "From the inside out, unless Layer order is auto; choose the first garment again for none"));
         if (i > 0 && entry.filter->has(Stage::fit))
             add_choice(list, k_types[i], garment_type_names(), type_labels[i], "auto finds it from the openings");
+        if (i > 0 && (entry.filter->has(Stage::drape) || entry.filter->has(Stage::recover)))
+            add_choice(list, k_fabrics[i], further_fabrics(), fabric_labels[i], "What it is made of");
         if (entry.filter->has(Stage::fit))
             add_choice(list, k_garment_fronts[i], axis_choices(), front_labels[i],
                        "The axis of its layer that the garment's front faces; auto finds it");

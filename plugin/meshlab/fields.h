@@ -19,6 +19,16 @@ inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit =
 inline const QString k_garment_fronts[] = { "garment_front", "second_garment_front", "third_garment_front" };
 inline const QString k_garments[] = { "garment", "second_garment", "third_garment" };
 inline const QString k_types[] = { "type", "second_type", "third_type" };
+/// The first is a parameter of the schema.
+inline const QString k_fabrics[] = { "fabric", "second_fabric", "third_fabric" };
+
+/// Of the second and third garment.
+inline std::vector<std::string_view> further_fabrics()
+{
+    std::vector<std::string_view> names { "as the first" };
+    names.insert(names.end(), fabric_names().begin(), fabric_names().end());
+    return names;
+}
 
 inline const std::vector<std::string_view> k_maps { "ease", "strain", "pressure", "none" };
 

@@ -48,7 +48,10 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
             scene.garments.push_back({ make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles),
                                        choice.types[i],
                                        {},
-                                       front_of_garment(guess.frame, garment.front) });
+                                       front_of_garment(guess.frame, garment.front),
+                                       {},
+                                       0,
+                                       choice.fabrics[i] });
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
             report.warn(warnings_about_frame(fitting.garment_names.back(), guess, "garment_", set_by_name));
@@ -70,7 +73,12 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
         const TriangleMesh mesh = mesh_of(*choice.garments[i]);
         fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
             return GarmentInput { make_garment(fitting.garment_frames[i].to_metres(mesh.positions), mesh.triangles),
-                                  fitting.scene.fits[i].type };
+                                  fitting.scene.fits[i].type,
+                                  {},
+                                  {},
+                                  {},
+                                  0,
+                                  choice.fabrics[i] };
         }));
     }
 }

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "garmentfit/filters/warnings.h"
 #include "garmentfit/number_text.h"
 
@@ -18,7 +19,7 @@ void report_scene(Report& report, const Fitting& fitting)
     for (std::size_t i = 0; i < scene.fits.size(); ++i) {
         const std::string& name = fitting.garment_names[i];
         const GarmentType type = scene.fits[i].type;
-        report.lines.push_back(end ? in_one_line(name, type, end->garments[i])
+        report.lines.push_back(end ? in_one_line(name, type, end->garments[i]) + verdict_in_words(*end, i)
                                    : name + " (" + std::string(name_of(type)) + "): fitted");
     }
     if (!end)

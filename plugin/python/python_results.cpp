@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "garmentfit/filters/warnings.h"
 
 namespace garmentfit::python {
@@ -47,6 +48,20 @@ nb::list too_tight_of(const Dressing& end, std::size_t i, double metres_per_unit
     return made;
 }
 
+/// (fit, fabric_that_would_do, [(place, fit, stretch, pressure), ...])
+nb::object fit_verdict_of(const Dressing& end, std::size_t i)
+{
+    const std::optional<FitVerdict> verdict = fit_verdict(end, i);
+    if (!verdict)
+        return nb::none();
+    nb::list places;
+    for (const PlaceVerdict& place : verdict->places)
+        places.append(nb::make_tuple(place.place, std::string(name_of(place.verdict)), place.stretch, place.pressure));
+    const nb::object fabric
+        = verdict->would_do ? nb::cast(std::string(fabric_names()[static_cast<int>(*verdict->would_do)])) : nb::none();
+    return nb::make_tuple(std::string(name_of(verdict->verdict)), fabric, places);
+}
+
 nb::dict garment_of(const PythonScene& s, std::size_t i)
 {
     const Dressing& end = s.dressing();
@@ -63,6 +78,7 @@ nb::dict garment_of(const PythonScene& s, std::size_t i)
     const Overstretch& stretch = end.overstretches[i];
     garment["overstretched"] = nb::make_tuple(stretch.edges, stretch.largest, stretch.part);
     garment["too_tight"] = too_tight_of(end, i, unit);
+    garment["verdict"] = fit_verdict_of(end, i);
     return garment;
 }
 

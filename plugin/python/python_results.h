@@ -30,7 +30,7 @@ private:
     Snapshot now_;
 };
 
-/// [{name, positions, triangles, certificate: {...}, ease, strain, pressure, girths: [...], too_tight: [...]}, ...]
+/// [{name, positions, triangles, certificate: {...}, ease, strain, pressure, girths: [...], too_tight: [...], verdict}, ...]
 nb::list garments_of(const PythonScene& scene);
 /// [{type, type_probability, covered: [bone, ...]}, ...]
 nb::list fits_of(const PythonScene& scene);

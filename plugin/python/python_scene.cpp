@@ -125,6 +125,14 @@ Progress progress_to(const nb::object& progress)
     });
 }
 
+/// Of this garment, where it has one of its own.
+std::optional<Fabric> fabric_from(const nb::dict& sizes)
+{
+    if (!sizes.contains("garment_fabric"))
+        return {};
+    return fabric_of(nb::cast<std::string>(sizes["garment_fabric"]));
+}
+
 }  // namespace
 
 const Rig& PythonScene::rig() const
@@ -184,7 +192,9 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
                                      garment_type_of(type),
                                      {},
                                      front_of_garment(frame, front),
-                                     choice.as_placed });
+                                     choice.as_placed,
+                                     0,
+                                     fabric_from(sizes) });
     scene.garment_frames.push_back(frame);
     scene.names.push_back(name);
 }

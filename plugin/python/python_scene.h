@@ -38,7 +38,7 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
                             bool fitted);
 
 /// Reads the array GarmentFrame where an earlier filter has written one.
-/// @param sizes  the parameters of fitting; of them, garment_scale and as_placed  @throws InvalidInput.
+/// @param sizes  the parameters of fitting; of them, garment_scale and as_placed; and garment_fabric  @throws InvalidInput.
 void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
                  const std::string& unit, const std::string& up, const std::string& front, const nb::dict& sizes,
                  const std::string& name, const nb::object& find);

@@ -217,6 +217,20 @@ TEST_F(CommandLine, RefusesWhatIsSaidOfGarmentsInAWrongNumberOrRange)
     refused({ "--time-limit", "-1" }, { "time_limit" });
 }
 
+TEST_F(CommandLine, RefusesFabricsThatAreNoneOrOfNoGarment)
+{
+    const std::string coat = GARMENTFIT_SAMPLES "/coat.ply", fabric = "--fabric";
+    const auto refused = [&](const Arguments& more, const std::vector<std::string>& words) {
+        Arguments call { "dress", k_body, k_skirt, coat };
+        call.insert(call.end(), more.begin(), more.end());
+        expect_refused(call, words);
+    };
+    refused({ fabric, "paper" }, { "paper", "cotton", "tulle" });
+    refused({ fabric, "shirt.ply=jersey" }, { "no garment has the file name shirt.ply" });
+    refused({ fabric, "coat.ply=paper" }, { "paper", "cotton" });
+    refused({ fabric, "wool", fabric, "wool", fabric, "wool" }, { "3 values of --fabric for 2 garments" });
+}
+
 TEST_F(CommandLine, TellsWhatWasSaidOfEachGarment)
 {
     const std::string coat = GARMENTFIT_SAMPLES "/coat.ply";
@@ -636,6 +650,14 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     EXPECT_EQ(cloth.at("fabric"), "denim");
     EXPECT_EQ(cloth.at("density"), 0.5);
     EXPECT_EQ(cloth.at("stretch_stiffness"), 800);
+    const Ended named = run({ "drape", fitted, "--fabric", "wool", "--fabric", "skirt.ply=rib", "--json",
+                              "--settling-steps", "2", "-o", folder / "rib" });
+    ASSERT_EQ(named.code, 0) << named.err;
+    const auto skirt = nlohmann::json::parse(named.out).at("garments").at(0);
+    EXPECT_EQ(skirt.at("cloth").at("fabric"), "rib");
+    EXPECT_EQ(skirt.at("cloth").at("largest_stretch"), 0.5);
+    EXPECT_NE(skirt.at("verdict").at("fit"), "too small");
+    EXPECT_FALSE(skirt.at("verdict").at("places").empty());
     ASSERT_EQ(run({ "recover", draped, "-o", own }).code, 0);
     EXPECT_EQ(garmentfit::MeshFile::read(own / "body.ply").positions(), body.positions());
     const garmentfit::Positions stepwise = garmentfit::MeshFile::read(own / "skirt.ply").positions();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "garmentfit/error.h"
+
 namespace {
 
 using namespace garmentfit;
@@ -16,7 +18,8 @@ ClothOptions cloth_of(Fabric fabric)
 
 TEST(Cloth, EveryFabricHasFiguresOfItsOwn)
 {
-    ASSERT_EQ(fabric_names().size(), 5u);
+    ASSERT_EQ(fabric_names().size(), 11u);
+    EXPECT_EQ(fabric_names()[static_cast<int>(Fabric::tulle)], "tulle");
     for (int a = 0; a < 5; ++a) {
         const Material material = material_of(cloth_of(Fabric(a)));
         EXPECT_GT(material.density, 0) << fabric_names()[a];
@@ -44,6 +47,30 @@ TEST(Cloth, KeepsWhatTheUserSet)
 }
 
 // A figure that happens to be cotton's is given like any other.
+TEST(Cloth, LetsAGarmentBeStretchedAsFarAsItsFabricGives)
+{
+    EXPECT_EQ(material_of({}).largest_stretch, 0.15);
+    EXPECT_GT(material_of(cloth_of(Fabric::swimwear)).largest_stretch, material_of(Fabric::jersey).largest_stretch);
+    ClothOptions options = cloth_of(Fabric::swimwear);
+    options.largest_stretch = 0.1;
+    EXPECT_EQ(material_of(options).largest_stretch, 0.1);
+    for (std::size_t f = 0; f < fabric_names().size(); ++f)
+        EXPECT_GE(material_of(Fabric(f)).strain_limit, material_of(Fabric(f)).largest_stretch) << fabric_names()[f];
+}
+
+TEST(Cloth, FindsTheFabricThatGivesJustEnough)
+{
+    EXPECT_EQ(fabric_that_gives(0.27, 0.15), Fabric::jersey);
+    EXPECT_EQ(fabric_that_gives(0.05, 0.15), Fabric::fleece) << "less is needed, but the present one did not do";
+    EXPECT_FALSE(fabric_that_gives(0.9, 0.15));
+}
+
+TEST(Cloth, IsNamed)
+{
+    EXPECT_EQ(fabric_of("rib"), Fabric::rib);
+    EXPECT_THROW(fabric_of("paper"), InvalidInput);
+}
+
 TEST(Cloth, KeepsAFigureOfCottonOnAnotherFabric)
 {
     ClothOptions options = cloth_of(Fabric::denim);

@@ -123,6 +123,22 @@ TEST(FitMap, AVertexOfNoFaceHasTheValuesOfItsNeighbour)
     EXPECT_LT(b.ease[n + 1], 0.01);
 }
 
+TEST(Spikes, AreEdgesOfTheBodyThatAreDrawnOutFarBeyondThePose)
+{
+    const Person person = capsule_person({});
+    const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
+    const Rig rig = simple_rig(person);
+    DressedBody dressed;
+    EXPECT_EQ(find_spikes(rig, body, dressed).edges, 0) << "no body of its own";
+    dressed.body = body.surface.positions;
+    EXPECT_EQ(find_spikes(rig, body, dressed).edges, 0);
+    dressed.body.row(0) += 3 * Eigen::RowVector3d::UnitX();
+    const Overstretch spikes = find_spikes(rig, body, dressed);
+    EXPECT_GE(spikes.edges, 3);
+    EXPECT_GT(spikes.largest, 10);
+    EXPECT_FALSE(spikes.part.empty());
+}
+
 TEST(Girths, AreTheBodysAndTheGarmentsWhereTheGarmentGoesRound)
 {
     const Person person = capsule_person({});

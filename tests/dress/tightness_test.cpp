@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fixtures.h"
+#include "garmentfit/fit_map.h"
 
 namespace garmentfit {
 namespace {
@@ -42,16 +43,16 @@ TEST(Tightness, NamesThePartAndTheGirthThatItLacks)
     const Skeleton skeleton = fixtures::person_skeleton({});
     const Positions rest = tube(skeleton, lfemur, 0.08), worn = tube(skeleton, lfemur, 0.1);
     const Edges edges = edges_of(tube_triangles());
-    Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 2);
+    Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15, 2);
     EXPECT_NEAR(tightness.largest_stretch(worn), 0.25, 1e-6);
-    const auto tight = tightness.list_tight_parts(worn, 0.15, {});
+    const auto tight = tightness.list_tight_parts(worn, 1, {});
     ASSERT_EQ(tight.size(), 1u);
     EXPECT_EQ(tight[0].garment, 2);
     EXPECT_EQ(tight[0].part, "left thigh");
     EXPECT_NEAR(tight[0].missing_girth, 2 * M_PI * 0.02, 1e-6);
     EXPECT_NEAR(tight[0].enlargement, 0.25, 1e-6);
-    EXPECT_EQ(tightness.list_tight_parts_at_rest(worn, 0.15).size(), 1u);
-    EXPECT_TRUE(tightness.list_tight_parts(worn, 0.3, {}).empty());
+    EXPECT_EQ(tightness.list_tight_parts_at_rest(worn).size(), 1u);
+    EXPECT_TRUE(tightness.list_tight_parts(worn, 2, {}).empty());
     tightness.set_rest(worn);
     EXPECT_NEAR(tightness.largest_stretch(worn), 0, 1e-9);
 }
@@ -61,8 +62,35 @@ TEST(Tightness, CountsACaughtEdgeAsHalfStretched)
     const Skeleton skeleton = fixtures::person_skeleton({});
     const Positions rest = tube(skeleton, lfemur, 0.05), worn = tube(skeleton, lfemur, 0.1);  // twice as wide
     const Edges edges = edges_of(tube_triangles());
-    const Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton);
+    const Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15);
     EXPECT_NEAR(tightness.largest_stretch(worn), 0.5, 1e-6);
+}
+
+// literature: [kirk_1966_extensibility], pressure is tension over radius.
+TEST(PartLoads, AreTheStretchRoundAPartAndThePressureThatFollows)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const Positions rest = tube(skeleton, lfemur, 0.08), worn = tube(skeleton, lfemur, 0.1);
+    WornGarment leggings { { rest, tube_triangles() }, worn, {} };
+    leggings.fabric = Fabric::swimwear;
+    const auto loads = part_loads(skeleton, fixtures::on_bone(lfemur, worn.rows()), worn, leggings);
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_EQ(loads[0].part, "left thigh");
+    EXPECT_NEAR(loads[0].girth, 2 * M_PI * 0.1, 1e-9);
+    EXPECT_NEAR(loads[0].stretch, 0.25, 1e-6);
+    EXPECT_NEAR(loads[0].pressure, material_of(Fabric::swimwear).stretch_stiffness * 0.25 / 0.1, 1e-3);
+    leggings.positions = rest;
+    EXPECT_EQ(part_loads(skeleton, fixtures::on_bone(lfemur, worn.rows()), worn, leggings)[0].pressure, 0);
+}
+
+TEST(Tightness, OfAKnitCountsEdgesThatAreStretchedAsFarAsItGives)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const Positions rest = tube(skeleton, lfemur, 0.06), worn = tube(skeleton, lfemur, 0.1);  // by two thirds
+    const Edges edges = edges_of(tube_triangles());
+    const Tightness rib(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.5);
+    EXPECT_EQ(rib.list_tight_parts_at_rest(worn).size(), 1u) << "two thirds are more than it gives";
+    EXPECT_NEAR(rib.largest_stretch(worn), 2. / 3, 1e-6);
 }
 
 TEST(Slack, IsHowMuchWiderAGarmentIsThanWhatItGoesRound)

@@ -28,6 +28,7 @@ class Garment(NamedTuple):
     front: Optional[str] = None  #: the axis of its file that its front faces
     scale: Optional[float] = None  #: of its file, after its unit
     as_placed: Optional[bool] = None  #: it lies round the body already
+    fabric: Optional[str] = None  #: what it is made of
 
 
 class Girth(NamedTuple):
@@ -46,6 +47,21 @@ class Overstretch(NamedTuple):
     edges: int  #: number of edges stretched by more than half their length
     largest: float  #: largest stretch of an edge, as a share of its length
     part: str  #: nearest part of the body; empty where no edge is overstretched
+
+
+class PlaceVerdict(NamedTuple):
+    place: str
+    fit: str  #: "roomy", "fits", "tight" or "too small"
+    stretch: float  #: of the cloth round that place, as a share of its length
+    pressure: float  #: Pa, on the mean
+
+
+class FitVerdict(NamedTuple):
+    """How a garment fits."""
+
+    fit: str  #: "roomy", "fits", "tight", "too small" or "too large": it does not stay up
+    fabric_that_would_do: Optional[str]  #: of a garment that is too small, where there is such a fabric
+    places: List[PlaceVerdict]
 
 
 class FitOfGarment(NamedTuple):
@@ -89,6 +105,7 @@ class DressedGarment:
     girths: List[Girth]
     overstretched: Overstretch
     too_tight: List[Tuple[str, float]]  #: part of the body, missing girth
+    verdict: FitVerdict
 
 
 class Frame(NamedTuple):
@@ -198,6 +215,8 @@ def _dressed(garment: Mapping[str, Any]) -> DressedGarment:
     parts["certificate"] = Certificate(**parts["certificate"])
     parts["overstretched"] = Overstretch(*parts["overstretched"])
     parts["girths"] = [Girth(*girth) for girth in parts["girths"]]
+    fit, fabric, places = parts["verdict"]
+    parts["verdict"] = FitVerdict(fit, fabric, [PlaceVerdict(*place) for place in places])
     return DressedGarment(**parts)
 
 
@@ -210,7 +229,7 @@ def _scene_of(body: MeshLike, unit: str, up: str, front: str,
 
 def _sizes_of(garment: Garment, parameters: Mapping[str, Any]) -> Mapping[str, Any]:
     """What the garment says of itself comes before the parameters of all garments."""
-    own = {"garment_scale": garment.scale, "as_placed": garment.as_placed}
+    own = {"garment_scale": garment.scale, "as_placed": garment.as_placed, "garment_fabric": garment.fabric}
     return {**parameters, **{name: value for name, value in own.items() if value is not None}}
 
 
@@ -258,7 +277,8 @@ def fit_skeleton(rig: Rig, garments: Union[MeshLike, Sequence[Any]], *, garment_
                  **parameters: Any) -> Fit:
     """Poses a rigged body so that its bones run through the middle of the garment's parts.
 
-    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type, front, scale, as_placed)
+    garments: one, or a list from the inside out (or layer_order="auto"); Garment(mesh, type, front, scale, as_placed,
+    fabric)
     says for each what it is and how it lies.
     """
     scene = _with_garments(_scene_in(rig, "rig_body"), garments, garment_unit, garment_up, garment_front, parameters)

@@ -172,13 +172,16 @@ def _given_front(garment: vtkPolyData) -> str:
 
 
 def _given_sizes(garment: vtkPolyData) -> Dict[str, Any]:
-    """Scale, and whether the garment lies round the body already: of this garment."""
+    """Scale, fabric, and whether the garment lies round the body already: of this garment."""
+    fabric = garment.GetFieldData().GetAbstractArray("GarmentFabric")
     scale, placed = (_numbers(garment.GetFieldData(), name) for name in ("GarmentScale", "GarmentAsPlaced"))
     given: Dict[str, Any] = {}
     if scale is not None and scale.size:
         given["garment_scale"] = float(scale.flat[0])
     if placed is not None and placed.size:
         given["as_placed"] = bool(placed.flat[0])
+    if isinstance(fabric, vtkStringArray) and fabric.GetNumberOfValues():
+        given["garment_fabric"] = fabric.GetValue(0)
     return given
 
 

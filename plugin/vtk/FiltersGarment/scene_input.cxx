@@ -39,6 +39,15 @@ GarmentChoice garment_choice(vtkPolyData& garment, const Hints& hints, const Par
     return choice;
 }
 
+/// Of a string `GarmentFabric` in the garment's own field data.
+std::optional<Fabric> fabric_of_field(vtkPolyData& garment)
+{
+    auto* name = vtkStringArray::SafeDownCast(garment.GetFieldData()->GetAbstractArray("GarmentFabric"));
+    if (!name || name->GetNumberOfValues() == 0)
+        return {};
+    return fabric_of(name->GetValue(0));
+}
+
 GivenJoints joints(const Hints& hints, const Frame& frame)
 {
     GivenJoints given;
@@ -93,7 +102,9 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
                                      given_type(garment),
                                      {},
                                      front_of_garment(*frame, choice.front),
-                                     choice.as_placed });
+                                     choice.as_placed,
+                                     0,
+                                     fabric_of_field(garment) });
 }
 
 }  // namespace

@@ -27,9 +27,10 @@
  *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentMinDistance`, `StrainMedian`, `StrainP95`,
  *   `StrainMax`,
  *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`,
- *   `GirthBody`, `GirthGarment`
+ *   `GirthBody`, `GirthGarment`, `Verdict`, `VerdictPlace`, `PlaceVerdict`, `PlaceStretch`, `PlacePressure` (Pa),
+ *   `FabricThatWouldDo`
  * - a string `GarmentType` in the field data of an input sets the garment's type, a string `GarmentFront` the axis
- *   that its front faces, a number `GarmentScale` its scale, and a number `GarmentAsPlaced` other than 0 says that it
+ *   that its front faces, a string `GarmentFabric` what it is made of, a number `GarmentScale` its scale, and a number `GarmentAsPlaced` other than 0 says that it
  *   lies round the body already
  *
  * last port, the skeleton: lines with `JointName`, `JointId`, `JointParent` (point data), `BoneName`, `BoneId` (cell

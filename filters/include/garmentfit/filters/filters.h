@@ -45,6 +45,7 @@ struct GarmentInput {
     std::optional<Vec3> front = {};  ///< as FitOptions::front, where the user gave it
     std::optional<bool> as_placed = {};  ///< empty: as in Parameters
     int skipped = 0;  ///< FitOptions::skipped
+    std::optional<Fabric> fabric = {};  ///< empty: as in Parameters
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.
@@ -63,9 +64,14 @@ struct Dressing : DressedBody {
     std::optional<Stage> out_of_time;  ///< the stage in which the time limit was reached
     std::vector<RecoverFrame> frames;  ///< states on the last pose path, where asked for
     int frames_asked = 0;  ///< how many those would be if all were certified and the whole path was covered
-    std::vector<FitMap> maps;  ///< one for each garment that is worn, like the next two
+    std::vector<FitMap> maps;  ///< one for each garment that is worn, like the next three
     std::vector<std::vector<Girth>> girths;  ///< of garment and body under it
     std::vector<Overstretch> overstretches;
+    std::vector<std::vector<PartLoad>> loads;  ///< round each part of the body that the garment goes round
+    std::vector<Fabric> fabrics;  ///< of each of the scene's garments
+    std::vector<double> fabric_stretches;  ///< what each of them gives: Material::largest_stretch
+    Overstretch spikes;  ///< of the body: edges that cloth draws out far beyond their length
+    double spiked_share = 0;  ///< of all edges of the body
     /// What lengths of this body are multiplied by to be those at human size (body_scale.h). Speeds and pressures are
     /// those at human size.
     double to_human_size = 1;

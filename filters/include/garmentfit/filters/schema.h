@@ -107,8 +107,8 @@ template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nu
 void describe_cloth(Options& o, Visitor&& visit)
 {
     visit(o.fabric,
-          About { "fabric", "Fabric", "", 0, 0, "Sets density, stiffness and friction, where they are not given",
-                  &fabric_names() });
+          About { "fabric", "Fabric", "", 0, 0,
+                  "Sets density, stiffness, friction and largest stretch, where they are not given", &fabric_names() });
     visit(o.contact_distance,
           About { "contact_distance", "Contact distance", "m", 5e-4, 0.02,
                   "Cloth nearer than this to the body, or to other cloth, is pushed away from it" });
@@ -130,7 +130,8 @@ void describe_cloth(Options& o, Visitor&& visit)
                   Group::everyday, fabric });
     visit(o.largest_stretch,
           About { "largest_stretch", "Largest stretch", "", 0.01, 2,
-                  "A garment is too small where the body would stretch it by more than this share" });
+                  "A garment is too small where the body would stretch it by more than this share", nullptr,
+                  Group::everyday, fabric });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, ClothOptions>* = nullptr>

@@ -11,8 +11,9 @@
 
 namespace garmentfit {
 
-/// Fabrics of clothing. docs/cloth.md has their figures and says where these come from.
-enum class Fabric { cotton, denim, jersey, silk, wool };
+/// Fabrics of clothing. docs/fabrics.md has their figures and says where these come from. stretch_woven is cotton or
+/// denim woven with elastane; swimwear an elastane knit, also of leggings.
+enum class Fabric { cotton, denim, jersey, silk, wool, stretch_woven, rib, fleece, swimwear, leather, tulle };
 
 /// "cotton", "denim", ..., in the order of the values.
 GARMENTFIT_API const std::vector<std::string_view>& fabric_names();
@@ -23,25 +24,41 @@ struct Material {
     double stretch_stiffness;  ///< N/m
     double bend_stiffness;  ///< N m
     double friction;  ///< of cloth on body, dimensionless
+    double largest_stretch;  ///< l / l0 - 1 round a part of the body, on the mean, that the fabric gives when worn
+    double strain_limit;  ///< l / l0 - 1 of an edge; beyond it the cloth is stiffer: its threads or loops are straight
+    double thickness;  ///< m; the solver does not use it: contact_distance is larger
 };
 
-/// Units: metres, kilograms, seconds. The default lengths and largest_stretch are fitted: guesses, on the pairs of the
-/// house data that cloth/tuning.h describes. They stand here because they are part of the interface.
+/// @throws InvalidInput listing the names
+GARMENTFIT_API Fabric fabric_of(std::string_view name);
+
+/// The figures of a fabric as tabled.
+GARMENTFIT_API Material material_of(Fabric fabric);
+
+/// Units: metres, kilograms, seconds. The default lengths are fitted: guesses, on the pairs of the house data that
+/// cloth/tuning.h describes. They stand here because they are part of the interface.
 struct ClothOptions {
     Fabric fabric = Fabric::cotton;
     double contact_distance = 2.5e-3;  ///< m; contact force begins below this distance
     double min_distance = 1e-4;  ///< m; motion is cut before a distance falls below this
-    std::optional<double> density {};  ///< kg/m^2; this and the next three: of the fabric where not given
+    std::optional<double> density {};  ///< kg/m^2; this and the next four: of the fabric where not given
     std::optional<double> stretch_stiffness {};  ///< N/m
     std::optional<double> bend_stiffness {};  ///< N m
     std::optional<double> friction {};  ///< of cloth on body, dimensionless
-    double largest_stretch
-        = 0.15;  ///< a garment is too small where a part of the body stretches it by more, on the mean
+    /// A garment is too small where a part of the body stretches it by more, on the mean.
+    std::optional<double> largest_stretch {};
     double largest_enlargement = 0;  ///< fraction by which a garment that is too small may be enlarged
 };
 
 /// The figures of the fabric, replaced by those that `options` gives.
 GARMENTFIT_API Material material_of(const ClothOptions& options);
+/// The same of another fabric than that of `options`: of one garment among several.
+GARMENTFIT_API Material material_of(const ClothOptions& options, Fabric fabric);
+
+/// The fabric that gives at least so much, and more than the present one, and of these the one that gives least; none
+/// where no fabric does.
+/// @param stretch  l / l0 - 1
+GARMENTFIT_API std::optional<Fabric> fabric_that_gives(double stretch, double present);
 
 /// m/s. Cloth counts as settled when no vertex is faster than this.
 /// fitted: guess, on the house data, where cloth that looks at rest still creeps by some millimetres a second. It

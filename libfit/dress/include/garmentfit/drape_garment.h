@@ -55,7 +55,11 @@ struct WornGarment {
     double slipped = 0;
     PieceCounts pieces = {};  ///< how it was held together
     int closed_ends = 0;  ///< flat caps at its ends, whose faces `rest` leaves out: a hand, foot or head passes there
+    std::optional<Fabric> fabric = {};  ///< what it is made of, where not of the fabric of ClothOptions
 };
+
+/// What a garment is made of, among others of perhaps other fabrics.
+GARMENTFIT_API Material material_of(const ClothOptions& options, const WornGarment& worn);
 
 /// A body in a pose, and the garments on it.
 struct DressedBody {

@@ -28,15 +28,38 @@ GARMENTFIT_API FitMap fit_map(const TriangleMesh& body, const WornGarment& worn,
 /// fitted: guess, on the house pairs that dress/tuning.h names. It stands here because warnings state it.
 constexpr double k_overstretched = 0.5;
 
+/// How a garment goes round a part of the body.
+struct PartLoad {
+    std::string part;  ///< as in TooTight
+    double girth;  ///< m, of the cloth as worn
+    double stretch;  ///< mean of l / l0 - 1 over the edges that run round the part; negative where the cloth is slack
+    double pressure;  ///< Pa, on the mean: the tension of this stretch over the radius [kirk_1966_extensibility]
+};
+
+/// Where the edges of a garment go round the body, the stretch there and the pressure that follows. The pressure is that
+/// of the stiffness that the solver uses, which is soft for woven fabrics (docs/fabrics.md): a lower bound there.
+/// @param skeleton  in the pose of body and garment
+/// @param body      the vertices of the weights, metres, in the pose in which the garment is worn. Cost O(n log n + m).
+GARMENTFIT_API std::vector<PartLoad> part_loads(const Skeleton& skeleton, const SkinWeights& weights,
+                                                const Positions& body, const WornGarment& worn,
+                                                const ClothOptions& cloth = {});
+
 /// How many edges are overstretched, and where the worst is.
 struct Overstretch {
     int edges = 0;  ///< those that are overstretched
     double largest = 0;  ///< l / l0 - 1 of the edge that is stretched most
     std::string part;  ///< of the body, next to that edge, as in TooTight; empty where nothing is overstretched
+    double limit = k_overstretched;  ///< l / l0 - 1 beyond which an edge counts
 };
 
-/// @param body  the vertices of the weights, in the pose in which the garment is worn. Cost O(n log n + m).
-GARMENTFIT_API Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn);
+/// @param body   the vertices of the weights, in the pose in which the garment is worn. Cost O(n log n + m).
+/// @param limit  l / l0 - 1; what is stretched further counts
+GARMENTFIT_API Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn,
+                                       double limit = k_overstretched);
+
+/// Edges of a dressed body that are much longer than the pose makes them: cloth holds some of its vertices far from the
+/// others. Of a body below its full size, too. Nothing where `dressed` has no body of its own. Cost O(m).
+GARMENTFIT_API Overstretch find_spikes(const Rig& rig, const BodyMesh& body, const DressedBody& dressed);
 
 /// Girths of body and garment in one place, by a tape drawn tight round the cut of a plane across the bone.
 struct Girth {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What each vertex of a cloth is made of, where several garments move as one cloth.
+
+#include <vector>
+
+#include "garmentfit/cloth.h"
+
+namespace garmentfit {
+
+class Materials {
+public:
+    /// All cloth is of the fabric of `options`.
+    explicit Materials(const ClothOptions& options) : of_garment_ { material_of(options) } { }
+
+    /// @param fabrics   of each garment; empty: all cloth is of the fabric of `options`
+    /// @param garments  of each vertex its garment; empty: there is one garment
+    Materials(const ClothOptions& options, const std::vector<Fabric>& fabrics, std::vector<int> garments) :
+        Materials(options)
+    {
+        if (fabrics.empty())
+            return;
+        of_garment_.clear();
+        for (const Fabric fabric : fabrics)
+            of_garment_.push_back(material_of(options, fabric));
+        garments_ = std::move(garments);
+    }
+
+    const Material& at(int vertex) const { return of_garment_[garments_.empty() ? 0 : garments_[vertex]]; }
+
+private:
+    std::vector<Material> of_garment_;
+    std::vector<int> garments_;
+};
+
+}  // namespace garmentfit
