@@ -17,9 +17,8 @@ double fabric_stretch(const Dressing& dressing, std::size_t garment)
 
 bool is_too_tight_at(const Dressing& dressing, std::size_t garment, const std::string& place)
 {
-    return std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(), [&](const TooTight& part) {
-        return part.garment == int(garment) && part.part == place;
-    });
+    return std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(),
+                       [&](const TooTight& part) { return part.garment == int(garment) && part.part == place; });
 }
 
 /// @param ease  share of the body's girth, where it was measured
@@ -108,7 +107,8 @@ std::optional<FitVerdict> fit_verdict(const Dressing& dressing, std::size_t garm
     if (!too_small && !dressing.is_worn(garment))
         return {};
     FitVerdict result { Verdict::fits, judge_places(dressing, garment), {} };
-    const auto is = [](Verdict verdict) { return [verdict](const PlaceVerdict& one) { return one.verdict == verdict; }; };
+    const auto is
+        = [](Verdict verdict) { return [verdict](const PlaceVerdict& one) { return one.verdict == verdict; }; };
     const auto& places = result.places;
     if (too_small) {
         result.verdict = Verdict::too_small;

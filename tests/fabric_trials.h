@@ -144,7 +144,8 @@ inline Positions settle_held(const GarmentMesh& rest, const std::vector<int>& he
 /// A strip along +x with rows of equilateral triangles, in the plane y = 0; its first row is at x = 0.
 inline GarmentMesh strip(double length, double width, double edge)
 {
-    const int along = int(std::lround(length / (edge * std::sqrt(0.75)))) + 1, across = int(std::lround(width / edge)) + 1;
+    const int along = int(std::lround(length / (edge * std::sqrt(0.75)))) + 1,
+              across = int(std::lround(width / edge)) + 1;
     Positions positions(along * across, 3);
     for (int i = 0; i < along; ++i)
         for (int j = 0; j < across; ++j)
@@ -254,7 +255,8 @@ inline double shadow(const Positions& x, const Triangles& triangles, double radi
         };
         for (int i = std::max(0, int(c.col(0).minCoeff())); i <= std::min(n - 1, int(c.col(0).maxCoeff())); ++i)
             for (int j = std::max(0, int(c.col(1).minCoeff())); j <= std::min(n - 1, int(c.col(1).maxCoeff())); ++j) {
-                const double p = side(0, i + 0.5, j + 0.5), q = side(1, i + 0.5, j + 0.5), r = side(2, i + 0.5, j + 0.5);
+                const double p = side(0, i + 0.5, j + 0.5), q = side(1, i + 0.5, j + 0.5),
+                             r = side(2, i + 0.5, j + 0.5);
                 if ((p >= 0 && q >= 0 && r >= 0) || (p <= 0 && q <= 0 && r <= 0))
                     dark[std::size_t(i) * n + j] = 1;
             }
@@ -326,13 +328,14 @@ inline Moduli moduli(const ClothOptions& options, double strain)
         double low = -along, high = 0;
         for (int i = 0; i < 80; ++i) {
             const double a = high - k_ratio * (high - low), b = low + k_ratio * (high - low);
-            (density(along, a, 0) < density(along, b, 0) ? high : low) = density(along, a, 0) < density(along, b, 0) ? b : a;
+            (density(along, a, 0) < density(along, b, 0) ? high : low)
+                = density(along, a, 0) < density(along, b, 0) ? b : a;
         }
         return 0.5 * (low + high);
     };
     constexpr double h = 1e-4;
-    const double tension = (density(strain + h, narrowed(strain + h), 0) - density(strain - h, narrowed(strain - h), 0))
-        / (2 * h);
+    const double tension
+        = (density(strain + h, narrowed(strain + h), 0) - density(strain - h, narrowed(strain - h), 0)) / (2 * h);
     return { tension / strain, (density(0, 0, h) + density(0, 0, -h)) / (h * h), -narrowed(strain) / strain };
 }
 

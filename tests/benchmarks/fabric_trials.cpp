@@ -13,7 +13,8 @@
 int main(int argc, char** argv)
 {
     using namespace garmentfit;
-    std::cout << "fabric,bend_stiffness,cantilever,drape_24,drape_30,drape_36,nodes_30,young_1,young_10,shear,poisson\n";
+    std::cout
+        << "fabric,bend_stiffness,cantilever,drape_24,drape_30,drape_36,nodes_30,young_1,young_10,shear,poisson\n";
     for (std::size_t f = 0; f < fabric_names().size(); ++f) {
         const ClothOptions options = trials::of(Fabric(f));
         const Material material = material_of(options);

@@ -124,6 +124,27 @@ TEST(ClothEnergy, ForcesOfAnOpenedFoldAreMinusItsGradientWhileItsAxesHold)
         EXPECT_NEAR(beside(end, edge), 0, close);
 }
 
+TEST(ClothEnergy, OfSeveralGarmentsIsThatOfEachInItsOwnFabric)
+{
+    const TriangleMesh sheet = flat(6, 0.02, Vec3::Zero()), both = joined(sheet, flat(6, 0.02, Vec3(1, 0, 0)));
+    const int n = int(sheet.positions.rows());
+    std::vector<int> garments(2 * n, 1);
+    std::fill_n(garments.begin(), n, 0);
+    const auto energy_in = [](const TriangleMesh& mesh, const Materials& materials) {
+        const GarmentMesh rest { mesh.positions, mesh.triangles };
+        const ClothEnergy energy(rest, topology_of(rest), {}, materials);
+        return std::pair { energy.elastic_energy(1.05 * rest.positions), energy.masses().back() };
+    };
+    ClothOptions denim;
+    denim.fabric = Fabric::denim;
+    const auto [first, light] = energy_in(sheet, Materials(ClothOptions()));
+    const auto [second, heavy] = energy_in(sheet, Materials(denim));
+    const auto [whole, last] = energy_in(both, { {}, { Fabric::cotton, Fabric::denim }, garments });
+    EXPECT_NEAR(whole, first + second, 1e-9 * whole);
+    EXPECT_NEAR(last, heavy, 1e-12);
+    EXPECT_GT(heavy, light);
+}
+
 TEST(ClothEnergy, StiffensWhereAnEdgeIsOverstretched)
 {
     constexpr double k_edge = 0.02, k_time_step = 0.02;

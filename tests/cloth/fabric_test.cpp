@@ -66,11 +66,10 @@ TEST(Slow, ACantileverHangsAsPeirceSaysWhateverTheFabricAndTheMesh)
 
 TEST(FabricTrials, PresetsAreWithinThePublishedRangesOfTheirFabric)
 {
-    for (const auto& [quantity, value, times] :
-         { std::tuple { "density", &Material::density, 1. },
-           { "bend_stiffness", &Material::bend_stiffness, k_bending_of_hinges },
-           { "largest_stretch", &Material::largest_stretch, 1. },
-           { "thickness", &Material::thickness, 1. } }) {
+    for (const auto& [quantity, value, times] : { std::tuple { "density", &Material::density, 1. },
+                                                  { "bend_stiffness", &Material::bend_stiffness, k_bending_of_hinges },
+                                                  { "largest_stretch", &Material::largest_stretch, 1. },
+                                                  { "thickness", &Material::thickness, 1. } }) {
         const auto ranges = published(quantity);
         EXPECT_EQ(ranges.size(), fabric_names().size()) << quantity;
         for (const auto& [name, range] : ranges) {
