@@ -125,7 +125,8 @@ inline constexpr double k_same_direction = 0.5;
 /// Weights of the evidence for a way of wearing (evidence.h, in the order of Evidence): log odds per unit. Fitted by
 /// scripts/fit-evidence on 100 generated garments, 25 of them also placed anew, and 26 modelled ones, each on one to
 /// three bodies, every third also turned. On the half that the weights had not seen, the facing was right for 246 of
-/// 256, and for 225 of the 226 said with more than 0.9.
+/// 256, and for 225 of the 226 said with more than 0.9. Only the weights had not seen that half: which evidence there is,
+/// k_max_bare and what counts askew were chosen with both halves in view, so these shares are somewhat too good.
 inline constexpr std::array<double, 39> k_evidence_weights {
     0.08,  // energy
     5.01,  // clearance
