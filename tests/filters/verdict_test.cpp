@@ -86,7 +86,7 @@ TEST(FitVerdict, OfSpikesIsNeverTooSmall)
     small.too_tight = { { 0, "chest", 0.21, 0.27 } };
     EXPECT_EQ(outcome_of(small), Outcome::too_small);
     Dressing body = small, cloth = small;
-    body.spiked_share = 0.01;
+    body.spiked_share = 0.02;
     body.spikes = { 400, 5, "left thigh" };
     EXPECT_EQ(outcome_of(body), Outcome::not_certified);
     EXPECT_EQ(explain(body, { "top" }),
