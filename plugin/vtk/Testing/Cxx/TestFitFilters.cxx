@@ -587,7 +587,7 @@ TEST(RigBody, RefusesBadInputInOneLineAndWorksAfterwards)
         = { { vtkSmartPointer<vtkPolyData>::New(), "0 polygons" },
             { lines_only(), "1 lines" },
             { not_finite(), "7" },
-            { naming_a_point_that_is_not_there(), "names a vertex outside" },
+            { naming_a_point_that_is_not_there(), "refers to a vertex outside" },
             { sphere(), "" } };
     for (const auto& [data, part] : bad) {
         rig->SetInputData(data);
