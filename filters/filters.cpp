@@ -195,6 +195,7 @@ Dressing move_to_pose(const Scene& scene, const Dressing& from, const std::vecto
     next.too_tight = among_all(result.too_tight, worn);
     static_cast<DressedBody&>(next) = result;
     next.speed = result.speed;
+    next.residual = result.residual;
     return next;
 }
 

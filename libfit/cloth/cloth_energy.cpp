@@ -191,7 +191,8 @@ void ClothEnergy::assemble()
     const auto quadratic_form = [](const SparseRows& form, const Eigen::VectorXd& stiffness) {
         return SparseRows(form * stiffness.asDiagonal() * SparseRows(form.transpose()));
     };
-    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + quadratic_form(sum_gradients_, sum_stiffness);
+    framed_ = quadratic_form(sum_gradients_, sum_stiffness);
+    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + framed_;
     SparseRows diagonal(n, n);  // set_time_step() writes to the diagonal, so each of its entries must exist
     diagonal.setIdentity();
     elastic_ += 0 * diagonal;
@@ -283,11 +284,23 @@ double ClothEnergy::elastic_energy(const Positions& x) const
     return sum;
 }
 
+void ClothEnergy::add_inertia(const Positions& x, Positions& sum) const
+{
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        sum.row(v) += masses_[v] * inertia_ * x.row(v);
+}
+
+Positions ClothEnergy::apply_framed_form(const Positions& x) const
+{
+    Positions result = multiply(framed_, x);
+    add_inertia(x, result);
+    return result;
+}
+
 Positions ClothEnergy::apply_quadratic_form(const Positions& x) const
 {
     Positions result = multiply(elastic_, x);
-    for (Eigen::Index v = 0; v < x.rows(); ++v)
-        result.row(v) += masses_[v] * inertia_ * x.row(v);
+    add_inertia(x, result);
     return result;
 }
 

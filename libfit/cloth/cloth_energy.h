@@ -28,6 +28,23 @@ namespace garmentfit {
 
 class ClothEnergy {
 public:
+    struct Spring {
+        int i, j;
+        double length, stiffness;
+        double longest;  // m; beyond it the spring is stiffer
+    };
+    /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
+    struct FramedSum {
+        enum class Kind { hinge, tie } kind;
+        std::array<int, 4> v;  // the shared edge of a hinge, then the opposite corners; triangle and vertex of a tie
+        std::array<double, 4> coefficients;  // for the mean curvature vector of a hinge, the offset of a tie
+        Vec3 at_rest;  // that vector at rest, in the frame
+        double stiffness;
+
+        Eigen::Matrix3d frame(const Positions& x) const;
+        Vec3 sum(const Positions& x) const;
+    };
+
     /// @param topology  of rest.triangles
     /// @param pairs     of vertices held at their rest distance, beside the edges
     /// @param sewn      of vertices held at their place over a triangle
@@ -54,6 +71,10 @@ public:
     Positions frame_loads(const Positions& x) const;
     /// The constant quadratic form (inertia, springs, hinges, ties) times x, N.
     Positions apply_quadratic_form(const Positions& x) const;
+    /// Of that form the part of inertia, hinges and ties.
+    Positions apply_framed_form(const Positions& x) const;
+    const std::vector<Spring>& springs() const { return springs_; }
+    const std::vector<FramedSum>& framed_sums() const { return sums_; }
     /// Approximately the inverse of that form times the residual, in single precision.
     Positions precondition(const Positions& residual) const { return factor_.solve(residual); }
     /// A constraint for each edge that is stretched beyond the limit.
@@ -61,33 +82,19 @@ public:
 
 private:
     using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-    struct Spring {
-        int i, j;
-        double length, stiffness;
-        double longest;  // m; beyond it the spring is stiffer
-    };
-    /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
-    struct FramedSum {
-        enum class Kind { hinge, tie } kind;
-        std::array<int, 4> v;  // the shared edge of a hinge, then the opposite corners; triangle and vertex of a tie
-        std::array<double, 4> coefficients;  // for the mean curvature vector of a hinge, the offset of a tie
-        Vec3 at_rest;  // that vector at rest, in the frame
-        double stiffness;
-
-        Eigen::Matrix3d frame(const Positions& x) const;
-        Vec3 sum(const Positions& x) const;
-    };
     void add_springs(const GarmentMesh& rest, const MeshTopology& topology,
                      const std::vector<std::pair<int, int>>& pairs, const Materials& materials);
     void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, const Materials& materials);
     void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials);
     void assemble();
+    void add_inertia(const Positions& x, Positions& sum) const;
     static Positions multiply(const SparseRows& matrix, const Positions& x);
 
     std::vector<double> masses_;
     std::vector<Spring> springs_;
     std::vector<FramedSum> sums_;
     SparseRows spring_gradients_, sum_gradients_;  // n x elements: how their loads act on the vertices
+    SparseRows framed_;  // the part of hinges and ties in elastic_
     SparseRows elastic_;  // constant part of the system, n x n, both triangles
     SinglePrecisionFactor factor_;
     double inertia_ = 0;

@@ -7,6 +7,7 @@
 
 #include "collision_free_step.h"
 #include "garmentfit/stopwatch.h"
+#include "newton_step.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
 
@@ -316,6 +317,14 @@ double ClothMotion::advect_obstacle(const Positions& target)
     return lag;
 }
 
+// Where the cloth would be at the end of the step without forces other than gravity.
+Positions ClothMotion::inertial_positions(const MotionStep& step) const
+{
+    Positions result = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
+    result.col(1).array() -= step.gravity * step.time_step * step.time_step;
+    return result;
+}
+
 // The cloth's targets, n x 3, while the obstacle makes these displacements (of all vertices).
 Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& displacements,
                                        const std::vector<ActiveContact>& contacts)
@@ -323,8 +332,7 @@ Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& 
     const Stopwatch watch(seconds_.solver);
     Positions targets = x_ + displacements;
     energy_->set_time_step(step.time_step);
-    Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
-    inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
+    const Positions inertial = inertial_positions(step);
     PreconditionedCG solver(*energy_, x_.topRows(cloth_vertices_), inertial);
     for (int i = 0; i < step.iterations; ++i) {
         if (i % k_active_set_period == 0) {
@@ -338,6 +346,39 @@ Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& 
     return solver.positions();
 }
 
+// As minimise_energy().
+Positions ClothMotion::minimise_by_newton(const MotionStep& step, const Positions& displacements,
+                                          const std::vector<ActiveContact>& contacts)
+{
+    const Stopwatch watch(seconds_.solver);
+    Positions targets = x_ + displacements;
+    energy_->set_time_step(step.time_step);
+    return newton_step(*energy_, targets.topRows(cloth_vertices_), inertial_positions(step), step.newton_iterations,
+                       [&](const Positions& cloth) {
+                           targets.topRows(cloth_vertices_) = cloth;
+                           return contact_constraints(contacts, targets, step);
+                       });
+}
+
+ForceResidual ClothMotion::residual(const MotionStep& step)
+{
+    contact_.detect(x_, Positions::Zero(x_.rows(), 3), contact_margins());
+    Positions forces
+        = static_forces(*energy_, x_.topRows(cloth_vertices_), contact_constraints(find_active_contacts(x_), x_, step));
+    std::vector<double> shares(cloth_vertices_);
+    ForceResidual result;
+    for (int v = 0; v < cloth_vertices_; ++v) {
+        const double weight = energy_->masses()[v] * step.gravity;
+        forces(v, 1) -= weight;
+        shares[v] = forces.row(v).norm() / weight;
+        result.mean += shares[v] / cloth_vertices_;
+    }
+    const auto at = shares.begin() + std::ptrdiff_t(0.99 * cloth_vertices_);
+    std::nth_element(shares.begin(), at, shares.end());
+    result.percentile_99 = *at;
+    return result;
+}
+
 double ClothMotion::advance(const MotionStep& step)
 {
     const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
@@ -349,9 +390,12 @@ double ClothMotion::advance(const MotionStep& step)
         contact_.detect(x_, displacements, contact_margins());
     }
     const std::vector<ActiveContact> contacts = find_active_contacts(x_ + displacements);
-    displacements.topRows(cloth_vertices_)
-        = minimise_energy(step, displacements, contacts) - x_.topRows(cloth_vertices_);
-    limit_lengths(displacements, step.largest_move);
+    const bool by_newton = step.newton_iterations > 0;
+    displacements.topRows(cloth_vertices_) = (by_newton ? minimise_by_newton(step, displacements, contacts)
+                                                        : minimise_energy(step, displacements, contacts))
+        - x_.topRows(cloth_vertices_);
+    if (!by_newton)
+        limit_lengths(displacements, step.largest_move);
     const Positions before = x_;
     move(displacements);
     velocity_ = (x_ - before).topRows(cloth_vertices_) / step.time_step;
@@ -383,6 +427,27 @@ double step_until_converged(ClothMotion& motion, const MotionStep& step, const P
             break;
     }
     return lag;
+}
+
+std::optional<ForceResidual> go_on_to_rest(ClothMotion& motion, double seconds, const Progress& progress)
+{
+    const Positions still = motion.obstacle();
+    MotionStep step;
+    step.obstacle_target = &still;
+    step.gravity = k_gravity;
+    step.friction_fraction = 1;
+    step.contact_stiffness = k_settling_contact_stiffness;
+    step.time_step = k_rest_time_step;
+    step.newton_iterations = k_rest_iterations;
+    ForceResidual residual = motion.residual(step);
+    const int steps = int(std::ceil(seconds / step.time_step));
+    for (int i = 0; i < steps && !residual.is_at_rest(); ++i) {
+        if (!progress.goes_on(double(i) / steps))
+            return {};
+        motion.advance(step);
+        residual = motion.residual(step);
+    }
+    return residual;
 }
 
 SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress)

@@ -33,6 +33,7 @@ struct MotionStep {
     double friction_fraction = 0;  ///< of the cloth's own friction
     double contact_stiffness = k_pushing_contact_stiffness;  ///< in stretch stiffnesses of the cloth
     int iterations = k_moving_iterations;  ///< of conjugate gradients
+    int newton_iterations = 0;  ///< in place of those; then largest_move is k_largest_rest_move, the same for all
 };
 
 class ClothMotion {
@@ -72,6 +73,8 @@ public:
     Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
     const ClothSeconds& seconds() const { return seconds_; }
+    /// How far the forces on the cloth are from balance, under this step's gravity and friction.
+    ForceResidual residual(const MotionStep& step);
     double speed() const;  ///< m/s, of the fastest vertex of the cloth
     int vertices() const { return weld_.given(); }  ///< of the garment
 
@@ -84,6 +87,9 @@ private:
     double snap_obstacle(const Positions& target);
     Positions minimise_energy(const MotionStep& step, const Positions& displacements,
                               const std::vector<ActiveContact>& contacts);
+    Positions inertial_positions(const MotionStep& step) const;
+    Positions minimise_by_newton(const MotionStep& step, const Positions& displacements,
+                                 const std::vector<ActiveContact>& contacts);
     std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
     static bool passes_by(const ActiveContact& contact, const Positions& targets);
     Material material_at(const ContactPair& pair) const;
@@ -122,5 +128,10 @@ struct SettleResult {
 /// still held back.
 /// @param to_rest  time steps more, at most, until no vertex is faster than k_at_rest
 SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
+
+/// Lets the settled cloth go on for so many seconds of simulated time, in long time steps, or until it is at rest. The
+/// obstacle stands still.
+/// @return how far the forces are from balance at the end. None: the deadline passed
+std::optional<ForceResidual> go_on_to_rest(ClothMotion& motion, double seconds, const Progress& progress);
 
 }  // namespace garmentfit

@@ -4,16 +4,6 @@
 #include <algorithm>
 
 namespace garmentfit {
-namespace {
-
-void add_force(const SoftConstraint& constraint, const Vec3& force, Positions& forces)
-{
-    for (int k = 0; k < 4; ++k)
-        if (constraint.vertices[k] >= 0)
-            forces.row(constraint.vertices[k]) += constraint.weights[k] * force;
-}
-
-}  // namespace
 
 PreconditionedCG::PreconditionedCG(const ClothEnergy& energy, const Positions& start, const Positions& inertial) :
     energy_(energy), inertial_(inertial), x_(start), applied_(energy.apply_quadratic_form(start))
@@ -35,13 +25,8 @@ void PreconditionedCG::set_constraints(const std::vector<SoftConstraint>& constr
 // The quadratic form of the constraints times x; their targets are in constant_.
 void PreconditionedCG::add_constraint_forces(const Positions& x, Positions& sum) const
 {
-    for (const SoftConstraint& constraint : constraints_) {
-        Vec3 at = Vec3::Zero();
-        for (int k = 0; k < 4; ++k)
-            if (constraint.vertices[k] >= 0)
-                at += constraint.weights[k] * x.row(constraint.vertices[k]).transpose();
-        add_force(constraint, constraint.stiffness_times(at), sum);
-    }
+    for (const SoftConstraint& constraint : constraints_)
+        add_force(constraint, constraint.stiffness_times(constraint.sum(x)), sum);
 }
 
 // Polak and Ribiere: where the residual does not change smoothly, their factor falls below 0 and the direction is the

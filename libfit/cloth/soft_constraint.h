@@ -20,6 +20,24 @@ struct SoftConstraint {
     {
         return tangent_stiffness * s + (normal_stiffness - tangent_stiffness) * normal.dot(s) * normal;
     }
+
+    /// The weighted sum s of the cloth at x, n x 3.
+    Vec3 sum(const Positions& x) const
+    {
+        Vec3 result = Vec3::Zero();
+        for (int k = 0; k < 4; ++k)
+            if (vertices[k] >= 0)
+                result += weights[k] * x.row(vertices[k]).transpose();
+        return result;
+    }
 };
+
+/// Adds a force on the weighted sum of a constraint to the forces on its vertices, n x 3.
+inline void add_force(const SoftConstraint& constraint, const Vec3& force, Positions& forces)
+{
+    for (int k = 0; k < 4; ++k)
+        if (constraint.vertices[k] >= 0)
+            forces.row(constraint.vertices[k]) += constraint.weights[k] * force;
+}
 
 }  // namespace garmentfit

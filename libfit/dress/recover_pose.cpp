@@ -295,8 +295,11 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
         motion.advect_obstacle(path.end());
     }
     const Positions end = path.at(outcome.reached());
+    const double going_on = options.settle_time > 0 ? k_progress_of_going_on : 0;
     const auto [arrived, speed, hurried]
-        = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1));
+        = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1 - going_on));
+    if (!hurried)
+        result.residual = go_on_to_rest(motion, arrived ? options.settle_time : 0, progress.part(1 - going_on, 1));
     if (!outcome.ended_early())
         recorder.record(motion, 1);
 
@@ -314,8 +317,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
         result.held_back = list_held_back_parts(result.body, end, rig.weights);
     result.frames = std::move(recorder).take();
     result.pose_reached = outcome.reached();
-    result.speed = speed;
-    result.out_of_time = outcome.out_of_time || hurried;
+    result.speed = result.residual && options.settle_time > 0 ? motion.speed() : speed;
+    result.out_of_time = outcome.out_of_time || !result.residual;
     result.seconds = motion.seconds();
     result.too_tight = list_tight_parts(rig, start, result, options.cloth);
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });

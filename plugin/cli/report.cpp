@@ -262,6 +262,10 @@ Json json_of(const Call& call, const Session& session)
         json["pose_reached"] = end->pose_reached;
         json["settled"] = end->speed ? Json(*end->speed < k_at_rest) : Json();
         json["speed"] = end->speed ? Json(*end->speed) : Json();
+        json["residual"] = end->residual ? Json { { "mean", end->residual->mean },
+                                                  { "percentile_99", end->residual->percentile_99 },
+                                                  { "at_rest", end->residual->is_at_rest() } }
+                                         : Json();
         const ClothOptions& cloth = call.filter->cloth(call.parameters);
         json["cloth"] = cloth_of(cloth, end->fabrics.empty() ? cloth.fabric : end->fabrics.front());
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };

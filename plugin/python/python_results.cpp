@@ -160,6 +160,8 @@ nb::dict verdict_of(const PythonScene& s)
     made["scale_reached"] = end.scale_reached;
     made["pose_reached"] = end.pose_reached;
     made["speed"] = end.speed ? nb::cast(*end.speed) : nb::none();
+    made["residual"] = end.residual ? nb::object(nb::make_tuple(end.residual->mean, end.residual->percentile_99))
+                                    : nb::object(nb::none());
     made["note"] = end.certified ? std::string() : explain(end, s.names);
     nb::list warnings;
     for (const std::string& warning : warnings_about_layers(s.scene, s.names, set_by_name))

@@ -318,6 +318,25 @@ TEST(RecoverPose, BringsTheBodyBackBitForBitWithTheGarmentOn)
     EXPECT_GT(result.garments[0].positions.col(2).maxCoeff(), draped.garments[0].positions.col(2).maxCoeff() + 0.15);
 }
 
+TEST(RecoverPose, GoesOnTowardsRestWhenAskedTo)
+{
+    const Dressing d = person(35);
+    Pose standing;
+    for (const int thigh : { lfemur, rfemur })
+        standing.rotations[thigh] = Eigen::Quaterniond(Eigen::AngleAxisd(35 * k_degree, Vec3::UnitX()));
+    const DrapeResult draped = drape_garment(d.rig, d.body, { standing }, trousers(0.025), short_settling());
+    ASSERT_TRUE(draped.certified);
+    RecoverOptions options;
+    options.settling_steps = 20;
+    const RecoverResult settled = recover_pose(d.rig, d.body, draped, Pose(), options);
+    options.settle_time = 2;
+    const RecoverResult rest = recover_pose(d.rig, d.body, draped, Pose(), options);
+    ASSERT_TRUE(settled.residual && rest.residual);
+    EXPECT_TRUE(rest.certified);
+    EXPECT_EQ(rest.body, d.body.surface.positions);
+    EXPECT_LT(rest.residual->mean, 0.5 * settled.residual->mean);
+}
+
 TEST(RecoverPose, ReturnsAsManyFramesAsAskedForAndOneIsTheEnd)
 {
     const Dressing d = person();

@@ -196,6 +196,9 @@ class Dressing(_Result):
         self.pose_reached: float = verdict["pose_reached"]
         #: m/s, of the cloth's fastest vertex at the end; None where the garment is too small and was never settled
         self.speed: Optional[float] = verdict["speed"]
+        #: what is left of all forces on the cloth at the end, in shares of the weight of each vertex's cloth: mean and
+        #: 99th percentile (a static equilibrium: below 0.02 and 0.2); None before the pose was recovered
+        self.residual: Optional[Tuple[float, float]] = verdict["residual"]
         self.held_back: List[Tuple[str, float]] = verdict["held_back"]
         #: parts of the body that enter each other, and how deep: cloth has no space there
         self.overlaps: List[Tuple[str, str, float]] = verdict["overlaps"]

@@ -59,7 +59,8 @@
 #define vtkFitRecoveryParametersMacro()                                                                                \
     vtkFitNumberMacro(RecoverySteps, int, recovery_steps);                                                             \
     vtkFitNumberMacro(RecoveryStepLength, double, recovery_step_length);                                               \
-    vtkFitNumberMacro(RecoverySettlingSteps, int, recovery_settling_steps)
+    vtkFitNumberMacro(RecoverySettlingSteps, int, recovery_settling_steps);                                            \
+    vtkFitNumberMacro(SettleTime, double, settle_time)
 
 #define vtkFitFramesParameterMacro() vtkFitNumberMacro(Frames, int, frames)
 

@@ -168,6 +168,9 @@ void describe_pose_path(Options& o, Visitor&& visit)
     visit(o.settling_steps,
           About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
                   "Time steps under gravity, once the input pose is reached" });
+    visit(o.settle_time,
+          About { "settle_time", "Settle time", "s", 0, 600,
+                  "Simulated time to go on for after these steps, in long time steps, until forces balance" });
 }
 
 /// What the return to the input pose adds to cloth and pose path, which it shares with draping.

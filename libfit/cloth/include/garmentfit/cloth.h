@@ -65,6 +65,16 @@ GARMENTFIT_API std::optional<Fabric> fabric_that_gives(double stretch, double pr
 /// stands here because programs compare speeds with it, too.
 constexpr double k_at_rest = 0.02;
 
+/// What is left of all forces on the cloth at the end: elastic forces, gravity, contact, and friction inside its cone.
+/// Dimensionless, shares of the weight of each vertex's cloth.
+struct ForceResidual {
+    double mean = 0;
+    double percentile_99 = 0;
+
+    /// unit: what counts as a static equilibrium.
+    bool is_at_rest() const { return mean <= 0.02 && percentile_99 <= 0.2; }
+};
+
 /// Where the time of moving cloth went, s, by the wall clock.
 struct ClothSeconds {
     double detection = 0;  ///< contact detection and collision-free steps

@@ -7,6 +7,7 @@
 //          prediction, which is cut to its intersection-free part; then the cloth finds its rest.
 // Units, cost and promise as in drape_garment.h.
 
+#include <optional>
 #include <vector>
 
 #include "garmentfit/drape_garment.h"
@@ -19,6 +20,9 @@ struct RecoverOptions {
     int largest_steps = 200;  ///< no more steps along the path than these; they get longer instead
     double step_length = 0.015;  ///< m; nothing under cloth moves further in a step, as far as largest_steps permits
     int settling_steps = 60;  ///< time steps under gravity, at the end
+    /// s, of simulated time: the cloth then goes on until forces balance, for so long at most. About two seconds of
+    /// computing for each at 12,000 vertices. Not where parts of the body are held back.
+    double settle_time = 0;
     /// States along the path to return, evenly spread, both ends included; 1: the end alone; 0: none. A frame is where
     /// a step ends, so there are at least frames - 1 steps.
     int frames = 0;
@@ -50,6 +54,7 @@ struct RecoverResult : DressedBody {
     /// place.
     double pose_reached = 0;
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
+    std::optional<ForceResidual> residual;  ///< at the end; none where time ran out
     bool certified = false;  ///< target reached, nothing too tight, every certificate clean
     bool out_of_time = false;  ///< the deadline of the Progress passed, on the path or before the cloth was settled
     ClothSeconds seconds;
