@@ -53,13 +53,6 @@ struct SizePriors {
 };
 inline constexpr SizePriors k_priors_as_body { 0.9, 0.01, 0.05 }, k_priors_otherwise { 0.7, 0.04, 0.1 };
 
-/// Log odds per unit of the openings' evidence that a garment is upright along one axis and not along another, beside
-/// those of its box and symmetry (guess_garment_frame). fitted: on one half of 126 garments of three catalogues, turned
-/// about +y, with +y or +z up; from 1 to 2 nothing changes. Without a preference for the body's axes, 118 of 122
-/// are right on the other half (98 without openings), and 112 of 130 on the half that it was fitted on (64). That absolute values
-/// count was chosen with both halves in view.
-inline constexpr double k_openings_up_weight = 1;
-
 /// Body metres. A garment that slipped down by more gets a warning.
 /// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a coat by nine
 inline constexpr double k_slipped = 0.15;

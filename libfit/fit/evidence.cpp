@@ -80,14 +80,9 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
     const FrontShape shape = front_shape(energy.metric().cloth().patches(), context.openings, energy.cues(), level);
     const bool is_bottom = context.coverage.kind == CoverageKind::legs || context.coverage.kind == CoverageKind::skirt;
-    const double held = 1 - context.askew / k_most_askew;  // heights of a garment held askew are no heights
-    e[is_bottom ? waist_evidence : torso_evidence] = held * (is_bottom ? shape.waist : shape.torso);
-    e[hems_evidence] = held * shape.hems;
-    e[cuffs_evidence] = held * shape.cuffs;
-    e[seat_evidence] = is_bottom ? held * shape.seat : 0;
-    e[lap_evidence] = is_bottom && !energy.cues().hems.empty() ? held * shape.lap : 0;
-    e[bow_evidence] = context.coverage.kind == CoverageKind::top ? held * shape.bow : 0;
-    e[bare_evidence] = is_bottom ? 0 : held * shape.bare;
+    e[is_bottom ? waist_evidence : torso_evidence] = is_bottom ? shape.waist : shape.torso;
+    e[hems_evidence] = shape.hems;
+    e[cuffs_evidence] = shape.cuffs;
     e[in_place_evidence] = is_in_place;
     e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / 0.1 : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(energy, given, leg));
@@ -101,45 +96,12 @@ bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.f
 const std::array<std::string_view, evidence_count>& evidence_names()
 {
     static constexpr std::array<std::string_view, evidence_count> names {
-        "energy",
-        "clearance",
-        "uncovered_cloth",
-        "crossing",
-        "covered_inside",
-        "uncovered_inside",
-        "as_given",
-        "askew",
-        "upright",
-        "legs",
-        "skirt",
-        "dress",
-        "jumpsuit",
-        "legs_height",
-        "skirt_height",
-        "dress_height",
-        "jumpsuit_height",
-        "legs_hems",
-        "skirt_hems",
-        "dress_hems",
-        "jumpsuit_hems",
-        "legs_arms",
-        "skirt_arms",
-        "dress_arms",
-        "jumpsuit_arms",
-        "type",
-        "input_front",
-        "openings",
-        "torso",
-        "waist",
-        "hems",
-        "cuffs",
-        "seat",
-        "lap",
-        "bow",
-        "bare",
-        "near_input",
-        "in_place",
-        "in_place_inside",
+        "energy",        "clearance",   "uncovered_cloth", "crossing",     "covered_inside",  "uncovered_inside",
+        "as_given",      "askew",       "upright",         "legs",         "skirt",           "dress",
+        "jumpsuit",      "legs_height", "skirt_height",    "dress_height", "jumpsuit_height", "legs_hems",
+        "skirt_hems",    "dress_hems",  "jumpsuit_hems",   "legs_arms",    "skirt_arms",      "dress_arms",
+        "jumpsuit_arms", "type",        "input_front",     "openings",     "torso",           "waist",
+        "hems",          "cuffs",       "near_input",      "in_place",     "in_place_inside",
     };
     return names;
 }

@@ -50,15 +50,10 @@ enum Evidence {
     // The facing
     input_front_evidence,  ///< cosine of the held garment's front to that of the input body: most share a frame
     openings_evidence,  ///< openings that face forwards less those that face backwards (cues_of)
-    // FrontShape, less the more askew the garment is held; 0 for k_most_askew
-    torso_evidence,  ///< of tops, dresses and jumpsuits
+    torso_evidence,  ///< FrontShape, of tops, dresses and jumpsuits
     waist_evidence,  ///< of trousers and skirts
     hems_evidence,
     cuffs_evidence,
-    seat_evidence,  ///< of trousers and skirts
-    lap_evidence,  ///< of trousers
-    bow_evidence,  ///< of tops
-    bare_evidence,  ///< of tops, dresses and jumpsuits
     near_input_evidence,  ///< 1 where the covered joints lie where the input body has them, 0 a tenth of a leg away
     // As it lies: 0 unless the posture is the input pose itself
     in_place_evidence,  ///< 1

@@ -329,7 +329,7 @@ TEST(RecoverPose, GoesOnTowardsRestWhenAskedTo)
     RecoverOptions options;
     options.settling_steps = 20;
     const RecoverResult settled = recover_pose(d.rig, d.body, draped, Pose(), options);
-    options.settle_time = 2;
+    options.settle_time = 6;
     const RecoverResult rest = recover_pose(d.rig, d.body, draped, Pose(), options);
     ASSERT_TRUE(settled.residual && rest.residual);
     EXPECT_TRUE(rest.certified);
