@@ -363,8 +363,9 @@ Positions ClothMotion::minimise_by_newton(const MotionStep& step, const Position
 ForceResidual ClothMotion::residual(const MotionStep& step)
 {
     contact_.detect(x_, Positions::Zero(x_.rows(), 3), contact_margins());
-    Positions forces
-        = static_forces(*energy_, x_.topRows(cloth_vertices_), contact_constraints(find_active_contacts(x_), x_, step));
+    const Positions cloth = x_.topRows(cloth_vertices_);
+    Positions forces = static_forces(
+        *energy_, cloth, with_strain_limits(*energy_, cloth, contact_constraints(find_active_contacts(x_), x_, step)));
     std::vector<double> shares(cloth_vertices_);
     ForceResidual result;
     for (int v = 0; v < cloth_vertices_; ++v) {

@@ -20,12 +20,10 @@ public:
 
     Positions forces(const Positions& x)
     {
-        constraints_ = contacts_(x);
+        constraints_ = with_strain_limits(energy_, x, contacts_(x));
         Positions result = static_forces(energy_, x, constraints_);
         for (Eigen::Index v = 0; v < x.rows(); ++v)
             result.row(v) += energy_.masses()[v] * energy_.inertia() * (inertial_.row(v) - x.row(v));
-        const std::vector<SoftConstraint> limits = energy_.strain_limits(x);
-        constraints_.insert(constraints_.end(), limits.begin(), limits.end());
         return result;
     }
 
@@ -73,16 +71,19 @@ Positions search_along(const Positions& direction, const Positions& forces, Bala
 
 }  // namespace
 
-Positions static_forces(const ClothEnergy& energy, const Positions& x, const std::vector<SoftConstraint>& contacts)
+std::vector<SoftConstraint> with_strain_limits(const ClothEnergy& energy, const Positions& x,
+                                               std::vector<SoftConstraint> contacts)
+{
+    const std::vector<SoftConstraint> limits = energy.strain_limits(x);
+    contacts.insert(contacts.end(), limits.begin(), limits.end());
+    return contacts;
+}
+
+Positions static_forces(const ClothEnergy& energy, const Positions& x, const std::vector<SoftConstraint>& constraints)
 {
     Positions result = energy.elastic_forces(x);
-    const auto add = [&](const SoftConstraint& constraint) {
+    for (const SoftConstraint& constraint : constraints)
         add_force(constraint, constraint.stiffness_times(constraint.target - constraint.sum(x)), result);
-    };
-    for (const SoftConstraint& constraint : contacts)
-        add(constraint);
-    for (const SoftConstraint& limit : energy.strain_limits(x))
-        add(limit);
     return result;
 }
 

@@ -17,8 +17,12 @@ namespace garmentfit {
 /// The contact constraints when the cloth is at these positions.
 using ConstraintsAt = std::function<std::vector<SoftConstraint>(const Positions&)>;
 
-/// Of springs, hinges, ties, strain limits and contacts on each vertex, N.
-Positions static_forces(const ClothEnergy& energy, const Positions& x, const std::vector<SoftConstraint>& contacts);
+/// Contacts, and the strain limits of the cloth at x.
+std::vector<SoftConstraint> with_strain_limits(const ClothEnergy& energy, const Positions& x,
+                                               std::vector<SoftConstraint> contacts);
+
+/// Of springs, hinges, ties and constraints on each vertex, N.
+Positions static_forces(const ClothEnergy& energy, const Positions& x, const std::vector<SoftConstraint>& constraints);
 
 /// Where inertia (about `inertial`), cloth and contacts balance, approximately.
 /// @param start  of the iterations. A vertex goes k_largest_rest_move at most in each; then all of them go the same

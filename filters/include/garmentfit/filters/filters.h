@@ -59,7 +59,8 @@ struct Dressing : DressedBody {
     std::vector<Overlap> overlaps;  ///< where the body crosses itself in that pose, so that no cloth fits between
     std::optional<double>
         speed;  ///< m/s, of the fastest vertex of the cloth at the end; none where it was not let settle
-    /// How far forces on the cloth are from balance at the end; none before the pose was recovered, and where time ran out.
+    /// How far forces on the cloth are from balance at the end; none before the pose was recovered, and where time ran
+    /// out.
     std::optional<ForceResidual> residual;
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
