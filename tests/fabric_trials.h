@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cloth_energy.h"
+#include "limited_memory.h"
 #include "surface_measures.h"
 #include "topology.h"
 
@@ -73,42 +74,6 @@ private:
     std::vector<int> held_;
 };
 
-/// The direction of quasi-Newton descent from the last few moves (L-BFGS), with the solver's constant quadratic form as
-/// the first guess of the Hessian, as in [liu_2017_quasi_newton].
-class QuasiNewton {
-public:
-    Positions direction(const Hanging& hanging, const Positions& gradient) const
-    {
-        Positions q = gradient;
-        std::vector<double> alpha(moves_.size());
-        for (std::size_t i = moves_.size(); i-- > 0;) {
-            alpha[i] = moves_[i].x.cwiseProduct(q).sum() / moves_[i].xg;
-            q -= alpha[i] * moves_[i].g;
-        }
-        q = hanging.precondition(q);
-        for (std::size_t i = 0; i < moves_.size(); ++i)
-            q += (alpha[i] - moves_[i].g.cwiseProduct(q).sum() / moves_[i].xg) * moves_[i].x;
-        return -q;
-    }
-    void remember(const Positions& x, const Positions& g)
-    {
-        const double xg = x.cwiseProduct(g).sum();
-        if (xg <= 0)
-            return;
-        moves_.push_back({ x, g, xg });
-        if (moves_.size() > 12)
-            moves_.erase(moves_.begin());
-    }
-    void forget() { moves_.clear(); }
-
-private:
-    struct Move {
-        Positions x, g;
-        double xg;
-    };
-    std::vector<Move> moves_;
-};
-
 /// Cloth that is held at some vertices, at rest: no force on a vertex is more than a hundredth of its weight on the mean,
 /// or so many iterations are over.
 inline Positions settle_held(const GarmentMesh& rest, const std::vector<int>& held, const ClothOptions& options,
@@ -118,11 +83,12 @@ inline Positions settle_held(const GarmentMesh& rest, const std::vector<int>& he
     const double small = 1e-2 * hanging.weight() * std::sqrt(double(rest.positions.rows()));
     Positions x = rest.positions, g = hanging.gradient(x);
     double e = hanging.potential(x);
-    QuasiNewton newton;
+    LimitedMemory memory(12);
+    const auto solve = [&](const Positions& forces) { return hanging.precondition(forces); };
     for (int i = 0; i < iterations && g.norm() > small; ++i) {
-        Positions d = newton.direction(hanging, g);
+        Positions d = memory.direction(-g, solve);
         if (d.cwiseProduct(g).sum() >= 0) {
-            newton.forget();
+            memory.forget();
             d = -hanging.precondition(g);
         }
         const double slope = d.cwiseProduct(g).sum();
@@ -133,7 +99,7 @@ inline Positions settle_held(const GarmentMesh& rest, const std::vector<int>& he
         if (step <= 1e-12)
             break;
         const Positions next = x + step * d, gradient = hanging.gradient(next);
-        newton.remember(next - x, gradient - g);
+        memory.remember(next - x, gradient - g);
         x = next;
         g = gradient;
         e = after;

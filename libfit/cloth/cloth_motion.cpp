@@ -7,7 +7,6 @@
 
 #include "collision_free_step.h"
 #include "garmentfit/stopwatch.h"
-#include "newton_step.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
 
@@ -109,14 +108,6 @@ void limit_lengths(Positions& displacements, double longest)
 }
 
 }  // namespace
-
-/// A pair near contact, linear in the positions: distance = normal . (sum of weight * position).
-struct ClothMotion::ActiveContact {
-    ContactPair pair;
-    Vec3 normal;
-    double rest_distance;  // m; force begins below it
-    Vec3 stored_slip;  // m, across the normal
-};
 
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options, const std::vector<int>& garments,
@@ -230,19 +221,12 @@ bool ClothMotion::passes_by(const ActiveContact& contact, const Positions& targe
     return at.distance >= contact.rest_distance && separation(at.weights, corners).dot(contact.normal) > 0;
 }
 
-// Two garments that touch: as soft as the softer, and as rough as both on the mean.
 Material ClothMotion::material_at(const ContactPair& pair) const
 {
     const int first = pair.vertices[0], second = pair.vertices[pair.kind == PairKind::vertex_face ? 1 : 2];
     if (first >= cloth_vertices_)
         return materials_.at(second);
-    Material result = materials_.at(first);
-    if (second < cloth_vertices_) {
-        const Material& other = materials_.at(second);
-        result.stretch_stiffness = std::min(result.stretch_stiffness, other.stretch_stiffness);
-        result.friction = 0.5 * (result.friction + other.friction);
-    }
-    return result;
+    return second < cloth_vertices_ ? mixed(materials_.at(first), materials_.at(second)) : materials_.at(first);
 }
 
 // A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
@@ -272,12 +256,15 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
         const double depth = contact.rest_distance - normal.dot(now);
         if (depth <= 0 || passes_by(contact, targets))
             continue;
+        // The linear contact that has the force and the stiffness of the soft one here.
+        const double rest_distance = contact.rest_distance - 0.5 * std::min(depth, step.contact_softening);
+        constraint.normal_stiffness *= std::min(1.0, depth / step.contact_softening);
         const Vec3 slip = contact.stored_slip + (now - before) - (now - before).dot(normal) * normal;
         const double slipped = slip.norm();
         constraint.tangent_stiffness = constraint.normal_stiffness
             * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
         constraint.target
-            = contact.rest_distance * normal + (before - before.dot(normal) * normal) - contact.stored_slip - obstacle;
+            = rest_distance * normal + (before - before.dot(normal) * normal) - contact.stored_slip - obstacle;
         result.push_back(constraint);
     }
     return result;
@@ -317,14 +304,6 @@ double ClothMotion::advect_obstacle(const Positions& target)
     return lag;
 }
 
-// Where the cloth would be at the end of the step without forces other than gravity.
-Positions ClothMotion::inertial_positions(const MotionStep& step) const
-{
-    Positions result = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
-    result.col(1).array() -= step.gravity * step.time_step * step.time_step;
-    return result;
-}
-
 // The cloth's targets, n x 3, while the obstacle makes these displacements (of all vertices).
 Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& displacements,
                                        const std::vector<ActiveContact>& contacts)
@@ -332,7 +311,8 @@ Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& 
     const Stopwatch watch(seconds_.solver);
     Positions targets = x_ + displacements;
     energy_->set_time_step(step.time_step);
-    const Positions inertial = inertial_positions(step);
+    Positions inertial = x_.topRows(cloth_vertices_) + step.velocity_kept * step.time_step * velocity_;
+    inertial.col(1).array() -= step.gravity * step.time_step * step.time_step;
     PreconditionedCG solver(*energy_, x_.topRows(cloth_vertices_), inertial);
     for (int i = 0; i < step.iterations; ++i) {
         if (i % k_active_set_period == 0) {
@@ -346,40 +326,6 @@ Positions ClothMotion::minimise_energy(const MotionStep& step, const Positions& 
     return solver.positions();
 }
 
-// As minimise_energy().
-Positions ClothMotion::minimise_by_newton(const MotionStep& step, const Positions& displacements,
-                                          const std::vector<ActiveContact>& contacts)
-{
-    const Stopwatch watch(seconds_.solver);
-    Positions targets = x_ + displacements;
-    energy_->set_time_step(step.time_step);
-    return newton_step(*energy_, targets.topRows(cloth_vertices_), inertial_positions(step), step.newton_iterations,
-                       [&](const Positions& cloth) {
-                           targets.topRows(cloth_vertices_) = cloth;
-                           return contact_constraints(contacts, targets, step);
-                       });
-}
-
-ForceResidual ClothMotion::residual(const MotionStep& step)
-{
-    contact_.detect(x_, Positions::Zero(x_.rows(), 3), contact_margins());
-    const Positions cloth = x_.topRows(cloth_vertices_);
-    Positions forces = static_forces(
-        *energy_, cloth, with_strain_limits(*energy_, cloth, contact_constraints(find_active_contacts(x_), x_, step)));
-    std::vector<double> shares(cloth_vertices_);
-    ForceResidual result;
-    for (int v = 0; v < cloth_vertices_; ++v) {
-        const double weight = energy_->masses()[v] * step.gravity;
-        forces(v, 1) -= weight;
-        shares[v] = forces.row(v).norm() / weight;
-        result.mean += shares[v] / cloth_vertices_;
-    }
-    const auto at = shares.begin() + std::ptrdiff_t(0.99 * cloth_vertices_);
-    std::nth_element(shares.begin(), at, shares.end());
-    result.percentile_99 = *at;
-    return result;
-}
-
 double ClothMotion::advance(const MotionStep& step)
 {
     const Eigen::Index obstacle_vertices = x_.rows() - cloth_vertices_;
@@ -391,12 +337,9 @@ double ClothMotion::advance(const MotionStep& step)
         contact_.detect(x_, displacements, contact_margins());
     }
     const std::vector<ActiveContact> contacts = find_active_contacts(x_ + displacements);
-    const bool by_newton = step.newton_iterations > 0;
-    displacements.topRows(cloth_vertices_) = (by_newton ? minimise_by_newton(step, displacements, contacts)
-                                                        : minimise_energy(step, displacements, contacts))
-        - x_.topRows(cloth_vertices_);
-    if (!by_newton)
-        limit_lengths(displacements, step.largest_move);
+    displacements.topRows(cloth_vertices_)
+        = minimise_energy(step, displacements, contacts) - x_.topRows(cloth_vertices_);
+    limit_lengths(displacements, step.largest_move);
     const Positions before = x_;
     move(displacements);
     velocity_ = (x_ - before).topRows(cloth_vertices_) / step.time_step;
@@ -428,27 +371,6 @@ double step_until_converged(ClothMotion& motion, const MotionStep& step, const P
             break;
     }
     return lag;
-}
-
-std::optional<ForceResidual> go_on_to_rest(ClothMotion& motion, double seconds, const Progress& progress)
-{
-    const Positions still = motion.obstacle();
-    MotionStep step;
-    step.obstacle_target = &still;
-    step.gravity = k_gravity;
-    step.friction_fraction = 1;
-    step.contact_stiffness = k_settling_contact_stiffness;
-    step.time_step = k_rest_time_step;
-    step.newton_iterations = k_rest_iterations;
-    ForceResidual residual = motion.residual(step);
-    const int steps = int(std::ceil(seconds / step.time_step));
-    for (int i = 0; i < steps && !residual.is_at_rest(); ++i) {
-        if (!progress.goes_on(double(i) / steps))
-            return {};
-        motion.advance(step);
-        residual = motion.residual(step);
-    }
-    return residual;
 }
 
 SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress)

@@ -32,8 +32,9 @@ struct MotionStep {
     double gravity = 0;  ///< m/s^2, along -y
     double friction_fraction = 0;  ///< of the cloth's own friction
     double contact_stiffness = k_pushing_contact_stiffness;  ///< in stretch stiffnesses of the cloth
+    /// m; the depth within which contact grows to its stiffness. 0: it is as stiff from the first touch on
+    double contact_softening = 0;
     int iterations = k_moving_iterations;  ///< of conjugate gradients
-    int newton_iterations = 0;  ///< in place of those; then largest_move is k_largest_rest_move, the same for all
 };
 
 class ClothMotion {
@@ -73,13 +74,26 @@ public:
     Positions cloth() const;  ///< as the garment's own vertices, n x 3
     Positions obstacle() const;  ///< m x 3
     const ClothSeconds& seconds() const { return seconds_; }
-    /// How far the forces on the cloth are from balance, under this step's gravity and friction.
-    ForceResidual residual(const MotionStep& step);
+    /// How far the forces on the cloth are from balance where friction holds nothing yet.
+    ForceResidual residual();
+
+    /// Moves the cloth to a static equilibrium, or as near to one as k_most_rest_moves go. The obstacle stands still.
+    /// @param seconds  of simulated time to go on for afterwards
+    /// @return how far the forces are from balance at the end. None: the deadline passed
+    std::optional<ForceResidual> find_rest(double seconds, const Progress& progress);
+
     double speed() const;  ///< m/s, of the fastest vertex of the cloth
     int vertices() const { return weld_.given(); }  ///< of the garment
 
 private:
-    struct ActiveContact;
+    /// A pair near contact, linear in the positions: distance = normal . (sum of weight * position).
+    struct ActiveContact {
+        ContactPair pair;
+        Vec3 normal;
+        double rest_distance;  // m; force begins below it
+        Vec3 stored_slip;  // m, across the normal
+    };
+    class RestSearch;
     Positions move_freely(const Positions& displacements);
     void move(const Positions& displacements);
     Margins contact_margins() const;
@@ -87,9 +101,6 @@ private:
     double snap_obstacle(const Positions& target);
     Positions minimise_energy(const MotionStep& step, const Positions& displacements,
                               const std::vector<ActiveContact>& contacts);
-    Positions inertial_positions(const MotionStep& step) const;
-    Positions minimise_by_newton(const MotionStep& step, const Positions& displacements,
-                                 const std::vector<ActiveContact>& contacts);
     std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
     static bool passes_by(const ActiveContact& contact, const Positions& targets);
     Material material_at(const ContactPair& pair) const;
@@ -128,10 +139,5 @@ struct SettleResult {
 /// still held back.
 /// @param to_rest  time steps more, at most, until no vertex is faster than k_at_rest
 SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
-
-/// Lets the settled cloth go on for so many seconds of simulated time, in long time steps, or until it is at rest. The
-/// obstacle stands still.
-/// @return how far the forces are from balance at the end. None: the deadline passed
-std::optional<ForceResidual> go_on_to_rest(ClothMotion& motion, double seconds, const Progress& progress);
 
 }  // namespace garmentfit

@@ -3,11 +3,20 @@
 
 // What each vertex of a cloth is made of, where several garments move as one cloth.
 
+#include <algorithm>
 #include <vector>
 
 #include "garmentfit/cloth.h"
 
 namespace garmentfit {
+
+/// Of two garments that touch: as soft as the softer, and as rough as both on the mean.
+inline Material mixed(Material one, const Material& other)
+{
+    one.stretch_stiffness = std::min(one.stretch_stiffness, other.stretch_stiffness);
+    one.friction = 0.5 * (one.friction + other.friction);
+    return one;
+}
 
 class Materials {
 public:

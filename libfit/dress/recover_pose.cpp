@@ -295,11 +295,13 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
         motion.advect_obstacle(path.end());
     }
     const Positions end = path.at(outcome.reached());
-    const double going_on = options.settle_time > 0 ? k_progress_of_going_on : 0;
+    const double rest_share = options.settle_time > 0 ? k_progress_of_rest : 0;
     const auto [arrived, speed, hurried]
-        = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1 - going_on));
+        = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1 - rest_share));
     if (!hurried)
-        result.residual = go_on_to_rest(motion, arrived ? options.settle_time : 0, progress.part(1 - going_on, 1));
+        result.residual = arrived && options.settle_time > 0
+            ? motion.find_rest(options.settle_time, progress.part(1 - rest_share, 1))
+            : motion.residual();
     if (!outcome.ended_early())
         recorder.record(motion, 1);
 

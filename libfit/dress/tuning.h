@@ -144,6 +144,6 @@ inline constexpr double k_hanging_thigh = std::numbers::sqrt2 / 2;
 
 /// Share of the progress that going on to rest takes, where asked for.
 /// unit: of a progress bar.
-inline constexpr double k_progress_of_going_on = 0.1;
+inline constexpr double k_progress_of_rest = 0.1;
 
 }  // namespace garmentfit

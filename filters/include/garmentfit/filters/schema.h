@@ -170,7 +170,7 @@ void describe_pose_path(Options& o, Visitor&& visit)
                   "Time steps under gravity, once the input pose is reached" });
     visit(o.settle_time,
           About { "settle_time", "Settle time", "s", 0, 600,
-                  "Simulated time to go on for after these steps, in long time steps, until forces balance" });
+                  "Above 0: the cloth goes on until its forces balance, and for so much simulated time after that" });
 }
 
 /// What the return to the input pose adds to cloth and pose path, which it shares with draping.

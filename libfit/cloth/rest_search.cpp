@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The search for static equilibrium of ClothMotion: quasi-Newton moves, in rounds between which friction lets go.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cloth_motion.h"
+#include "friction_anchors.h"
+#include "limited_memory.h"
+#include "tangent_factor.h"
+
+namespace garmentfit {
+namespace {
+
+// Whether a contact is one of a vertex of the cloth with a triangle of the cloth.
+bool is_vertex_on_cloth(const SoftConstraint& contact)
+{
+    return contact.weights[0] == 1 && *std::min_element(contact.vertices.begin(), contact.vertices.end()) >= 0;
+}
+
+bool is_on_obstacle(const SoftConstraint& contact)
+{
+    return *std::min_element(contact.vertices.begin(), contact.vertices.end()) < 0;
+}
+
+ForceResidual measure(const Positions& forces, const std::vector<double>& masses)
+{
+    std::vector<double> shares(masses.size());
+    ForceResidual result;
+    for (std::size_t v = 0; v < masses.size(); ++v) {
+        shares[v] = forces.row(Eigen::Index(v)).norm() / (masses[v] * k_gravity);
+        result.mean += shares[v] / double(masses.size());
+    }
+    const auto at = shares.begin() + std::ptrdiff_t(0.99 * double(shares.size()));
+    std::nth_element(shares.begin(), at, shares.end());
+    result.percentile_99 = *at;
+    return result;
+}
+
+}  // namespace
+
+class ClothMotion::RestSearch {
+public:
+    explicit RestSearch(ClothMotion& motion) :
+        motion_(motion), energy_(*motion.energy_), factor_(energy_), anchors_(motion.cloth_vertices_),
+        memory_(k_remembered_moves)
+    {
+        step_.contact_stiffness = k_settling_contact_stiffness;
+        step_.contact_softening = k_contact_softening;
+        energy_.set_time_step(k_rest_time_step);
+        find_forces();
+    }
+
+    ForceResidual residual() const { return measure(forces_, energy_.masses()); }
+
+    /// Rounds until one moves nothing, and `more` after it. @return whether there was time enough
+    bool run(int more, const Progress& progress)
+    {
+        const int most = k_most_rest_moves + more;
+        for (int round = 0, after_rest = -1; after_rest < more && moves_ < most; ++round) {
+            const Positions before = cloth();
+            if (round > 0)
+                let_go();
+            for (int move = 0; move == 0 || (move < k_most_round_moves && !residual().is_at_rest()); ++move) {
+                if (!progress.goes_on(double(moves_) / most))
+                    return false;
+                make_move();
+            }
+            const double farthest = (cloth() - before).rowwise().norm().maxCoeff();
+            if (after_rest >= 0 || (round > 0 && residual().is_at_rest() && farthest < k_still))
+                ++after_rest;
+        }
+        return true;
+    }
+
+private:
+    Positions cloth() const { return motion_.x_.topRows(motion_.cloth_vertices_); }
+
+    bool contacts_are_old(const Positions& x) const
+    {
+        return found_at_.rows() == 0 || (x - found_at_).rowwise().norm().maxCoeff() > k_contact_reach;
+    }
+
+    void find_contacts()
+    {
+        motion_.contact_.detect(motion_.x_, Positions::Zero(motion_.x_.rows(), 3), motion_.contact_margins());
+        contacts_ = motion_.find_active_contacts(motion_.x_);
+        found_at_ = cloth();
+    }
+
+    /// The forces where the cloth is, and what touches there. Contacts are found anew where it has moved on.
+    void find_forces()
+    {
+        const Positions x = cloth();
+        if (contacts_are_old(x))
+            find_contacts();
+        anchors_.set_touches(find_touches(x), x);
+        forces_ = forces_at(x);
+    }
+
+    std::vector<SoftConstraint> contacts_at(const Positions& x) const
+    {
+        Positions targets = motion_.x_;
+        targets.topRows(motion_.cloth_vertices_) = x;
+        return motion_.contact_constraints(contacts_, targets, step_);
+    }
+
+    /// Elastic forces, gravity, contact, and friction under the normal forces of the last find_forces().
+    Positions forces_at(const Positions& x)
+    {
+        constraints_ = contacts_at(x);
+        const std::vector<SoftConstraint> limits = energy_.strain_limits(x), friction = anchors_.constraints(x, grip_);
+        constraints_.insert(constraints_.end(), limits.begin(), limits.end());
+        constraints_.insert(constraints_.end(), friction.begin(), friction.end());
+        Positions result = energy_.elastic_forces(x);
+        for (const SoftConstraint& constraint : constraints_)
+            add_force(constraint, constraint.stiffness_times(constraint.target - constraint.sum(x)), result);
+        for (int v = 0; v < motion_.cloth_vertices_; ++v)
+            result(v, 1) -= energy_.masses()[v] * k_gravity;
+        return result;
+    }
+
+    /// Of each vertex all that pushes it off the obstacle, as one, and the strongest contact with a triangle of cloth.
+    std::vector<FrictionAnchors::Touch> find_touches(const Positions& x) const
+    {
+        Positions pushes = Positions::Zero(x.rows(), 3);
+        std::vector<FrictionAnchors::Touch> on_cloth, result;
+        for (const SoftConstraint& contact : contacts_at(x)) {
+            const Vec3 force = contact.stiffness_times(contact.target - contact.sum(x));
+            const auto& [v, a, b, c] = contact.vertices;
+            if (is_on_obstacle(contact))
+                add_force(contact, force, pushes);
+            else if (is_vertex_on_cloth(contact))
+                on_cloth.push_back({ v,
+                                     { a, b, c },
+                                     { -contact.weights[1], -contact.weights[2], -contact.weights[3] },
+                                     force,
+                                     material(v, a).friction,
+                                     material(v, a).stretch_stiffness });
+        }
+        for (int v = 0; v < int(x.rows()); ++v)
+            if (const Vec3 push = pushes.row(v).transpose(); push.norm() > 0)
+                result.push_back({ v,
+                                   { -1, -1, -1 },
+                                   { 0, 0, 0 },
+                                   push,
+                                   material(v, v).friction,
+                                   material(v, v).stretch_stiffness });
+        std::stable_sort(on_cloth.begin(), on_cloth.end(), [](const auto& one, const auto& other) {
+            return one.vertex != other.vertex ? one.vertex < other.vertex : one.force.norm() > other.force.norm();
+        });
+        int last = -1;
+        for (const FrictionAnchors::Touch& touch : on_cloth)
+            if (std::exchange(last, touch.vertex) != touch.vertex && touch.force.norm() > 0)
+                result.push_back(touch);
+        return result;
+    }
+
+    Material material(int v, int other) const { return mixed(motion_.materials_.at(v), motion_.materials_.at(other)); }
+
+    void let_go()
+    {
+        anchors_.follow(cloth(), grip_);
+        grip_ = 1;
+        memory_.forget();
+        find_contacts();
+        find_forces();
+    }
+
+    void make_move()
+    {
+        const Positions from = cloth(), forces = forces_;
+        if (moves_++ % k_factor_period == 0)
+            factor_.factorise(from, constraints_);
+        const auto solve = [&](const Positions& f) { return factor_.solve(f); };
+        Positions direction = memory_.direction(forces, solve);
+        if (direction.cwiseProduct(forces).sum() <= 0) {
+            memory_.forget();
+            direction = solve(forces);
+        }
+        Positions displacements = Positions::Zero(motion_.x_.rows(), 3);
+        displacements.topRows(from.rows()) = share_along(direction, from) * direction;
+        motion_.move(displacements);
+        find_forces();
+        memory_.remember(cloth() - from, forces - forces_);
+    }
+
+    /// Contacts that open and close make the forces jump, so a whole step may go too far: then it is cut where the
+    /// forces do less work against it.
+    double share_along(const Positions& direction, const Positions& from)
+    {
+        const double longest = std::sqrt(direction.rowwise().squaredNorm().maxCoeff());
+        double share = longest > k_largest_rest_move ? k_largest_rest_move / longest : 1;
+        const double at_start = forces_.cwiseProduct(direction).sum();
+        for (int cut = 0; cut < k_most_cuts; ++cut) {
+            const double work = forces_at(from + share * direction).cwiseProduct(direction).sum();
+            if (work > -k_overshoot * at_start)
+                break;
+            share *= std::clamp(at_start / (at_start - work), 0.1, 0.5);
+        }
+        return share;
+    }
+
+    ClothMotion& motion_;
+    ClothEnergy& energy_;
+    MotionStep step_ {};
+    TangentFactor factor_;
+    FrictionAnchors anchors_;
+    LimitedMemory memory_;
+    double grip_ = k_kinetic_friction;  // share of the friction coefficients
+    int moves_ = 0;
+    Positions found_at_;
+    std::vector<ActiveContact> contacts_;
+    std::vector<SoftConstraint> constraints_;  // of the last forces_at()
+    Positions forces_;  // where the cloth is
+};
+
+ForceResidual ClothMotion::residual() { return RestSearch(*this).residual(); }
+
+std::optional<ForceResidual> ClothMotion::find_rest(double seconds, const Progress& progress)
+{
+    RestSearch search(*this);
+    const bool in_time = search.run(int(std::ceil(seconds / k_rest_time_step)), progress);
+    velocity_.setZero();
+    sticking_.clear();
+    if (!in_time)
+        return {};
+    return search.residual();
+}
+
+}  // namespace garmentfit
