@@ -25,7 +25,10 @@ struct Piece {
     Eigen::AlignedBox3d box;
     double border_edge = 0;  // m, mean length
     int garment = 0;
+    int euler_characteristic = 0;
 
+    /// Whether it is a disc, through which no limb can pass: nothing of that kind and size is worn by itself.
+    bool is_patch() const { return euler_characteristic == 1 && size() <= k_patch; }
     double size() const { return box.diagonal().norm(); }
 };
 
@@ -62,6 +65,10 @@ std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& t
     }
     if (pieces.size() == 1)
         return pieces;
+    for (Piece& piece : pieces)
+        piece.euler_characteristic = int(piece.vertices.size() + piece.triangles.size());
+    for (const int a : topology.edges().col(0))
+        --pieces[row_of[sets.root(a)]].euler_characteristic;
     for (const int edge : topology.border_edges()) {
         const int a = topology.edges()(edge, 0), b = topology.edges()(edge, 1);
         Piece& piece = pieces[row_of[sets.root(a)]];
@@ -208,8 +215,10 @@ std::vector<Foot> choose_feet(const std::vector<std::vector<Foot>>& on_pieces, s
 }
 
 /// Ties of what lies on larger pieces with border or back; none where the piece is a layer.
-/// @param feet  of each vertex of the piece, the nearest on a larger one
-std::vector<Tie> find_hold(const Piece& piece, const std::vector<Foot>& feet, const std::vector<char>& is_on_border)
+/// @param feet       of each vertex of the piece, the nearest on a larger one
+/// @param is_seamed  to a larger one: then the rest of its border is free, as a hood's is
+std::vector<Tie> find_hold(const Piece& piece, const std::vector<Foot>& feet, const std::vector<char>& is_on_border,
+                           bool is_seamed)
 {
     const auto lies_within = [&](double reach, bool border_only) {
         std::vector<Tie> ties;
@@ -222,9 +231,19 @@ std::vector<Tie> find_hold(const Piece& piece, const std::vector<Foot>& feet, co
     const std::vector<Tie> back = lies_within(is_small ? k_small_piece_distance : k_lining_distance, false);
     if (double(back.size()) >= (is_small ? k_small_piece_share : k_lining_share) * double(feet.size()))
         return back;
-    const std::vector<Tie> border = lies_within(std::max(k_seam_distance, k_border_edges * piece.border_edge), true);
-    if (!border.empty() && double(border.size()) >= k_border_share * double(piece.border.size()))
-        return border;
+    struct BorderRule {
+        double distance, share;
+        bool applies;
+    };
+    const BorderRule rules[]
+        = { { std::max(k_seam_distance, k_border_edges * piece.border_edge), k_border_share, true },
+            { k_along_distance, k_along_share, !is_seamed },
+            { k_lining_distance, k_patch_share, !is_seamed && piece.is_patch() } };
+    for (const BorderRule& rule : rules) {
+        const std::vector<Tie> border = lies_within(rule.distance, true);
+        if (rule.applies && !border.empty() && double(border.size()) >= rule.share * double(piece.border.size()))
+            return border;
+    }
     return {};
 }
 
@@ -289,13 +308,17 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
     for (std::size_t p = 1; p < pieces.size(); ++p) {
         const double reach = pieces[p].size() <= k_small_piece ? k_small_piece_distance : k_lining_distance;
         std::vector<std::vector<Foot>> on_pieces;
+        bool is_seamed = false;
         for (std::size_t q = 0; q < p; ++q) {
             if (pieces[p].garment != pieces[q].garment || pieces[p].box.exteriorDistance(pieces[q].box) > reach)
                 continue;
-            sewing.add_seam(p, q, find_seam(feet, pieces, p, q));
+            const std::vector<Tie> seam = find_seam(feet, pieces, p, q);
+            is_seamed |= !seam.empty();
+            sewing.add_seam(p, q, seam);
             on_pieces.push_back(feet.find(pieces[p].vertices, q, reach));
         }
-        sewing.add_hold(p, find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border));
+        sewing.add_hold(
+            p, find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border, is_seamed));
     }
     return std::move(sewing).take();
 }

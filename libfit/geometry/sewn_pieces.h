@@ -8,7 +8,8 @@
 //
 // Seam  its border lies along the border of the other. Both borders are tied.
 // Held  its border lies on the surface of the other, or its back does: nearly all of a piece that is small, or all of a
-//       larger one much closer. What lies on the other is tied.
+//       larger one much closer. What lies on the other is tied. Patches (discs, such as pockets) are
+//       held by half of their border, and from further away: no limb passes through them, so nothing else holds them.
 //
 // A button on a flap is tied to the flap, the flap to the coat. What is not sewn is a layer of its own.
 

@@ -164,6 +164,64 @@ TEST(SewnPieces, BordersOnTheSurfaceOfAnotherAreSewnThere)
 
 TEST(SewnPieces, BordersThatOnlyTouchAreNotSewn) { expect_counts(sheet_with_standing_flap(0.03), 2, 0, 0, 1); }
 
+/// A sheet of 58 cm with a pocket of 30 x 30 cm over its middle, whose border is this high and whose middle this much
+/// higher. `open` shares of the border's vertices, on either side, stand off as the openings of a hoodie's pocket do.
+GarmentMesh sheet_with_pocket(double height, double bulge, double open = 0)
+{
+    TriangleMesh pocket = fixtures::sheet(16, 0.02, [&](double x, double y) {
+        const double across = std::sin(M_PI * x / 0.3), along = std::sin(M_PI * y / 0.3);
+        return height + bulge * (open > 0 && std::abs(y - 0.15) < 0.6 * open ? along : across * along);
+    });
+    pocket.positions.rowwise() += Eigen::RowVector3d(0.14, 0, 0.14);
+    return garment_of({ flat(30, 0.02, Vec3::Zero()), pocket });
+}
+
+TEST(SewnPieces, PocketsAreSewnAlongTheirBorderOnly)
+{
+    for (const double height : { 9e-4, 2e-3, 2.9e-3, 8e-3 }) {
+        const GarmentMesh garment = sheet_with_pocket(height, 0.03);
+        expect_counts(garment, 2, 0, 1, 0);
+        const std::set<int> tied = tied_vertices(sewn(garment));
+        for (int v = 900; v < 900 + 256; ++v) {
+            const int i = (v - 900) % 16, j = (v - 900) / 16;
+            EXPECT_EQ(tied.count(v) == 1, i == 0 || j == 0 || i == 15 || j == 15) << v << ", " << height;
+        }
+    }
+}
+
+TEST(SewnPieces, PocketsMayBeOpenAtTheirSides)
+{
+    const GarmentMesh garment = sheet_with_pocket(2e-3, 0.04, 0.2);
+    expect_counts(garment, 2, 0, 1, 0);
+    EXPECT_LT(tied_vertices(sewn(garment)).size(), 60u) << "the openings stay open";
+}
+
+TEST(SewnPieces, PocketsFarOffTheClothAreNotSewn) { expect_counts(sheet_with_pocket(0.015, 0.03), 2, 0, 0, 1); }
+
+TEST(SewnPieces, RingsAreNotSewnFromAsFarAsPatches)
+{
+    // a limb could pass through it: a collar, a belt or another layer
+    GarmentMesh garment = sheet_with_pocket(8e-3, 0.03);
+    std::vector<int> kept;
+    for (int f = 0; f < int(garment.triangles.rows()); ++f) {
+        const Eigen::RowVector3d middle = garment.positions(garment.triangles.row(f), Eigen::all).colwise().mean();
+        if (middle.y() < 1e-9 || (middle - Eigen::RowVector3d(0.29, middle.y(), 0.29)).norm() > 0.08)
+            kept.push_back(f);
+    }
+    garment.triangles = garment.triangles(kept, Eigen::all).eval();
+    expect_counts(garment, 2, 0, 0, 1);
+}
+
+TEST(SewnPieces, PocketsStayOnClothThatFalls)
+{
+    for (const double height : { 9e-4, 2.9e-3 }) {
+        const GarmentMesh garment = sheet_with_pocket(height, 0.03);
+        const Positions end = fall(garment);
+        ASSERT_LT(end.col(1).minCoeff(), -0.1);
+        EXPECT_LT(largest_change(garment, end), 2e-3) << height;
+    }
+}
+
 TEST(SewnPieces, AButtonOnAFlapOnACoatIsTiedToTheFlap)
 {
     const GarmentMesh garment = garment_of(
