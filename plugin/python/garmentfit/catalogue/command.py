@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""garmentfit catalogue: arguments, messages and exit codes."""
+from __future__ import annotations
+
+import argparse
+import shlex
+import subprocess
+import sys
+
+from .plan import Hashes, PlanError, read_plan, to_json
+from .store import Store, StoreError
+
+_STOPPED = "garmentfit catalogue: stopped; the same command goes on from here"
+_MISSING = "garmentfit catalogue: needs {}; install it with: pip install 'garmentfit[catalogue]'"
+
+
+def main(words: list) -> int:
+    """Runs `garmentfit catalogue words...`. Returns 0 when every pair has a row, whatever its end; 2: wrong input or
+    folder; 4: the disk, the scheduler or all workers were lost; 130: Ctrl-C. After 4 and 130 the folder resumes."""
+    try:
+        return _status(words[1:]) if words[:1] == ["status"] else _run(words)
+    except (PlanError, StoreError) as error:
+        print(f"garmentfit catalogue: {error}", file=sys.stderr)
+        return 2
+    except ModuleNotFoundError as error:
+        print(_MISSING.format(error.name), file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print(_STOPPED, file=sys.stderr)
+        return 130
+
+
+def _arguments(words: list):
+    parser = argparse.ArgumentParser(prog="garmentfit catalogue", description="Dresses many bodies in many garments.",
+                                     epilog="garmentfit catalogue status DIR: how many pairs have ended, and how")
+    parser.add_argument("plan", help="plan.toml or plan.csv")
+    parser.add_argument("-o", "--output", required=True, metavar="DIR", help="folder; a run that stopped goes on in it")
+    parser.add_argument("--scheduler", default="", metavar="ADDRESS",
+                        help="a Dask scheduler whose workers see DIR and the inputs under the same paths")
+    parser.add_argument("--workers", type=int, default=0, help="local workers; one for each core by default")
+    parser.add_argument("--program", default="", metavar="COMMAND", help="program to call; this package's by default")
+    parser.add_argument("--retry", action="store_true", help="do again what crashed or met a limit")
+    parser.add_argument("--no-pictures", action="store_true", help="no thumbnails and no 3D views")
+    parser.add_argument("--quiet", action="store_true", help="no progress bar")
+    return parser.parse_args(words)
+
+
+def _run(words: list) -> int:
+    options = _arguments(words)
+    program = shlex.split(options.program) or [sys.executable, "-m", "garmentfit"]
+    plan, version, hashes = read_plan(options.plan), _version(program), Hashes()
+    store = Store(options.output)
+    store.create()
+    with store.lock():
+        store.clear_work()
+        try:
+            pairs = {hashes.of_pair(pair, version): (pair, hashes.of_rig(pair, version)) for pair in plan.pairs}
+        except OSError as error:
+            raise PlanError(f"{error.filename}: {error.strerror}") from None
+        store.write_plan({key: to_json(pair) for key, (pair, _) in pairs.items()})
+        if options.retry:
+            _forget_failures(store, pairs)
+        code = _work(store, pairs, program, plan.limits, options)
+        _write_results(store, not options.no_pictures)
+    return code
+
+
+def _version(program: list) -> str:
+    try:
+        return subprocess.run([*program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise StoreError(f"{program[0]}: cannot be run ({error})") from None
+
+
+def _forget_failures(store: Store, pairs: dict) -> None:
+    rigs = {("rig", rig) for _, rig in pairs.values()}
+    for kind, key in [("dress", key) for key in pairs] + sorted(rigs):
+        row = store.finished(kind, key)
+        if row and row["reason"] in ("crashed", "killed", "time_limit", "memory_limit"):
+            store.forget(kind, key)
+
+
+def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
+    """Makes the rigs, then the pairs; returns the exit code. Prints why it ended early."""
+    from tqdm import tqdm
+
+    from .job import Fatal, run_job
+    from .scheduling import SchedulerLost, run_jobs
+
+    folder, draw = str(store.folder), not options.no_pictures
+    rest = {key: pair for key, pair in pairs.items() if store.finished("dress", key) is None}
+    rigs = {rig: pair for pair, rig in rest.values() if store.finished("rig", rig) is None}
+    try:
+        for kind, jobs in (
+                ("rig", [(folder, "rig", key, pair, key, program, limits, draw) for key, pair in rigs.items()]),
+                ("dress", [(folder, "dress", key, *pair, program, limits, draw) for key, pair in rest.items()])):
+            total = len(pairs) if kind == "dress" else len(jobs)
+            if jobs:
+                with tqdm(total=total, initial=total - len(jobs), desc=kind, unit="pair" if kind == "dress" else "body",
+                          disable=None if not options.quiet else True) as bar:
+                    run_jobs(run_job, jobs, options.scheduler, options.workers, lambda row: bar.update())
+    except (Fatal, SchedulerLost, OSError) as error:
+        print(f"garmentfit catalogue: {error}", file=sys.stderr)
+        return 4
+    except KeyboardInterrupt:
+        print(_STOPPED, file=sys.stderr)
+        return 130
+    return 0
+
+
+def _write_results(store: Store, draw: bool) -> None:
+    from . import page, results
+
+    rows = results.collect(store)
+    try:
+        results.write_tables(store, rows)
+        page.write_page(store, rows)
+    except OSError as error:
+        raise StoreError(f"{store.folder}: the results cannot be written ({error.strerror})") from None
+    print(_in_words(results.summary(rows)))
+
+
+def _status(words: list) -> int:
+    parser = argparse.ArgumentParser(prog="garmentfit catalogue status")
+    parser.add_argument("folder", metavar="DIR")
+    store = Store(parser.parse_args(words).folder)
+    from . import results
+
+    rows = results.collect(store)
+    print(_in_words(results.summary(rows)))
+    return 0
+
+
+def _in_words(summary) -> str:
+    total, waiting = sum(summary.values()), summary.get("waiting", 0)
+    lines = [f"{total - waiting} of {total} pairs finished"]
+    return "\n".join(lines + [f"  {count:6d}  {reason}" for reason, count in summary.most_common()])

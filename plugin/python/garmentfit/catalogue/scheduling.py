@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs jobs on Dask workers. Dask only schedules: what is finished is known from the folder alone."""
+from __future__ import annotations
+
+import itertools
+import os
+import queue
+import time
+
+_PER_THREAD = 4  # guess: jobs that wait at the scheduler for each thread; more would only cost it memory
+_LEAST_WAITING = 64  # guess: hides the round trips to the scheduler where jobs take no time
+_REPEATS = 5  # guess: workers or connections that one job may lose
+_PATIENCE_SECONDS = 60  # guess: time in which a scheduler or worker may come back
+
+
+class SchedulerLost(RuntimeError):
+    """The scheduler or all workers are gone; the folder resumes."""
+
+
+def run_jobs(function, jobs, scheduler: str = "", workers: int = 0, arrived=None) -> int:
+    """Calls function(*job) for each job on the workers and arrived(result) here; returns the number of results.
+
+    jobs is an iterable of tuples and is read as workers become free. Without a scheduler's address, as many local
+    workers as `workers` (0: one for each core) start, with one thread each. Raises what function raises, and
+    SchedulerLost."""
+    from distributed import Client, LocalCluster
+
+    if scheduler:
+        try:
+            client = Client(scheduler, timeout=_PATIENCE_SECONDS, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise SchedulerLost(f"{scheduler}: no scheduler answers ({error}); check its address") from None
+        with client:
+            return _drain(client, function, iter(jobs), arrived)
+    with LocalCluster(n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, processes=True,
+                      dashboard_address="127.0.0.1:0", silence_logs=50) as cluster, \
+            Client(cluster, set_as_default=False) as client:
+        return _drain(client, function, iter(jobs), arrived)
+
+
+def _drain(client, function, jobs, arrived) -> int:
+    """Keeps a window of jobs at the scheduler, so that its memory does not grow with the plan."""
+    ended, job_of, repeats = queue.Queue(), {}, {}
+    done = 0
+
+    def submit(job):
+        future = client.submit(function, *job, pure=False)
+        job_of[future.key] = job, future
+        future.add_done_callback(ended.put)
+
+    _fill(client, jobs, job_of, submit)
+    while job_of:
+        for future in _next_ended(client, ended):
+            if future.key not in job_of:
+                continue  # told of twice, after a connection was lost
+            job, _ = job_of.pop(future.key)
+            if future.status == "finished":
+                done += 1
+                result = future.result()
+                if arrived:
+                    arrived(result)
+            else:
+                _repeat_or_raise(future, job, repeats, submit)
+            future.release()
+        _fill(client, jobs, job_of, submit)
+    return done
+
+
+def _threads(client) -> int:
+    return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
+
+
+def _fill(client, jobs, job_of, submit) -> None:
+    window = max(_LEAST_WAITING, _PER_THREAD * _threads(client))
+    for job in itertools.islice(jobs, max(0, window - len(job_of))):
+        submit(job)
+
+
+def _next_ended(client, ended) -> list:
+    """The futures that ended since the last call, at least one. Raises SchedulerLost where none can end any more."""
+    last_seen = time.monotonic()
+    while True:
+        try:
+            batch = [ended.get(timeout=1)]
+            break
+        except queue.Empty:
+            if client.status == "running" and _threads(client):
+                last_seen = time.monotonic()
+            elif client.status == "closed" or time.monotonic() - last_seen > _PATIENCE_SECONDS:
+                raise SchedulerLost("no scheduler or no worker is left; start them and run again to go on") from None
+    while not ended.empty():
+        batch.append(ended.get())
+    return batch
+
+
+def _repeat_or_raise(future, job, repeats, submit) -> None:
+    """A job whose worker or connection was lost is submitted again; an error of the job itself is raised."""
+    from distributed import KilledWorker
+
+    if future.status == "error" and not isinstance(future.exception(), KilledWorker):
+        raise future.exception()
+    repeats[id(job)] = repeats.get(id(job), 0) + 1
+    if repeats[id(job)] > _REPEATS:
+        raise SchedulerLost("a job lost its worker again and again; look at the workers' logs, then run again")
+    submit(job)

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""garmentfit catalogue with a program that does nothing quickly: rows, limits, resuming, faults."""
+import collections
+import csv
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
+    pytest.importorskip(needed)
+import psutil  # noqa: E402
+import pyarrow.parquet  # noqa: E402
+
+FAKE = f"{sys.executable} {Path(__file__).parent / 'fake_program.py'}"
+CATALOGUE = [sys.executable, "-m", "garmentfit", "catalogue"]
+
+
+class Trial:
+    """A plan of bodies x garments, each garment file with a word for the program."""
+
+    def __init__(self, folder, bodies, words, limits="", seconds=0):
+        self.folder, self.output, self.counts = folder, folder / "out", folder / "counts"
+        self.environment = dict(os.environ, FAKE_COUNTS=str(self.counts), FAKE_SECONDS=str(seconds))
+        for index in range(bodies):
+            (folder / f"body{index}.ply").write_text(f"body {index}")
+        for index, word in enumerate(words):
+            (folder / f"garment{index}.ply").write_text(f"{word} {index}")
+        (folder / "plan.toml").write_text('bodies = ["body*.ply"]\ngarment_files = ["garment*.ply"]\n' + limits)
+        self.command = [*CATALOGUE, str(folder / "plan.toml"), "-o", str(self.output), "--program", FAKE,
+                        "--workers", "2", "--quiet"]
+
+    def run(self, *words):
+        return subprocess.run([*self.command, *words], env=self.environment, capture_output=True, text=True,
+                              timeout=300)
+
+    def start(self, *words):
+        return subprocess.Popen([*self.command, *words], env=self.environment, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
+
+    def rows(self):
+        with open(self.output / "results.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def finished(self):
+        return {path.parent.name: path.stat().st_mtime_ns for path in self.output.glob("jobs/*/*/done.json")}
+
+
+def test_every_way_to_end_costs_one_row(tmp_path):
+    words = ["ok", "crash", "hang", "memory", "small", "wrong"]
+    trial = Trial(tmp_path, 1, words, "[limits]\nseconds = 4\nmemory_mb = 200\n")
+    done = trial.run()
+    assert done.returncode == 0, done.stderr
+    reasons = {row["garment"]: row["reason"] for row in trial.rows()}
+    wanted = ["done", "crashed", "time_limit", "memory_limit", "too_small", "no_faces"]
+    assert reasons == {f"garment{index}": reason for index, reason in enumerate(wanted)}
+    for row in trial.rows():
+        assert "dress" in (trial.output / row["folder"] / "log.txt").read_text() and row["garment_files"]
+    table = pyarrow.parquet.read_table(trial.output / "results.parquet").to_pylist()
+    assert [row["reason"] for row in table] == [row["reason"] for row in trial.rows()]
+    assert table[0]["ease_waist"] == 0.04 and table[0]["type_probability"] == 0.9
+
+
+def test_a_second_run_does_nothing_again_and_a_larger_plan_only_the_rest(tmp_path):
+    trial = Trial(tmp_path, 2, ["ok"] * 5)
+    assert trial.run().returncode == 0
+    before = trial.finished()
+    (tmp_path / "garment9.ply").write_text("ok 9")
+    done = trial.run()
+    assert done.returncode == 0 and "12 of 12 pairs finished" in done.stdout
+    after = trial.finished()
+    assert len(before) == 10 and len(after) == 12 and all(after[key] == before[key] for key in before)
+    assert len(trial.counts.read_text().splitlines()) == 2 + 12  # rigs, once for each body, and pairs
+
+
+def test_two_runs_in_one_folder_and_an_unwritable_one_end_clearly(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"] * 40, seconds=1)
+    first = trial.start()
+    try:
+        wait_for(lambda: (trial.output / "plan.jsonl").exists())
+        second = trial.run()
+        assert second.returncode == 2 and "another run" in second.stderr and second.stderr.count("\n") == 1
+    finally:
+        stop_tree(first.pid)
+        first.wait()
+    (tmp_path / "file").write_text("")
+    bad = trial.run("-o", str(tmp_path / "file" / "out"))
+    assert bad.returncode == 2 and "cannot be written" in bad.stderr
+
+
+def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"] * 30, seconds=0.3)
+    run = trial.start()
+    wait_for(lambda: len(trial.finished()) > 3)
+    run.send_signal(signal.SIGINT)
+    assert run.wait(60) == 130
+    before = trial.finished()
+    assert 3 < len(before) < 30
+    assert trial.run().returncode == 0
+    after = trial.finished()
+    assert len(after) == 30 and all(after[key] == before[key] for key in before)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_killed_at_random_it_ends_with_the_same_results(tmp_path, seed):
+    """kill -9 of client, worker or job at random moments, fixed seeds; then one run to the end."""
+    chance = random.Random(seed)
+    words = ["ok"] * 35 + ["small"] * 3 + ["wrong"] * 2
+    (tmp_path / "calm").mkdir()
+    calm = Trial(tmp_path / "calm", 2, words)
+    assert calm.run().returncode == 0
+    shutil.copytree(tmp_path / "calm", tmp_path / "storm", ignore=shutil.ignore_patterns("out", "counts"))
+    storm = Trial(tmp_path / "storm", 2, words, seconds=0.2)
+    seen, killed = {}, collections.Counter()
+    for victim in ("job", "worker", "client"):
+        run = storm.start()
+        time.sleep(chance.uniform(3, 5))
+        killed[victim] += kill_one(run.pid, victim, chance)
+        time.sleep(chance.uniform(0.2, 1))
+        stop_tree(run.pid)
+        run.wait()
+        now = storm.finished()
+        assert all(now[key] == seen[key] for key in seen)
+        seen = now
+    assert sum(killed.values()) >= 2, killed
+    assert storm.run().returncode == 0
+    assert all(storm.finished()[key] == seen[key] for key in seen)
+    kept = ["body", "garment", "exit", "reason", "verdict", "type", "ease_waist", "strain_max"]
+    assert [[row[name] for name in kept] for row in storm.rows()] == [[row[name] for name in kept]
+                                                                      for row in calm.rows()]
+    assert not any((storm.output / "work").iterdir())
+
+
+def kill_one(client, victim, chance):
+    """Kills a process of the run with this client; returns how many were killed."""
+    below = psutil.Process(client).children(recursive=True)
+    jobs = [each for each in below if "fake_program.py" in " ".join(command_of(each))]
+    workers = [each for each in below if "spawn_main" in " ".join(command_of(each))]
+    chosen = {"job": jobs, "worker": workers, "client": [psutil.Process(client)]}[victim]
+    if not chosen:
+        return 0
+    try:
+        chance.choice(chosen).kill()
+    except psutil.NoSuchProcess:
+        return 0
+    return 1
+
+
+def command_of(process):
+    try:
+        return process.cmdline()
+    except psutil.Error:
+        return []
+
+
+def stop_tree(pid):
+    try:
+        processes = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
+    except psutil.NoSuchProcess:
+        return
+    for each in processes:
+        try:
+            each.kill()
+        except psutil.NoSuchProcess:
+            pass
+
+
+def wait_for(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def test_a_scheduler_and_workers_of_others_do_the_same(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"] * 20, seconds=0.1)
+    address = tmp_path / "scheduler.json"
+    dask = [sys.executable, "-m", "distributed.cli.dask_scheduler"]
+    started = [subprocess.Popen([*dask, "--port", "0", "--no-dashboard", "--scheduler-file", str(address)],
+                                stderr=subprocess.DEVNULL)]
+    try:
+        wait_for(address.exists)
+        where = json.loads(address.read_text())["address"]
+        for _ in range(2):
+            started.append(subprocess.Popen(
+                [sys.executable, "-m", "distributed.cli.dask_worker", where, "--nthreads", "1", "--no-dashboard",
+                 "--local-directory", str(tmp_path)], env=trial.environment, stderr=subprocess.DEVNULL))
+        done = trial.run("--scheduler", where)
+        assert done.returncode == 0 and "20 of 20 pairs finished" in done.stdout, done.stderr
+    finally:
+        for each in reversed(started):
+            stop_tree(each.pid)
+            each.wait()
+    assert len(trial.counts.read_text().splitlines()) == 21
