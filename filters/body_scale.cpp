@@ -62,6 +62,7 @@ void scale(WornGarment& garment, double factor)
     garment.positions *= factor;
     garment.certificate.min_distance *= factor;
     garment.slipped *= factor;
+    garment.piece_shift *= factor;
 }
 
 void scale(RecoverFrame& frame, double factor)
@@ -94,6 +95,7 @@ void scale_measures(Dressing& dressing, double factor)
 void scale(Dressing& dressing, double factor)
 {
     dressing.to_human_size /= factor;
+    dressing.unit.metres *= factor;
     dressing.pose.root_translation *= factor;
     dressing.body *= factor;
     for (WornGarment& garment : dressing.garments)
@@ -153,6 +155,7 @@ double factor_to_human_size(const BodyMesh& body)
 
 Scene scale_scene(Scene scene, double factor)
 {
+    scene.unit.metres *= factor;
     scene.body->surface.positions *= factor;
     scene.body->closed.positions *= factor;
     for (GarmentInput& garment : scene.garments)

@@ -218,9 +218,10 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     }
 }
 
-/// What the scene's garments are made of.
-void write_fabrics(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
+/// What the scene's garments are made of, and the unit of messages about them.
+void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
 {
+    dressing.unit = scene.unit;
     dressing.fabrics.clear();
     dressing.fabric_stretches.clear();
     for (const GarmentInput& garment : scene.garments) {
@@ -245,6 +246,20 @@ std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
     return order;
 }
 
+/// @throws RefusedGarment where the cloth lies across the bones of the body
+DrapeResult drape_next(const Scene& scene, std::size_t garment, const Dressing& dressing, const DrapeOptions& options,
+                       const Progress& progress)
+try {
+    return for_garment(scene, garment, [&](std::size_t i) {
+        return drape_garment(*scene.rig, *scene.body, dressing, scene.garments[i].mesh,
+                             options_for(scene.garments[i], options), progress);
+    });
+} catch (const InvalidInput& error) {
+    if (error.code() == ErrorCode::crossing_start)
+        throw RefusedGarment(garment, error.what());
+    throw;
+}
+
 /// Puts the garments on from the inside out. Those already worn move to the pose of the next one. Ends at the first
 /// that cannot be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
@@ -252,6 +267,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     Dressing dressing;
     RecoverOptions between_poses = p.recover;
     between_poses.frames = 0;
+    between_poses.quality = Quality::draft;
     between_poses.cloth.largest_stretch
         = std::numeric_limits<double>::infinity();  // a garment is judged in the pose that it is worn in
     const double n = double(scene.garments.size());
@@ -267,10 +283,8 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
         if (layer > 0 && !dressing.certified)
             break;
         dressing.pose = pose;
-        const DrapeResult result = for_garment(scene, order[layer], [&](std::size_t i) {
-            return drape_garment(*scene.rig, *scene.body, dressing, scene.garments[i].mesh,
-                                 options_for(scene.garments[i], p.drape), slice.part(layer > 0 ? 0.3 : 0, 1));
-        });
+        const DrapeResult result
+            = drape_next(scene, order[layer], dressing, p.drape, slice.part(layer > 0 ? 0.3 : 0, 1));
         const ClothSeconds before = dressing.seconds;
         const std::size_t worn_before = dressing.garments.size();
         dressing = dressing_of(result);
@@ -284,7 +298,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
     }
     measure(scene, dressing, p.drape.cloth);
     scene.draped = among_all(dressing, order, order.size());
-    write_fabrics(scene, *scene.draped, p.drape.cloth);
+    write_given(scene, *scene.draped, p.drape.cloth);
 }
 
 /// Without fits, the garments are in the order in which they were given.
@@ -307,7 +321,7 @@ void recover(Scene& scene, const Parameters& p, const Progress& progress)
     measure(scene, recovered, p.recover.cloth);
     recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
-    write_fabrics(scene, *scene.recovered, p.recover.cloth);
+    write_given(scene, *scene.recovered, p.recover.cloth);
 }
 
 // ---- the tables ------------------------------------------------------------------------------------------------
@@ -386,13 +400,15 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
 {
     const bool tries_others
         = filter.has(Stage::fit) && filter.has(Stage::recover) && parameters.fit.method == FitMethod::fast;
-    std::exception_ptr refused;
+    std::exception_ptr refusal;
+    std::size_t refused = 0;
     try {
         run_stages(filter.stages, scene, parameters, progress);
-    } catch (const InvalidInput& error) {
-        if (!tries_others || error.code() != ErrorCode::crossing_start || scene.garments.size() > 1)
+    } catch (const RefusedGarment& error) {
+        if (!tries_others)
             throw;
-        refused = std::current_exception();
+        refused = error.garment;
+        refusal = std::current_exception();
     }
     if (!tries_others)
         return;
@@ -400,9 +416,9 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
     const auto run = [&](std::vector<Stage> stages) {
         return [&, stages](Scene& s) { run_stages(stages, s, parameters, again); };
     };
-    try_other_wearings(scene, { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) }, again);
-    if (refused && !final_dressing(scene))
-        std::rethrow_exception(refused);
+    try_other_wearings(scene, { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) }, refused, again);
+    if (refusal && !final_dressing(scene))
+        std::rethrow_exception(refusal);
 }
 
 std::string at_human_size(const std::string& line, double factor)
@@ -448,6 +464,12 @@ std::vector<std::size_t> Dressing::worn() const
         if (is_worn(i))
             result.push_back(i);
     return result;
+}
+
+void put_body(Scene& scene, const Frame& frame, const Positions& in_file, const Triangles& triangles)
+{
+    scene.unit = unit_of(frame);
+    scene.body = make_body(frame.to_metres(in_file), triangles);
 }
 
 std::size_t outermost(const std::vector<FitResult>& fits)

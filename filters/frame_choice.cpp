@@ -8,7 +8,9 @@
 #include "garmentfit/error.h"
 #include "garmentfit/filters/schema.h"
 #include "garmentfit/garment_size.h"
+#include "garmentfit/garment_up.h"
 #include "garmentfit/number_text.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -51,6 +53,29 @@ void set_height(FrameGuess& guess, const Positions& positions, double height)
     guess.frame.metres_per_unit = height / units;
     guess.unit_confidence = 1;
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
+}
+
+/// The io guess knows only the shape of the box and its symmetry; what the openings say is added to its evidence. What
+/// is no garment is left alone. A garment that is upside down along an axis hangs along it, too: the fit turns it over.
+void choose_up(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body)
+{
+    const Vec3 other = std::abs(body.up.y()) > 0.5 ? Vec3::UnitZ() : Vec3::UnitY();
+    const double sign = guess.frame.up == other ? 1 : -1, by_shape = -sign * std::log1p(-guess.up_confidence);
+    if (std::abs(by_shape) >= 2 * k_openings_up_weight)
+        return;
+    std::vector<double> evidence;
+    try {
+        const Positions metres = positions * guess.frame.metres_per_unit;
+        evidence = evidence_for_up(make_garment(metres, triangles), { body.up, other });
+    } catch (const InvalidInput&) {
+        return;
+    }
+    const double by_all = by_shape + k_openings_up_weight * (std::abs(evidence[1]) - std::abs(evidence[0]));
+    const Vec3 up = by_all > 0 ? other : body.up;
+    if (up != guess.frame.up)
+        guess.why += up == body.up ? ", but its openings say like the body" : ", but its openings say unlike the body";
+    guess.frame.up = up;
+    guess.up_confidence = -std::expm1(-std::abs(by_all));
 }
 
 /// By the parts of the garment. What is no garment is left alone: its defects are found where it is prepared.
@@ -104,6 +129,8 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
     FrameGuess guess = guess_garment_frame(positions, triangles, in_named_unit(body));
     if (choice.as_placed)
         guess = { body, 1, 1, "the garment lies on the body in its file, in the same units and axes" };
+    else if (choice.up == "auto")
+        choose_up(guess, positions, triangles, body);
     guess = apply_choice(guess, choice);
     if (stature && choice.unit == "auto" && choice.scale == 1 && !choice.as_placed)
         scale_to_body(guess, positions, triangles, body, *stature);

@@ -27,34 +27,22 @@ double furthest_slip(const Dressing& end)
     return furthest;
 }
 
-enum class End { worn, torn_or_slipped, hindered, refused };
-
-// Less is better: how it ended, then how far it came.
-std::pair<End, double> badness(const Scene& scene)
+End end_of(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
     if (!end)
-        return { End::refused, 0 };
+        return End::refused;
     if (outcome_of(*end) != Outcome::done)
-        return { End::hindered, -end->scale_reached - end->pose_reached };
-    const bool is_worn = largest_stretch(*end) <= k_torn && furthest_slip(*end) <= k_slipped;
-    return { is_worn ? End::worn : End::torn_or_slipped, is_worn ? 0 : largest_stretch(*end) };
+        return outcome_of(*end) == Outcome::too_small ? End::too_small : End::not_certified;
+    return largest_stretch(*end) <= k_torn && furthest_slip(*end) <= k_slipped ? End::worn : End::torn_or_slipped;
 }
 
-// A less probable way has to be worn as it should. Torn or round the knees it does not beat a more probable one, of
-// which the user is told that the garment is too small.
-bool is_better(const Scene& other, const Scene& present)
-{
-    const auto now = badness(present), then = badness(other);
-    return then < now && (then.first == End::worn || then.first == now.first || now.first == End::refused);
-}
-
-// The garment with the tightest part, or the one that was put on last; without an end, the first.
-std::size_t garment_at_fault(const Scene& scene)
+// The garment with the tightest part, or the one that was put on last; without an end, the one that was refused.
+std::size_t garment_at_fault(const Scene& scene, std::size_t refused)
 {
     const Dressing* found = final_dressing(scene);
     if (!found)
-        return 0;
+        return refused;
     const Dressing& end = *found;
     if (outcome_of(end) == Outcome::done) {
         const auto worst
@@ -89,39 +77,78 @@ std::string reason_against(const Scene& scene)
     return largest_stretch(end) > k_torn ? "the cloth is stretched too far" : "it slips down";
 }
 
+constexpr double k_same_direction = 0.5;  // derived: cosine; between quarter turns and noise, as in the fit
+
+// The garment faces alike, and lies round every bone that it covers in the other way, too: one way under two names.
+bool is_within(const FitResult& way, const FitResult& other)
+{
+    return way.up.dot(other.up) > k_same_direction && way.front.dot(other.front) > k_same_direction
+        && std::all_of(way.covered.begin(), way.covered.end(), [&](Bone bone) {
+               return std::find(other.covered.begin(), other.covered.end(), bone) != other.covered.end();
+           });
+}
+
+// Both then count for the second one, which keeps the more probable name.
+FitResult with_probability_of(const FitResult& first, FitResult second)
+{
+    if (!is_within(first, second))
+        return second;
+    second.probability = std::min(1.0, first.probability + second.probability);
+    second.type = first.type;
+    second.type_probability = first.type_probability;
+    return second;
+}
+
+// The more plausible scene of two stays, the other way of wearing the garment is listed in `rejected`.
+void keep_better(Scene& scene, Scene&& other, std::size_t garment)
+{
+    const auto plausibility_in = [&](const Scene& s) { return plausibility(s.fits[garment].probability, end_of(s)); };
+    const bool wins = plausibility_in(other) > plausibility_in(scene);
+    const Scene& worse = wins ? scene : other;
+    const Rejected loser = rejected(worse.fits[garment], reason_against(worse));
+    if (wins) {
+        const std::vector<Rejected> before = std::exchange(scene, std::move(other)).fits[garment].rejected;
+        auto& all = scene.fits[garment].rejected;
+        all.insert(all.begin(), before.begin(), before.end());
+    }
+    scene.fits[garment].rejected.push_back(loser);
+}
+
 }  // namespace
 
-void try_other_wearings(Scene& scene, const DressingSteps& steps, const Progress& progress)
+double plausibility(double probability, End end) { return probability * k_end_likelihoods[static_cast<int>(end)]; }
+
+void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress)
 {
-    std::size_t garment = 0;
-    for (int tried = 0; tried < k_other_wearings && badness(scene).first != End::worn && !progress.is_late(); ++tried) {
-        const std::size_t at_fault = garment_at_fault(scene);
-        if (tried > 0 && at_fault != garment)
-            return;  // another garment hinders now
-        garment = at_fault;
+    std::vector<int> tried(scene.garments.size(), 0);
+    while (end_of(scene) != End::worn && !progress.is_late()) {
+        const std::size_t garment = garment_at_fault(scene, refused);
+        if (++tried[garment] > k_other_wearings)
+            return;
         Scene other = scene;
-        other.garments[garment].skipped = tried + 1;
+        other.garments[garment].skipped = tried[garment];
         other.draped.reset();
         other.recovered.reset();
         try {
             steps.fit(other);
-            if (other.fits[garment].probability < k_worth_trying)
+            FitResult& fit = other.fits[garment];
+            if (fit.probability < k_worth_trying)
+                return;
+            fit = with_probability_of(scene.fits[garment], fit);
+            if (plausibility(fit.probability, End::worn)
+                <= plausibility(scene.fits[garment].probability, end_of(scene)))
                 return;
             steps.drape_and_recover(other);
+        } catch (const RefusedGarment&) {
+            // it may be this garment or one over it: keep_better sees that there is no end
         } catch (const InvalidInput&) {
             return;
         } catch (const SolverFailure&) {
             return;
+        } catch (const TimeLimitReached&) {
+            return;
         }
-        const bool wins = is_better(other, scene);
-        Scene& worse = wins ? scene : other;
-        const Rejected loser = rejected(worse.fits[garment], reason_against(worse));
-        if (wins) {
-            const std::vector<Rejected> before = std::exchange(scene, std::move(other)).fits[garment].rejected;
-            auto& all = scene.fits[garment].rejected;
-            all.insert(all.begin(), before.begin(), before.end());
-        }
-        scene.fits[garment].rejected.push_back(loser);
+        keep_better(scene, std::move(other), garment);
     }
 }
 

@@ -3,19 +3,47 @@
 
 // The second choice: other ways of wearing a garment, where the most probable one ends badly.
 
+#include <cstddef>
 #include <functional>
 
+#include "garmentfit/error.h"
 #include "garmentfit/filters/filters.h"
 
 namespace garmentfit {
+
+/// The cloth lies across the bones of the body, so draping cannot start.
+class RefusedGarment : public InvalidInput {
+public:
+    RefusedGarment(std::size_t index, const std::string& message) :
+        InvalidInput(ErrorCode::crossing_start, message), garment(index)
+    {
+    }
+    std::size_t garment;  ///< of the scene
+};
+
+/// How dressing ends.
+enum class End {
+    worn,
+    torn_or_slipped,  ///< certified, but drawn out to several times its length, or fallen off
+    too_small,
+    not_certified,
+    refused,  ///< there is no result
+    count
+};
+
+/// How much speaks for a way of wearing a garment once it was tried: its probability before, times that of such an end
+/// if garments are worn as they should (decision 23). Comparable for ways of wearing one garment.
+double plausibility(double probability, End end);
 
 /// How to dress a scene that has its rig.
 struct DressingSteps {
     std::function<void(Scene&)> fit, drape_and_recover;
 };
 
-/// Where a garment is too small, crosses, is held back or torn, the next probable ways of wearing it are tried, and the
-/// scene keeps the best outcome. What was tried in vain is added to FitResult::rejected.
-void try_other_wearings(Scene& scene, const DressingSteps& steps, const Progress& progress);
+/// Where a garment is too small, crosses, is held back or torn, the next probable ways of wearing it are tried while
+/// one of them can be more plausible, and the scene keeps the most plausible one. What was tried in vain is added to
+/// FitResult::rejected.
+/// @param refused  of a scene that could not be draped: the garment which hindered it; else not read
+void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress);
 
 }  // namespace garmentfit

@@ -23,7 +23,7 @@ double distance_from_input(const FitEnergy& energy, const Posture& posture, doub
             sum += (fitted.head(b) - energy.rest().head(b)).norm() + (fitted.tail(b) - energy.rest().tail(b)).norm();
             joints += 2;
         }
-    return sum / std::max(joints, 1) / (0.1 * leg);
+    return sum / std::max(joints, 1) / (k_tenth * leg);
 }
 
 struct InsideShares {
@@ -61,7 +61,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     WearEvidence e {};
     e[energy_evidence] = energy.total(posture) - energy.hang_slope() * energy.metric().cloth().barycentre().y();
     e[clearance_evidence] = energy.clearance_share(posture);
-    e[uncovered_cloth_evidence] = energy.mean_coverage_distance(posture) / (0.1 * leg);
+    e[uncovered_cloth_evidence] = energy.mean_coverage_distance(posture) / (k_tenth * leg);
     e[crossing_evidence] = std::min(energy.bones_through_cloth(posture), k_max_crossing_evidence);
     e[covered_inside_evidence] = inside.covered;
     e[uncovered_inside_evidence] = inside.uncovered;
@@ -80,11 +80,16 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
     const FrontShape shape = front_shape(energy.metric().cloth().patches(), context.openings, energy.cues(), level);
     const bool is_bottom = context.coverage.kind == CoverageKind::legs || context.coverage.kind == CoverageKind::skirt;
-    e[is_bottom ? waist_evidence : torso_evidence] = is_bottom ? shape.waist : shape.torso;
-    e[hems_evidence] = shape.hems;
-    e[cuffs_evidence] = shape.cuffs;
+    const double held = 1 - context.askew / k_most_askew;  // heights of a garment held askew are no heights
+    e[is_bottom ? waist_evidence : torso_evidence] = held * (is_bottom ? shape.waist : shape.torso);
+    e[hems_evidence] = held * shape.hems;
+    e[cuffs_evidence] = held * shape.cuffs;
+    e[seat_evidence] = is_bottom ? held * shape.seat : 0;
+    e[lap_evidence] = is_bottom && !energy.cues().hems.empty() ? held * shape.lap : 0;
+    e[bow_evidence] = context.coverage.kind == CoverageKind::top ? held * shape.bow : 0;
+    e[bare_evidence] = is_bottom ? 0 : held * shape.bare;
     e[in_place_evidence] = is_in_place;
-    e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / 0.1 : 0;
+    e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / k_tenth : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(energy, given, leg));
     return e;
 }
@@ -96,12 +101,45 @@ bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.f
 const std::array<std::string_view, evidence_count>& evidence_names()
 {
     static constexpr std::array<std::string_view, evidence_count> names {
-        "energy",        "clearance",   "uncovered_cloth", "crossing",     "covered_inside",  "uncovered_inside",
-        "as_given",      "askew",       "upright",         "legs",         "skirt",           "dress",
-        "jumpsuit",      "legs_height", "skirt_height",    "dress_height", "jumpsuit_height", "legs_hems",
-        "skirt_hems",    "dress_hems",  "jumpsuit_hems",   "legs_arms",    "skirt_arms",      "dress_arms",
-        "jumpsuit_arms", "type",        "input_front",     "openings",     "torso",           "waist",
-        "hems",          "cuffs",       "near_input",      "in_place",     "in_place_inside",
+        "energy",
+        "clearance",
+        "uncovered_cloth",
+        "crossing",
+        "covered_inside",
+        "uncovered_inside",
+        "as_given",
+        "askew",
+        "upright",
+        "legs",
+        "skirt",
+        "dress",
+        "jumpsuit",
+        "legs_height",
+        "skirt_height",
+        "dress_height",
+        "jumpsuit_height",
+        "legs_hems",
+        "skirt_hems",
+        "dress_hems",
+        "jumpsuit_hems",
+        "legs_arms",
+        "skirt_arms",
+        "dress_arms",
+        "jumpsuit_arms",
+        "type",
+        "input_front",
+        "openings",
+        "torso",
+        "waist",
+        "hems",
+        "cuffs",
+        "seat",
+        "lap",
+        "bow",
+        "bare",
+        "near_input",
+        "in_place",
+        "in_place_inside",
     };
     return names;
 }
@@ -122,18 +160,29 @@ std::vector<Wearing> wearings_of(const WearingContext& context, const std::vecto
                      [](const Wearing& a, const Wearing& b) { return log_odds(a.evidence) > log_odds(b.evidence); });
     std::vector<Wearing> best;
     for (Wearing& wearing : all) {
-        wearing.rank = int(std::count_if(best.begin(), best.end(),
-                                         [&](const Wearing& other) { return is_same_facing(wearing, other); }));
+        // of two that face alike with a third one, that one decides: they need not face alike
+        const auto first = std::find_if(best.begin(), best.end(), [&](const Wearing& other) {
+            return other.rank == 0 && is_same_facing(wearing, other);
+        });
+        if (first != best.end())
+            wearing.rank = int(std::count_if(best.begin(), best.end(),
+                                             [&](const Wearing& other) { return is_same_facing(*first, other); }));
         if (wearing.rank < k_wearings_of_a_facing)
             best.push_back(wearing);
     }
     return best;
 }
 
+// The evidence of the shape is s for one facing and about -s for the opposite one. exp(s) / (exp(s) + exp(-s)) divides
+// the odds of a coverage between its facings; without the denominator a marked shape would raise those odds, too.
 double log_odds(const WearEvidence& evidence)
 {
     static_assert(k_evidence_weights.size() == evidence_count);
-    return std::inner_product(evidence.begin(), evidence.end(), k_evidence_weights.begin(), 0.0);
+    const double all = std::inner_product(evidence.begin(), evidence.end(), k_evidence_weights.begin(), 0.0);
+    double shape = 0;
+    for (const Evidence e : k_shape_evidence)
+        shape += k_evidence_weights[e] * evidence[e];
+    return all - std::abs(shape) - std::log1p(std::exp(-2 * std::abs(shape)));
 }
 
 std::vector<double> probabilities(const std::vector<double>& log_odds)

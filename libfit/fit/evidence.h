@@ -4,8 +4,9 @@
 // How probable it is that a garment is worn in some way: this way up, on these bones, facing there.
 //
 // Method  conditional logit [mcfadden_1974_conditional_logit]: the probability of a hypothesis is proportional to the
-//         exponential of its weighted evidence. The weights are fitted on garments of which it is known how they are
-//         worn (tuning.h, scripts/fit-evidence).
+//         exponential of its weighted evidence. The evidence of the shape (k_shape_evidence) divides the odds of a
+//         coverage between its facings. The weights are fitted on garments of which it is known how they are worn
+//         (tuning.h, scripts/fit-evidence).
 
 #include <array>
 #include <string_view>
@@ -50,16 +51,24 @@ enum Evidence {
     // The facing
     input_front_evidence,  ///< cosine of the held garment's front to that of the input body: most share a frame
     openings_evidence,  ///< openings that face forwards less those that face backwards (cues_of)
-    torso_evidence,  ///< FrontShape, of tops, dresses and jumpsuits
+    // FrontShape, less the more askew the garment is held; 0 for k_most_askew
+    torso_evidence,  ///< of tops, dresses and jumpsuits
     waist_evidence,  ///< of trousers and skirts
     hems_evidence,
     cuffs_evidence,
+    seat_evidence,  ///< of trousers and skirts
+    lap_evidence,  ///< of trousers
+    bow_evidence,  ///< of tops
+    bare_evidence,  ///< of tops, dresses and jumpsuits
     near_input_evidence,  ///< 1 where the covered joints lie where the input body has them, 0 a tenth of a leg away
     // As it lies: 0 unless the posture is the input pose itself
     in_place_evidence,  ///< 1
     in_place_inside_evidence,  ///< share of the garment's vertices inside the body, at most 0.2, as a multiple of 0.1
     evidence_count
 };
+/// Evidence that tells the facings of one coverage apart, and nothing else (log_odds).
+inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, seat_evidence,
+                                               lap_evidence,   bow_evidence,   bare_evidence };
 using WearEvidence = std::array<double, evidence_count>;
 /// "energy", "clearance", ... in the order of Evidence.
 const std::array<std::string_view, evidence_count>& evidence_names();
@@ -89,6 +98,7 @@ struct WearingContext {
 std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,
                                  const std::vector<Posture>& in_place);
 
+/// But for a constant that all hypotheses of a garment have in common.
 double log_odds(const WearEvidence& evidence);
 
 /// Of hypotheses with these log odds, in the same order; they sum to 1.

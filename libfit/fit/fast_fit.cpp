@@ -16,32 +16,11 @@
 #include "outward_cloth.h"
 #include "parallel.h"
 #include "posture_moves.h"
+#include "refusal.h"
 #include "tuning.h"
 
 namespace garmentfit {
 namespace {
-
-std::string describe_sizes(const Rig& rig, const ClearanceField& cloth)
-{
-    const Vec3 size = 100 * (cloth.high() - cloth.low());
-    const Skeleton& rest = rig.skeleton;
-    return "the garment is " + rounded_text(size.x(), 3) + " x " + rounded_text(size.y(), 3) + " x "
-        + rounded_text(size.z(), 3) + " cm, the body's legs are "
-        + rounded_text(100 * (rest.length(lfemur) + rest.length(ltibia)), 3) + " cm long";
-}
-
-InvalidInput no_fit(const Hypothesis& hypothesis)
-{
-    const FitEnergy& energy = hypothesis.attempt->energy();
-    const Posture& posture = hypothesis.wearing.posture;
-    return { ErrorCode::no_fit,
-             "garment: no pose brings the body into it: of the "
-                 + std::to_string(hypothesis.attempt->coverage().bones.size()) + " bones that it should cover, "
-                 + std::to_string(bones_inside(energy, posture, k_mostly_inside).size()) + " can be put inside, and "
-                 + std::to_string(energy.bones_through_cloth(posture)) + " bones pass through cloth; "
-                 + describe_sizes(hypothesis.attempt->rig(), energy.metric().cloth())
-                 + "; check the garment's unit and give its type" };
-}
 
 // Which bone passes through the cloth first, and where.
 std::optional<std::string> find_crossing(const FitEnergy& energy, const Posture& posture)
@@ -66,16 +45,16 @@ void require_clear(const FitEnergy& energy, const Posture& posture)
                             + "; check the garment's type, and that its openings are open");
 }
 
-void require_openings(const TriangleMesh& outward)
+void require_openings(const TriangleMesh& outward, const Skeleton& joints)
 {
     const Pieces pieces = count_pieces(outward);
     if (pieces.count > 1 && pieces.largest < k_min_piece)
-        throw InvalidInput(
-            ErrorCode::no_opening,
-            "garment: " + std::to_string(pieces.count) + " loose pieces, the largest "
-                + rounded_text(100 * pieces.largest, 3)
-                + " cm across, such as buttons; none of them goes round a body. Give the cloth that they "
-                  "belong to, or check its unit");
+        throw InvalidInput(ErrorCode::no_opening,
+                           "garment: " + std::to_string(pieces.count) + " loose pieces, the largest "
+                               + rounded_text(100 * pieces.largest / standing_height(joints), 2)
+                               + "% of the body's height across, such as buttons; none of them goes round a body. Give "
+                                 "the cloth that they "
+                                 "belong to, or check its unit");
     if (is_sealed(outward))
         throw InvalidInput(ErrorCode::closed_garment,
                            "garment: closed surface; a garment needs openings for head, arms or legs. Remove the caps, "
@@ -142,10 +121,10 @@ void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::v
 
 // The pose of a hypothesis. @throws InvalidInput when no body fits in like that; SolverFailure when bones pass through
 // cloth in the end
-FitResult finish(const Hypothesis& hypothesis)
+FitResult finish(const Hypothesis& hypothesis, const FitOptions& options)
 {
     if (!hypothesis.is_possible())
-        throw no_fit(hypothesis);
+        throw refusal_of(hypothesis, options);
     const Attempt& attempt = *hypothesis.attempt;
     const Posture& start = hypothesis.wearing.posture;
     // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
@@ -173,8 +152,8 @@ FitResult finish(const Hypothesis& hypothesis)
     return result;
 }
 
-// The most probable hypothesis in which a body fits, `skipped` of those left out.
-FitResult choose(const std::vector<Hypothesis>& all, int skipped)
+// The most probable hypothesis in which a body fits, FitOptions::skipped of those left out.
+FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options)
 {
     std::vector<Rejected> rejected;
     std::exception_ptr first;
@@ -187,11 +166,13 @@ FitResult choose(const std::vector<Hypothesis>& all, int skipped)
     std::vector<const Hypothesis*> done;  // ways in which the body fits, and that are skipped
     for (const Hypothesis& hypothesis : all)
         try {
+            if (first && hypothesis.probability < k_improbable)
+                break;  // it would be worn wrongly: better to say why it is not worn as it should
             if (std::any_of(done.begin(), done.end(),
                             [&](const Hypothesis* other) { return is_same_way(*other, hypothesis); }))
                 continue;
-            FitResult result = finish(hypothesis);
-            if (int(done.size()) < skipped) {
+            FitResult result = finish(hypothesis, options);
+            if (int(done.size()) < options.skipped) {
                 done.push_back(&hypothesis);
                 continue;
             }
@@ -215,7 +196,7 @@ FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& 
 {
     const Progress stage = progress.part(0, 1, "fit the skeleton");
     const TriangleMesh outward = outward_cloth(garment);
-    require_openings(outward);
+    require_openings(outward, rig.skeleton);
     if (options.as_placed && body.positions.rows() == 0)
         throw InvalidInput(ErrorCode::wrong_call, "as_placed: the fit needs the body's surface for it; give the body");
     const std::vector<Hypothesis> hypotheses = find_hypotheses(rig, body, outward, options, stage.part(0, 0.8));
@@ -229,7 +210,8 @@ FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& 
             ErrorCode::no_fit,
             "garment: no body that faces as its front was given fits into it; check the front, or leave it "
             "out and let the program find it");
-    FitResult result = choose(hypotheses, options.skipped);
+    FitResult result = choose(hypotheses, options);
+    result.front_given = options.front;
     if (result.type != options.type)
         result.type = type_when_worn(result.type, result.covered);
     return result;

@@ -20,7 +20,7 @@ public:
         turn_(shortest_arc(fit.up, Vec3::UnitY())),
         outward_(rotate(outward_cloth(garment), turn_)), cloth_(outward_),
         metric_(cloth_, limb_radii(rig, fit, covered_by_any)),
-        energy_(rig, limits, metric_, cues_of(openings_of(outward_))),
+        energy_(rig, limits, metric_, cues_of(openings_of(outward_), front_of(fit, turn_))),
         posture_(rotate(posture_of(rig.skeleton, fit.pose), turn_)), joints_(place_bones(rig.skeleton, posture_).joints)
     {
     }
@@ -55,6 +55,11 @@ public:
     }
 
 private:
+    static std::optional<Vec3> front_of(const FitResult& fit, const Eigen::Quaterniond& turn)
+    {
+        return fit.front_given ? std::optional<Vec3>(turn * *fit.front_given) : std::nullopt;
+    }
+
     static LimbRadii limb_radii(const Rig& rig, const FitResult& fit,
                                 const std::array<bool, bone_count>& covered_by_any)
     {

@@ -10,6 +10,7 @@
 #include "garmentfit/closed_ends.h"
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
+#include "refusal.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -17,16 +18,6 @@ namespace {
 
 constexpr Eigen::Index k_min_triangles
     = 24;  // derived: the coarsest tube with a middle, two rings of six quadrilaterals
-
-// Of the body if it stood upright, from ankles to top of the head. A little too much: the bones of the hips lie aslant.
-double height_of(const Skeleton& s)
-{
-    const auto along = [&s](std::initializer_list<Bone> bones) {
-        return std::accumulate(bones.begin(), bones.end(), 0.0, [&s](double sum, Bone b) { return sum + s.length(b); });
-    };
-    return along({ lowerback, upperback, thorax, lowerneck, upperneck }) + (s.tips[head_top] - s.tail(upperneck)).norm()
-        + std::max(along({ lhipjoint, lfemur, ltibia }), along({ rhipjoint, rfemur, rtibia }));
-}
 
 double length_of(const GarmentMesh& garment)
 {
@@ -52,13 +43,13 @@ const std::vector<std::string_view>& nearest_search_names()
 
 void require_wearable_size(const Rig& rig, const GarmentMesh& garment)
 {
-    const double height = height_of(rig.skeleton), length = length_of(garment);
+    const double height = standing_height(rig.skeleton), length = length_of(garment);
     if (length <= k_max_length * height && length >= k_min_length * height)
         return;
     throw InvalidInput(ErrorCode::wrong_unit,
-                       "the garment would be " + rounded_text(length, 3) + " m long on a body of about "
-                           + rounded_text(height, 3)
-                           + " m; check the units of both, and give the garment's (garment_unit)");
+                       "the garment would be " + rounded_text(length / height, 2)
+                           + " times as long as the body is tall; check the units of both, and give the garment's "
+                             "(garment_unit)");
 }
 
 FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const FitOptions& options,

@@ -2,8 +2,8 @@
 #include "front_shape.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -52,14 +52,14 @@ std::optional<double> middle_against_sides(const std::vector<Point>& slice)
 {
     if (slice.size() < k_min_slice)
         return {};
-    const double width = quantile(collect(slice, any, breadth), 0.97);
+    const double width = quantile(collect(slice, any, breadth), k_outermost);
     const auto middle = collect(
                    slice, [&](const Point&p) { return breadth(p) < k_slice_middle * width; }, forwards),
                sides = collect(
                    slice, [&](const Point&p) { return breadth(p) > k_slice_sides * width; }, forwards);
     if (middle.empty() || sides.empty())
         return {};
-    return quantile(middle, 0.97) + quantile(middle, 0.03) - 2 * quantile(sides, 0.5);
+    return quantile(middle, k_outermost) + quantile(middle, 1 - k_outermost) - 2 * quantile(sides, 0.5);
 }
 
 Vec3 mean_of(const std::vector<Vec3>& points)
@@ -88,6 +88,92 @@ std::vector<Vec3> low_centres(const std::vector<Opening>& openings, double middl
     return centres;
 }
 
+// Of a slice, between its front and its back, m along the front. @pre not empty
+double depth_at(const std::vector<Point>& slice, double share)
+{
+    return quantile(collect(slice, any, forwards), share);
+}
+double middle_of(const std::vector<Point>& slice)
+{
+    return 0.5 * (depth_at(slice, 1 - k_outermost) + depth_at(slice, k_outermost));
+}
+
+std::vector<Point> between(const std::vector<Point>& points, double low, double high)
+{
+    std::vector<Point> slice;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(slice),
+                 [&](const Point& p) { return p.height >= low && p.height < high; });
+    return slice;
+}
+
+// Twice the middle of the cloth about the plane of symmetry, in a thin slice around a height, m.
+std::optional<double> middle_line(const std::vector<Point>& points, double height, double width)
+{
+    std::vector<Point> slice = between(points, height - k_thin_slice * width, height + k_thin_slice * width);
+    std::erase_if(slice, [&](const Point& p) { return breadth(p) > 0.5 * k_slice_middle_line * width; });
+    if (slice.size() < k_min_line)
+        return {};
+    return depth_at(slice, k_outermost_of_few) + depth_at(slice, 1 - k_outermost_of_few);
+}
+
+// Of the seat and the belly against the rim, m.
+double seat_of(const std::vector<Point>& points, double high, double width)
+{
+    const auto rim = middle_line(points, high - k_rim_depth * width, width),
+               seat = middle_line(points, high - k_seat_depth * width, width);
+    return rim && seat ? *seat - *rim : 0;
+}
+
+// Breadth in front less breadth behind at the height of the lap, m.
+double lap_of(const std::vector<Point>& points, double high, double width)
+{
+    const std::vector<Point> slice = between(points, high - k_lap_low * width, high - k_lap_high * width);
+    if (slice.size() < k_min_slice)
+        return 0;
+    const double back = depth_at(slice, 1 - k_outermost_of_lap), front = depth_at(slice, k_outermost_of_lap),
+                 middle = 0.5 * (front + back), quarter = 0.25 * (front - back);
+    const auto before = collect(
+                   slice, [&](const Point&p) { return p.forwards > middle + quarter; }, breadth),
+               behind = collect(
+                   slice, [&](const Point&p) { return p.forwards < middle - quarter; }, breadth);
+    return quantile(before, k_outermost_of_few) - quantile(behind, k_outermost_of_few);
+}
+
+// Of the highest and the lowest slice against those between them, m.
+double bow_of(const std::vector<std::vector<Point>>& slices)
+{
+    if (std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return slice.size() < k_min_line; }))
+        return 0;
+    const std::size_t last = slices.size() - 1, half = slices.size() / 2;
+    return 0.5
+        * (middle_of(slices[0]) + middle_of(slices[last]) - middle_of(slices[half - 1]) - middle_of(slices[half]));
+}
+
+// Cloth behind less cloth in front of the middle of its slice, as a share of all of it, about the plane of symmetry.
+double bare_of(const std::vector<std::vector<Point>>& slices, double width)
+{
+    int behind = 0, all = 0;
+    for (const std::vector<Point>& slice : slices) {
+        if (slice.empty())
+            continue;
+        const double middle = middle_of(slice);
+        for (const Point& point : slice)
+            if (breadth(point) < 0.5 * k_slice_middle * width) {
+                behind += point.forwards < middle ? 1 : -1;
+                ++all;
+            }
+    }
+    return double(behind) / std::max(all, 1);
+}
+
+std::vector<std::vector<Point>> slices_of(const std::vector<Point>& points, double low, double high, std::size_t count)
+{
+    std::vector<std::vector<Point>> slices(count);
+    for (const Point& point : points)
+        slices[std::min(std::size_t((point.height - low) / (high - low) * double(count)), count - 1)].push_back(point);
+    return slices;
+}
+
 }  // namespace
 
 FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings,
@@ -98,16 +184,13 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
     const double low = *std::min_element(heights.begin(), heights.end()),
                  high = *std::max_element(heights.begin(), heights.end()), tall = std::max(high - low, 1e-9);
     const auto top = collect(
-        points, [&](const Point& p) { return p.height > high - 0.2 * tall; }, breadth);
-    const double width = std::max(2 * quantile(top, 0.95), 1e-9);
+        points, [&](const Point& p) { return p.height > high - k_shoulder_share * tall; }, breadth);
+    const double width = std::max(2 * quantile(top, k_outermost_of_few), 1e-9);
     const auto in_tenths
-        = [&](double offset) { return std::clamp(10 * offset / width, -k_max_front_shape, k_max_front_shape); };
+        = [&](double offset) { return std::clamp(offset / (k_tenth * width), -k_max_front_shape, k_max_front_shape); };
 
     FrontShape shape;
-    std::array<std::vector<Point>, k_front_slices> slices;
-    for (const Point& point : points)
-        slices[std::min(std::size_t((point.height - low) / tall * k_front_slices), k_front_slices - 1)].push_back(
-            point);
+    const std::vector<std::vector<Point>> slices = slices_of(points, low, low + tall, k_front_slices);
     int count = 0;
     for (const std::vector<Point>& slice : slices)
         if (const auto offset = middle_against_sides(slice)) {
@@ -116,6 +199,11 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
         }
     shape.torso /= std::max(count, 1);
     shape.waist = in_tenths(middle_against_sides(slices.back()).value_or(0));
+    shape.seat = in_tenths(seat_of(points, high, width));
+    shape.lap = in_tenths(lap_of(points, high, width));
+    shape.bow = in_tenths(bow_of(slices));
+    shape.bare = std::clamp(bare_of(slices_of(points, low, low + tall, k_bare_slices), width) / k_tenth, -k_max_bare,
+                            k_max_bare);
     const Opening* neck = highest(openings, width);
     if (!neck)
         return shape;

@@ -17,6 +17,11 @@ struct FrontShape {
     double waist = 0;  ///< the same at the top: trousers stand further out over the seat
     double hems = 0;  ///< of the lowest openings against the highest
     double cuffs = 0;  ///< of the sleeves' ends against the highest opening: elbows bend forwards
+    double seat = 0;  ///< of the middle between front and back, a third of a width below the top, against the top
+    double lap = 0;  ///< breadth of the front half against the rear one, at the lap: thighs are in front of the seat
+    double bow = 0;  ///< of the top and the bottom against the heights between them: backs bend, shirts hang from them
+    double bare
+        = 0;  ///< tenths of the cloth in the middle by which more is behind, at most 0.6: necklines are deep in front
 };
 
 /// @param front  unit, horizontal. Cost O(n log n) of the cloth's patches.

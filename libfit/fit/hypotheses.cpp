@@ -18,8 +18,6 @@ namespace {
 
 constexpr Eigen::Index k_vertices_looked_at = 1000;  // derived: a share of 1 % is known to a third of it
 
-Vec3 level(const Vec3& direction) { return Vec3(direction.x(), 0, direction.z()).normalized(); }
-
 std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& way, const std::optional<Vec3>& front)
 {
     auto held = std::make_shared<HeldGarment>();
@@ -28,9 +26,7 @@ std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& w
     held->askew = way.askew;
     held->outward = rotate(given.outward, way.turn);
     held->openings = rotate(given.openings, held->outward, way.turn);
-    held->cues = cues_of(held->openings);
-    if (front)
-        held->cues.front_given = level(way.turn * *front);
+    held->cues = cues_of(held->openings, front ? std::optional<Vec3>(way.turn * *front) : std::nullopt);
     held->clearance = std::make_unique<const ClearanceField>(held->outward);
     return held;
 }
@@ -219,12 +215,17 @@ Attempt::Attempt(const Rig& rig, std::shared_ptr<const HeldGarment> garment, con
 
 // Next to a flat sheet everything is half inside. The refinement may free one bone from the cloth; among scraps of
 // cloth it cannot. Where the cloth lies round the body, the body's bones are known to be inside.
-bool Hypothesis::is_possible() const
+bool Hypothesis::is_possible(int max_crossing) const
 {
     const FitEnergy& energy = attempt->energy();
     return 2 * bones_inside(energy, wearing.posture, k_mostly_inside).size() >= attempt->coverage().bones.size()
         && energy.clearance_share(wearing.posture) >= k_min_clearance_share
-        && (wearing.is_in_place || energy.bones_through_cloth(wearing.posture) <= k_max_crossing_bones);
+        && (wearing.is_in_place || energy.bones_through_cloth(wearing.posture) <= max_crossing);
+}
+
+bool Hypothesis::is_possible() const
+{
+    return is_possible(probability > k_likely ? k_max_crossing_bones_likely : k_max_crossing_bones);
 }
 
 bool is_same_way(const Hypothesis& a, const Hypothesis& b)

@@ -54,8 +54,10 @@ struct Hypothesis {
     double probability = 0;
 
     Vec3 up() const { return attempt->garment().turn.conjugate() * Vec3::UnitY(); }
-    /// Half of the covered bones are inside, with some clearance, and at most one passes through cloth; in place, any
+    /// Half of the covered bones are inside, with some clearance, and at most so many pass through cloth; in place, any
     /// may.
+    bool is_possible(int max_crossing) const;
+    /// With a number by the probability: on the most probable ways the refinement is worth its time.
     bool is_possible() const;
 };
 

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "disjoint_sets.h"
+#include "quantile.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -51,8 +54,11 @@ public:
         for (const std::vector<int>& fan : caps)
             for (const int f : fan)
                 regions_[region_of_[f]].is_taken = true;
-        const std::vector<std::vector<int>> steep = find_steep();
-        caps.insert(caps.end(), steep.begin(), steep.end());
+        const auto add
+            = [&](const std::vector<std::vector<int>>& more) { caps.insert(caps.end(), more.begin(), more.end()); };
+        add(find_steep());
+        if (is_closed())
+            add(find_filled(caps));
         return caps;
     }
 
@@ -70,23 +76,95 @@ private:
         for (const std::vector<int>& faces : faces_at) {
             if (faces.size() < k_fan_faces)
                 continue;
-            Region fan { faces };
-            add_areas(fan);
-            std::vector<int> region_of(faces.size());
-            for (std::size_t i = 0; i < faces.size(); ++i)
-                region_of[i] = std::exchange(region_of_[faces[i]], int(regions_.size()));
-            for (const int f : faces)
-                for (int side = 3 * f; side < 3 * f + 3; ++side)
-                    add_to_outline(side, fan);
-            for (std::size_t i = 0; i < faces.size(); ++i)
-                region_of_[faces[i]] = region_of[i];
+            const Region fan = region_with(faces);
             const bool is_even = std::all_of(faces.begin(), faces.end(), [&](int f) {
                 return std::abs(areas_[f].stableNormalized().dot(fan.area.stableNormalized())) > k_fan_cosine;
             });
-            if (is_even && is_flat_disc(fan, k_fan_depth))
+            // necks lie in the cloth around, cuffs are crumpled; a garment without any opening has them all the same
+            if (is_closed() ? is_hole(fan, k_fill_depth) : is_even && is_flat_disc(fan, k_fan_depth))
                 fans.push_back(faces);
         }
         return fans;
+    }
+
+    /// Holes of a closed garment that were filled with triangles from rim to rim: discs of long edges in which no
+    /// vertex lies. Large flat parts of open garments may look the same.
+    std::vector<std::vector<int>> find_filled(const std::vector<std::vector<int>>& caps)
+    {
+        std::vector<char> is_taken(std::size_t(faces_.rows()));
+        for (const std::vector<int>& cap : caps)
+            for (const int f : cap)
+                is_taken[f] = 1;
+        std::vector<double> lengths;
+        for (int side = 0; side < 3 * int(faces_.rows()); ++side)
+            lengths.push_back(length_of(side));
+        const double usual = quantile(lengths, 0.5);
+        DisjointSets joined(int(faces_.rows()));
+        std::vector<char> is_seed(std::size_t(faces_.rows()));
+        for (int side = 0; side < 3 * int(faces_.rows()); ++side) {
+            const int other = topology_.opposite(side);
+            if (other < side || is_taken[side / 3] || is_taken[other / 3])
+                continue;
+            const bool is_long = lengths[side] > k_fill_edge * usual;
+            is_seed[side / 3] |= is_long;
+            if (is_long || (lengths[side] > k_ear_edge * usual && (is_ear(side) || is_ear(other))))
+                joined.join(side / 3, other / 3);
+        }
+        std::map<int, std::vector<int>> regions;  // by the root
+        std::set<int> seeded;
+        for (int f = 0; f < int(faces_.rows()); ++f) {
+            regions[joined.root(f)].push_back(f);
+            if (is_seed[f])
+                seeded.insert(joined.root(f));
+        }
+        std::vector<std::vector<int>> filled;
+        for (const int root : seeded)
+            if (is_hole(region_with(regions[root]), k_fill_depth) && is_without_vertices(regions[root]))
+                filled.push_back(regions[root]);
+        return filled;
+    }
+
+    double length_of(int side) const
+    {
+        return (positions_.row(faces_(side / 3, side % 3)) - positions_.row(faces_(side / 3, (side % 3 + 1) % 3)))
+            .norm();
+    }
+
+    /// The angle opposite to the side is obtuse, as in a polygon every triangle's is that does not hold the middle.
+    bool is_ear(int side) const
+    {
+        const Vec3 a = positions_.row(faces_(side / 3, side % 3)),
+                   b = positions_.row(faces_(side / 3, (side % 3 + 1) % 3)),
+                   apex = positions_.row(faces_(side / 3, (side % 3 + 2) % 3));
+        return (a - apex).dot(b - apex) < 0;
+    }
+
+    /// Of a disc: faces that only share edges from rim to rim are a tree.
+    bool is_without_vertices(const std::vector<int>& faces) const
+    {
+        const std::set<int> own(faces.begin(), faces.end());
+        std::size_t inner = 0;
+        for (const int f : faces)
+            for (int side = 3 * f; side < 3 * f + 3; ++side)
+                if (const int other = topology_.opposite(side); other >= 0)
+                    inner += own.count(other / 3);
+        return inner == 2 * (faces.size() - 1);
+    }
+
+    /// Some faces as one region with its outline.
+    Region region_with(const std::vector<int>& faces)
+    {
+        Region region { faces };
+        add_areas(region);
+        std::vector<int> region_of(faces.size());
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            region_of[i] = std::exchange(region_of_[faces[i]], int(regions_.size()));
+        for (const int f : faces)
+            for (int side = 3 * f; side < 3 * f + 3; ++side)
+                add_to_outline(side, region);
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            region_of_[faces[i]] = region_of[i];
+        return region;
     }
 
     std::vector<std::vector<int>> find_steep() const
@@ -169,10 +247,15 @@ private:
     /// All cloth around on one side of it.
     bool is_flat_disc(const Region& region, double depth) const
     {
+        return std::abs(region.side) > k_fan_outline * region.girth && is_hole(region, depth);
+    }
+
+    bool is_hole(const Region& region, double depth) const
+    {
         const double area = region.area.norm();
         const double disc = region.girth * region.girth / (4 * std::numbers::pi);
-        return !region.is_taken && region.girth > smallest_girth_ && area > k_cap_roundness * disc
-            && std::abs(region.side) > k_fan_outline * region.girth && is_disc(region) && is_flat(region, depth);
+        return !region.is_taken && region.girth > smallest_girth_ && area > k_cap_roundness * disc && is_disc(region)
+            && is_flat(region, depth);
     }
 
     /// Euler characteristic 1: one outline, no handle.

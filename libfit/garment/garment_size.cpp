@@ -9,8 +9,12 @@ namespace garmentfit {
 
 std::vector<double> wearer_heights(const GarmentMesh& garment)
 {
+    return wearer_heights(measures_of(openings_of(outward_cloth(garment))));
+}
+
+std::vector<double> wearer_heights(const GarmentMeasures& measures)
+{
     using namespace garment_tuning;
-    const GarmentMeasures measures = measures_of(openings_of(outward_cloth(garment)));
     std::vector<double> heights;
     const auto add = [&](double measure, double usual) {
         if (measure > 0)

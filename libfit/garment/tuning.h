@@ -53,6 +53,12 @@ inline constexpr std::size_t k_fan_faces = 16;
 inline constexpr double k_fan_cosine = 0.5;
 /// fitted: guess. Sum over the outline of a cap, signed by the side on which the cloth around it is, as a share.
 inline constexpr double k_fan_outline = 0.6;
+/// fitted: guess, on two T-shirts and trousers whose openings were filled. Edges in a filled hole, from rim to rim, and
+/// at its rim, over the median edge of the garment.
+inline constexpr double k_fill_edge = 4, k_ear_edge = 1.3;
+/// fitted: guess, on the openings of six generated tops. Depth of a filled hole of a garment without any opening, as a
+/// share of the root of its area: crumpled cuffs have up to 0.6.
+inline constexpr double k_fill_depth = 0.7;
 /// derived: caps of a closed surface from which on it is opened: a cylinder and a pillow have two, a skirt as well.
 inline constexpr std::size_t k_least_ends = 3;
 

@@ -477,9 +477,11 @@ GarmentMeasures measures_of(const std::vector<Opening>& openings)
     return measures;
 }
 
-GarmentCues cues_of(const std::vector<Opening>& openings)
+GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Vec3>& front)
 {
     GarmentCues cues;
+    if (front)
+        cues.front_given = Vec3(front->x(), 0, front->z()).normalized();
     double longest = 0, tallest = 0;
     for (const Piece& piece : pieces_of(openings)) {
         cues.front += front_of(piece);

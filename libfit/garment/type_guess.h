@@ -27,7 +27,8 @@ struct GarmentCues {
     bool has_arms = false;  // two openings are sleeves or armholes
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
 };
-GarmentCues cues_of(const std::vector<Opening>& openings);
+/// @param front  where the user says that the front of the held garment is: not vertical
+GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Vec3>& front = {});
 
 /// Measures of the tallest piece of a garment, m; 0 where it has no such part.
 struct GarmentMeasures {
@@ -39,5 +40,8 @@ struct GarmentMeasures {
     double inseam = 0;  ///< length of the legs
 };
 GarmentMeasures measures_of(const std::vector<Opening>& openings);
+
+/// As garmentfit/garment_size.h.
+std::vector<double> wearer_heights(const GarmentMeasures& measures);
 
 }  // namespace garmentfit

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "way_up.h"
+#include "garmentfit/garment_up.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,16 @@ std::vector<WayUp> ways_up(const TriangleMesh& outward, const std::vector<Openin
         ways.push_back(score_rotation(up, outward, openings, lines));
     std::stable_sort(ways.begin(), ways.end(), [](const WayUp& a, const WayUp& b) { return a.evidence > b.evidence; });
     return ways;
+}
+
+std::vector<double> evidence_for_up(const GarmentMesh& garment, const std::vector<Vec3>& ups)
+{
+    const TriangleMesh outward = outward_cloth(garment);
+    const std::vector<Opening> openings = openings_of(outward);
+    std::vector<double> evidence;
+    for (const Vec3& up : ups)
+        evidence.push_back(openings.empty() ? 0 : score_rotation(up, outward, openings, {}).evidence);
+    return evidence;
 }
 
 }  // namespace garmentfit

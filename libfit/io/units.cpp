@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/units.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "garmentfit/error.h"
+#include "garmentfit/number_text.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -37,6 +39,26 @@ double metres_per(std::string_view unit)
             return known.metres;
     throw InvalidInput(ErrorCode::unknown_name,
                        "unknown unit '" + std::string(unit) + "'; give m, dm, cm, mm, in or ft");
+}
+
+LengthUnit unit_of(const Frame& frame)
+{
+    constexpr double k_rounding = 1e-6;  // unit: a share; a factor in a file has six digits or more
+    for (const KnownUnit& known : k_known_units)
+        if (std::abs(frame.metres_per_unit / known.metres - 1) < k_rounding)
+            return { known.metres, std::string(known.name) };
+    return { frame.metres_per_unit, "units" };
+}
+
+std::string length_text(double metres, const LengthUnit& unit)
+{
+    constexpr double k_small = 0.01;  // unit: below, two leading zeros are harder to read than millimetres
+    const double value = metres / unit.metres;
+    if (const auto known = std::find_if(k_known_units.begin(), k_known_units.end(),
+                                        [&](const KnownUnit& one) { return one.name == unit.name; });
+        std::abs(value) < k_small && known != k_known_units.end())
+        return rounded_text(1000 * value * known->metres, 3) + " mm";
+    return (std::abs(value) >= 100 ? fixed_text(value, 0) : rounded_text(value, 3)) + ' ' + unit.name;
 }
 
 Vec3 axis_of(std::string_view name)

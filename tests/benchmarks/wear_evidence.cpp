@@ -67,7 +67,16 @@ Json evidence_of(const Rig& rig, const TriangleMesh& body, const GarmentMesh& ga
     return { { "turn", { list(turn.row(0)), list(turn.row(1)), list(turn.row(2)) } }, { "hypotheses", hypotheses } };
 }
 
-// As it is, and every third garment turned in one way, too.
+// As it is for a slimmer person.
+GarmentMesh narrowed(const GarmentMesh& garment, double factor)
+{
+    const Eigen::RowVector3d middle = garment.positions.colwise().mean();
+    const Positions narrow
+        = ((garment.positions.rowwise() - middle) * Vec3(factor, 1, factor).asDiagonal()).rowwise() + middle;
+    return make_garment(narrow, garment.triangles);
+}
+
+// As it is, and every third garment turned in one way, too, every third narrowed, and every third widened.
 void print(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path, int number)
 {
     const MeshFile file = MeshFile::read(path);
@@ -79,8 +88,16 @@ void print(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, co
     for (const std::size_t way : ways) {
         Json line = evidence_of(rig, body, garment, turns()[way]);
         line["garment"] = path;
+        line["width"] = 1;
         std::cout << line << std::endl;
     }
+    if (number % 3 == 0)
+        return;
+    const double width = number % 3 == 1 ? 0.75 : 1.25;
+    Json line = evidence_of(rig, body, narrowed(garment, width), turns()[0]);
+    line["garment"] = path;
+    line["width"] = width;
+    std::cout << line << std::endl;
 }
 
 }  // namespace

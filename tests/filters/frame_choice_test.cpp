@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/filters/frame_choice.h"
 
+#include <cmath>
+
 #include "fixtures.h"
 
 namespace {
@@ -78,6 +80,33 @@ TEST(FrameChoice, TurnsTheFrontOfAGarmentWithItsAxes)
     GarmentChoice choice { { "auto", "+y" } };
     choice.front = "-y";
     expect_invalid([&] { garment_frame(person().positions, person().triangles, {}, choice); }, "garment_front");
+}
+
+// Wider and deeper than high: by its box, this skirt lies. But its waist is narrower than its hem.
+TEST(FrameChoice, AsksTheOpeningsWhichAxisIsUp)
+{
+    const int around = 32, rings = 12;
+    TriangleMesh skirt { Positions(around * rings, 3), Triangles(2 * around * (rings - 1), 3) };
+    for (int i = 0; i < rings; ++i)
+        for (int k = 0; k < around; ++k) {
+            const double share = double(i) / (rings - 1), angle = 2 * M_PI * k / around, radius = 20 - 4 * share;
+            skirt.positions.row(i * around + k) << radius * std::cos(angle), 8 * share, radius * std::sin(angle);
+            if (i + 1 < rings) {
+                const int here = i * around + k, next = i * around + (k + 1) % around;
+                skirt.triangles.row(2 * here) << here, here + around, next;
+                skirt.triangles.row(2 * here + 1) << next, here + around, next + around;
+            }
+        }
+    EXPECT_EQ(guess_garment_frame(skirt.positions, skirt.triangles, {}).frame.up, Vec3::UnitZ()) << "by its box";
+    EXPECT_EQ(garment_frame(skirt.positions, skirt.triangles, {}).frame.up, Vec3::UnitY());
+    Positions up_is_z = skirt.positions;
+    up_is_z.col(1) = -skirt.positions.col(2);
+    up_is_z.col(2) = skirt.positions.col(1);
+    EXPECT_EQ(garment_frame(up_is_z, skirt.triangles, {}).frame.up, Vec3::UnitZ());
+    Positions upside_down = up_is_z;
+    upside_down.col(2) *= -1;
+    EXPECT_EQ(garment_frame(upside_down, skirt.triangles, {}).frame.up, Vec3::UnitZ()) << "the fit turns it over";
+    EXPECT_EQ(garment_frame(up_is_z, skirt.triangles, {}, { { "auto", "+y" } }).frame.up, Vec3::UnitY()) << "as given";
 }
 
 TEST(FrameChoice, RefusesOtherUnitsAndListsThem)

@@ -47,10 +47,10 @@ TEST(Evidence, AClearShapeOutweighsTheFileItCameIn)
     WearEvidence same {}, opposite {};
     same[input_front_evidence] = 1;
     same[openings_evidence] = -1;
-    same[torso_evidence] = 2;
+    same[bare_evidence] = -1;
     opposite[input_front_evidence] = -1;
     opposite[openings_evidence] = 1;
-    opposite[torso_evidence] = -2;
+    opposite[bare_evidence] = 1;
     EXPECT_GT(log_odds(opposite), log_odds(same));
 }
 

@@ -15,6 +15,8 @@
 
 #include "fixtures.h"
 #include "garmentfit/error.h"
+#include "hypotheses.h"
+#include "outward_cloth.h"
 
 namespace {
 
@@ -387,6 +389,25 @@ TEST(FitSkeleton, TheNextProbableWayIsAnotherOne)
                     > 1e-6);
 }
 
+TEST(FitSkeleton, TheMostProbableWaysSumToOneAndOthersStandInForOneOfThem)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    for (const GarmentMesh& garment : { skirt(0.15, 0.2, 0.2, 0.5), shirt({ .arm_angle = 40 }, 1.9), trousers() }) {
+        double sum = 0;
+        const std::vector<Hypothesis> all = find_hypotheses(rig, {}, outward_cloth(garment), {}, {});
+        for (const Hypothesis& one : all) {
+            sum += one.wearing.rank == 0 ? one.probability : 0;
+            EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                                    [&](const Hypothesis& other) {
+                                        return other.wearing.rank == 0 && is_same_way(one, other)
+                                            && one.probability == other.probability;
+                                    }))
+                << one.wearing.rank << ", " << one.probability;
+        }
+        EXPECT_NEAR(sum, 1, 1e-9);
+    }
+}
+
 TEST(FitSkeleton, AGarmentUpsideDownOrLyingIsFound)
 {
     const PersonOptions input { .arm_angle = 45 };
@@ -547,15 +568,24 @@ TEST(FitSkeleton, AGarmentThatFitsNoBodyIsRefused)
     GarmentMesh plate = closed;
     plate.positions.col(2).setZero();
     EXPECT_THROW(fit_skeleton(rig, plate), InvalidInput);
+}
 
-    GarmentMesh tiny = shirt({ .arm_angle = 40 }, 0.6);
-    tiny.positions *= 0.05;
-    try {
-        fit_skeleton(rig, tiny, { .type = GarmentType::tshirt });
-        FAIL();
-    } catch (const InvalidInput& e) {
-        EXPECT_NE(std::string(e.what()).find("cm"), std::string::npos) << e.what();
-    }
+TEST(FitSkeleton, ARefusalSaysWhatToDo)
+{
+    const Rig rig = rig_of({ .arm_angle = 40 });
+    const GarmentMesh garment = shirt({ .arm_angle = 40 }, 1.9);
+    const auto of_size = [&](double scale) {
+        GarmentMesh scaled = garment;
+        scaled.positions *= scale;
+        return scaled;
+    };
+    for (const double scale : { 0.05, 0.15 })
+        expect_invalid([&] { fit_skeleton(rig, of_size(scale), { .type = GarmentType::longsleeve }); }, "garment_unit");
+    const GarmentMesh belt = skirt(0.15, 0.2, 0.2, 0.25);
+    expect_invalid([&] { fit_skeleton(rig, belt, { .type = GarmentType::suit }); },
+                   "as a garment of type suit; check the type");
+    expect_invalid([&] { fit_skeleton(rig, belt, { .type = GarmentType::suit, .front = Vec3(0, 0, 1) }); },
+                   "check garment_front");
 }
 
 TEST(FitSkeleton, AGarmentInAWrongUnitIsRefused)
@@ -675,6 +705,22 @@ TEST(CommonFit, ConflictingSleevesAreReportedAndEachGarmentKeepsItsFit)
     EXPECT_NEAR(widest.angle / k_degree, 60, 15);
     for (std::size_t i = 0; i < garments.size(); ++i)
         expect_same_rotations(common.fits[i].pose, fit_skeleton(rig, garments[i]).pose);
+}
+
+TEST(CommonFit, AGivenFrontHoldsAmongOthers)
+{
+    const Rig rig = rig_of({ .arm_angle = 70 });
+    GarmentMesh oval = skirt(0.15, 0.2, 0.2, 0.5);
+    oval.positions.col(2) *= 0.7;  // the cloth would turn the body by a right angle
+    for (const Vec3& front : { Vec3(1, 0, 0), Vec3(-1, 0, 0) }) {
+        FitOptions options;
+        options.type = GarmentType::skirt;
+        options.front = front;
+        const FitResult own = fit_skeleton(rig, oval, options);
+        const CommonFit common = fit_common_pose(rig, { oval, oval }, { own, own });
+        for (const FitResult& fit : common.fits)
+            EXPECT_GT((fit.pose.root_rotation * rig.front).dot(front), 0.8) << front.transpose();
+    }
 }
 
 TEST(CommonFit, OneGarmentKeepsItsFit)

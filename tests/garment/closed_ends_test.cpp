@@ -43,6 +43,25 @@ TriangleMesh tube(Cap lower, Cap upper, double x = 0, int around = k_around)
     return mesh;
 }
 
+/// Two tubes whose rims rise and fall by `wave`, as hems do; filled from rim to rim in a zigzag, or not.
+TriangleMesh pair_of_tubes(double wave, bool is_filled)
+{
+    TriangleMesh mesh = fixtures::joined(tube(Cap::none, Cap::none, -0.15), tube(Cap::none, Cap::none, 0.15));
+    const int vertices = k_around * k_rows + 2;
+    for (const int first : { 0, (k_rows - 1) * k_around, vertices, vertices + (k_rows - 1) * k_around }) {
+        for (int k = 0; k < k_around; ++k)
+            mesh.positions(first + k, 1) += wave * std::sin(4 * std::numbers::pi * k / k_around);
+        for (int low = 0, high = k_around - 1; is_filled && low + 1 < high;) {
+            const Eigen::Index f = mesh.triangles.rows();
+            mesh.triangles.conservativeResize(f + 1, 3);
+            const bool is_low = low <= k_around - 1 - high;
+            mesh.triangles.row(f) << first + low, first + (is_low ? low + 1 : high - 1), first + high;
+            is_low ? ++low : --high;
+        }
+    }
+    return mesh;
+}
+
 OpenedGarment opened(const TriangleMesh& mesh) { return open_ends({ mesh.positions, mesh.triangles }); }
 
 TEST(ClosedEnds, AreOpenedHoweverTheirHolesWereFilled)
@@ -70,6 +89,14 @@ TEST(ClosedEnds, OfTwoPiecesAreCountedTogether)
     const OpenedGarment result = opened(
         fixtures::joined(tube(Cap::around_centre, Cap::none, -0.15), tube(Cap::around_corner, Cap::none, 0.15)));
     EXPECT_EQ(result.closed_ends, 2);
+}
+
+TEST(ClosedEnds, OfAGarmentClosedEverywhereAreOpenedThoughTheyAreNotFlat)
+{
+    const TriangleMesh open = pair_of_tubes(0.02, false);
+    const OpenedGarment result = opened(pair_of_tubes(0.02, true));
+    EXPECT_EQ(result.closed_ends, 4);
+    EXPECT_EQ(result.garment.triangles, open.triangles);
 }
 
 TEST(ClosedEnds, OfSolidsStayClosed)

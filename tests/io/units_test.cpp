@@ -26,6 +26,16 @@ TEST(Units, KnowsUnitsAndAxesByName)
     }
 }
 
+TEST(Units, LengthsAreToldInTheUnitOfTheFile)
+{
+    EXPECT_EQ(length_text(0.1523, {}), "152 mm");
+    for (const char* unit : { "m", "dm", "cm", "mm", "in", "ft" })
+        EXPECT_EQ(unit_of(frame_of(unit, "+y")).name, unit);
+    EXPECT_EQ(length_text(0.1523, unit_of(frame_of("dm", "+z"))), "1.52 dm");
+    EXPECT_EQ(length_text(0.000195, unit_of(frame_of("m", "+y"))), "0.195 mm");
+    EXPECT_EQ(length_text(0.9, unit_of({ 0.09, Vec3::UnitY() })), "10 units");
+}
+
 TEST(Units, EachUpAxisBecomesPlusYByARotation)
 {
     for (const char* up : k_axis_names) {

@@ -16,6 +16,7 @@
 #include "garmentfit/filters/schema.h"
 #include "garmentfit/fit_map.h"
 #include "garmentfit/layer_order.h"
+#include "garmentfit/units.h"
 
 namespace garmentfit {
 
@@ -57,10 +58,10 @@ struct Dressing : DressedBody {
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< where cloth keeps the body from its place, in the last pose that was tried
     std::vector<Overlap> overlaps;  ///< where the body crosses itself in that pose, so that no cloth fits between
-    std::optional<double>
-        speed;  ///< m/s, of the fastest vertex of the cloth at the end; none where it was not let settle
+    /// m/s, of the fastest vertex of the cloth in the last settling step; none where it was not let settle
+    std::optional<double> speed;
     /// How far forces on the cloth are from balance at the end; none before the pose was recovered, and where time ran
-    /// out.
+    /// out before they were looked at.
     std::optional<ForceResidual> residual;
     ClothSeconds seconds;  ///< of all motions that led here
     bool certified = false;  ///< all garments are on, full size, pose reached, nothing crosses
@@ -78,6 +79,7 @@ struct Dressing : DressedBody {
     /// What lengths of this body are multiplied by to be those at human size (body_scale.h). Speeds and pressures are
     /// those at human size.
     double to_human_size = 1;
+    LengthUnit unit = {};  ///< Scene::unit
 
     bool is_worn(std::size_t garment) const
     {
@@ -97,8 +99,14 @@ struct Scene {
     std::vector<FitConflict> conflicts;  ///< why they do not
     std::optional<Dressing> draped;  ///< in the pose of the outermost garment's fit
     std::optional<Dressing> recovered;  ///< in the input pose
+    LengthUnit unit = {};  ///< that of the body's file, for messages
     std::array<double, k_stage_count> seconds {};  ///< wall clock spent in each stage
 };
+
+/// Gives a scene the body of a file, in metres, and the file's unit for messages.
+/// @param in_file  n x 3, in the file's unit and axes
+/// @throws InvalidInput as make_body
+void put_body(Scene& scene, const Frame& frame, const Positions& in_file, const Triangles& triangles);
 
 /// Which garment goes over all others.
 std::size_t outermost(const std::vector<FitResult>& fits);
@@ -149,7 +157,7 @@ void describe(const Filter& filter, AnyParameters& p, Visitor&& visit)
         describe(p.drape, visit);
         describe_pose_path(p.recover, visit);  // worn garments move to the pose of the next one
         if (filter.has(Stage::recover))
-            describe_frames(p.recover, visit);
+            describe_end(p.recover, visit);
     } else if (filter.has(Stage::recover)) {
         describe(p.recover, visit);
     }

@@ -168,15 +168,20 @@ void describe_pose_path(Options& o, Visitor&& visit)
     visit(o.settling_steps,
           About { "recovery_settling_steps", "Recovery settling steps", "", 0, 10000,
                   "Time steps under gravity, once the input pose is reached" });
-    visit(o.settle_time,
-          About { "settle_time", "Settle time", "s", 0, 600,
-                  "Above 0: the cloth goes on until its forces balance, and for so much simulated time after that" });
 }
 
 /// What the return to the input pose adds to cloth and pose path, which it shares with draping.
 template <class Options, class Visitor, IfOptionsOf<Options, RecoverOptions>* = nullptr>
-void describe_frames(Options& o, Visitor&& visit)
+void describe_end(Options& o, Visitor&& visit)
 {
+    visit(o.quality,
+          About { "quality", "Quality", "", 0, 0,
+                  "How far the cloth is led at the end: standard (until the forces on it balance), or draft (only the "
+                  "settling steps, much faster; it would go on to slide)",
+                  &quality_names() });
+    visit(o.settle_time,
+          About { "settle_time", "Settle time", "s", 0, 600,
+                  "So much simulated time the cloth goes on for once it is at rest, to see whether it stays there" });
     visit(o.frames,
           About { "frames", "Frames", "", 0, 1000,
                   "States to keep on the return to the input pose, evenly spread; 1 for the end alone, 0 for none" });
@@ -187,7 +192,7 @@ void describe(Options& o, Visitor&& visit)
 {
     describe_cloth(o.cloth, visit);  // a worn garment is not made larger
     describe_pose_path(o, visit);
-    describe_frames(o, visit);
+    describe_end(o, visit);
 }
 
 }  // namespace garmentfit

@@ -23,6 +23,10 @@ std::string set_by_name(std::string_view parameter);
 std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
                                               const std::string& prefix, const HowToSet& set);
 
+/// About the type, front and up of each garment, where they are guessed with a low probability.
+std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,
+                                             const HowToSet& set);
+
 /// About several garments whose types and widths suggest another order than the one they are worn in.
 std::vector<std::string> warnings_about_layers(const Scene& scene, const std::vector<std::string>& names,
                                                const HowToSet& set);

@@ -61,6 +61,7 @@ struct FitResult {
     double type_probability = 1, front_probability = 1, up_probability = 1;
     double probability = 1;  ///< of this way of wearing the garment, among all
     Vec3 up = Vec3::UnitY(), front = Vec3::UnitZ();  ///< where the garment's top and front point, as it was given
+    std::optional<Vec3> front_given = {};  ///< FitOptions::front: the front is known, not found
     std::vector<Rejected> rejected;  ///< what was more probable at first
     std::vector<Bone> covered;
     int closed_ends = 0;  ///< of the garment: flat caps that the fit takes for openings

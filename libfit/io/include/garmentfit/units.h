@@ -30,6 +30,17 @@ GARMENTFIT_API double metres_per(std::string_view unit);
 /// "+x", "-x", ..., also "y" for "+y". @throws InvalidInput.
 GARMENTFIT_API Vec3 axis_of(std::string_view name);
 
+/// In which messages tell lengths.
+struct LengthUnit {
+    double metres = 1e-3;
+    std::string name = "mm";
+};
+/// That of a file: "cm", or "units" where it has none of the names of metres_per.
+GARMENTFIT_API LengthUnit unit_of(const Frame& frame);
+/// "152 mm", "1.52 dm": three significant digits, or all before the point. Less than a
+/// hundredth of a known unit is told in millimetres.
+GARMENTFIT_API std::string length_text(double metres, const LengthUnit& unit);
+
 struct FrameGuess {
     Frame frame;
     double unit_confidence = 0, up_confidence = 0;  ///< 0: several are equally likely, 1: certain; no probabilities

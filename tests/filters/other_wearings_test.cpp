@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "other_wearings.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace garmentfit {
+namespace {
+
+// A way of wearing a garment, and how dressing ends then.
+struct Way {
+    double probability = 0;
+    End end = End::worn;
+    Vec3 front = Vec3::UnitZ();
+    std::vector<Bone> covered = { lfemur, rfemur };
+};
+
+FitResult fit_of(const Way& way)
+{
+    FitResult fit;
+    fit.probability = way.probability;
+    fit.front = way.front;
+    fit.covered = way.covered;
+    return fit;
+}
+
+void end_with(Scene& scene, End end)
+{
+    if (end == End::refused)
+        return;
+    Dressing dressing;
+    dressing.garments.resize(scene.garments.size());
+    dressing.overstretches.resize(scene.garments.size());
+    dressing.certified = end == End::worn || end == End::torn_or_slipped;
+    if (end == End::torn_or_slipped)
+        dressing.garments[0].slipped = 1;
+    if (end == End::too_small)
+        dressing.too_tight = { { 0, "chest", 0.031, 0.034 } };
+    scene.draped = dressing;
+}
+
+// The ways of the first garment, the most probable first.
+struct Trial {
+    std::vector<Way> ways;
+    Scene scene = {};
+    int fitted = 0, draped = 0;
+
+    explicit Trial(std::vector<Way> of_first) : ways(std::move(of_first))
+    {
+        scene.garments.resize(2);
+        scene.fits = { fit_of(ways[0]), {} };
+        end_with(scene, ways[0].end);
+    }
+
+    void run(std::size_t refused = 0)
+    {
+        const auto fit = [&](Scene& s) {
+            ++fitted;
+            if (s.garments[0].skipped >= int(ways.size()))
+                throw InvalidInput("no other way");
+            s.fits[0] = fit_of(ways[s.garments[0].skipped]);
+        };
+        const auto drape = [&](Scene& s) {
+            ++draped;
+            const End end = ways[s.garments[0].skipped].end;
+            if (end == End::refused)
+                throw RefusedGarment(0, "it lies across the bones");
+            end_with(s, end);
+        };
+        try_other_wearings(scene, { fit, drape }, refused, {});
+    }
+
+    double probability() const { return scene.fits[0].probability; }
+};
+
+TEST(OtherWearings, AreNotTriedWhereTheGarmentIsWorn)
+{
+    Trial trial({ { 0.5, End::worn }, { 0.5, End::worn } });
+    trial.run();
+    EXPECT_EQ(trial.fitted, 0);
+}
+
+TEST(OtherWearings, OfSmallProbabilityDoNotReplaceAGarmentThatIsTooSmall)
+{
+    Trial trial({ { 0.8, End::too_small }, { 0.2, End::worn, -Vec3::UnitZ() } });
+    trial.run();
+    EXPECT_EQ(trial.probability(), 0.8);
+    EXPECT_EQ(trial.draped, 0) << "no end of it could be more plausible";
+}
+
+TEST(OtherWearings, ThatAreAboutAsProbableReplaceAGarmentThatIsTooSmall)
+{
+    Trial trial({ { 0.4, End::too_small }, { 0.38, End::worn, -Vec3::UnitZ() } });
+    trial.run();
+    EXPECT_EQ(trial.probability(), 0.38);
+    ASSERT_EQ(trial.scene.fits[0].rejected.size(), 1u);
+    EXPECT_EQ(trial.scene.fits[0].rejected[0].probability, 0.4);
+}
+
+TEST(OtherWearings, OnTheSameBonesAreTheSameWayUnderAnotherName)
+{
+    const std::vector<Bone> shirt { upperback, thorax }, dress { upperback, thorax, lfemur, rfemur };
+    Trial trial({ { 0.8, End::too_small, Vec3::UnitZ(), shirt }, { 0.1, End::worn, Vec3::UnitZ(), dress } });
+    trial.scene.fits[0].type = GarmentType::tshirt;
+    trial.run();
+    EXPECT_NEAR(trial.probability(), 0.9, 1e-12);
+    EXPECT_EQ(trial.scene.fits[0].type, GarmentType::tshirt);
+    EXPECT_EQ(trial.scene.fits[0].covered, dress);
+
+    Trial turned({ { 0.8, End::too_small, Vec3::UnitZ(), shirt }, { 0.1, End::worn, -Vec3::UnitZ(), dress } });
+    turned.run();
+    EXPECT_EQ(turned.probability(), 0.8);
+}
+
+TEST(OtherWearings, ReplaceWhatCannotBeDrapedAlsoAmongSeveralGarments)
+{
+    Trial trial({ { 0.7, End::refused }, { 0.2, End::refused, -Vec3::UnitZ() }, { 0.1, End::worn, Vec3::UnitX() } });
+    trial.run();
+    EXPECT_EQ(trial.probability(), 0.1);
+    EXPECT_EQ(trial.scene.fits[0].rejected.size(), 2u);
+
+    Trial hopeless({ { 0.7, End::refused }, { 0.3, End::refused, -Vec3::UnitZ() } });
+    hopeless.run();
+    EXPECT_EQ(hopeless.probability(), 0.7);
+    EXPECT_FALSE(hopeless.scene.draped);
+}
+
+TEST(OtherWearings, ThatFellOffOrTornDoNotReplaceAMoreProbableOne)
+{
+    Trial trial({ { 0.5, End::too_small }, { 0.45, End::torn_or_slipped, -Vec3::UnitZ() } });
+    trial.run();
+    EXPECT_EQ(trial.probability(), 0.5);
+    EXPECT_EQ(trial.draped, 1);
+}
+
+}  // namespace
+}  // namespace garmentfit

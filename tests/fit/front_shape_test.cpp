@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "front_shape.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace garmentfit;
+
+// A tube as wide as 0.4 m, 0.5 m high, top at 0; patches every 15 mm. Its middle line moves by `shift(depth)` along z.
+template <class Shift>
+std::vector<ClothPatch> tube(const Shift& shift)
+{
+    std::vector<ClothPatch> patches;
+    for (double depth = 0; depth < 0.5; depth += 0.015)
+        for (double angle = 0; angle < 2 * M_PI; angle += 0.08) {
+            const Vec3 out(std::sin(angle), 0, std::cos(angle));
+            const Vec3 centre = Vec3(0.2 * out.x(), -depth, 0.13 * out.z() + shift(depth));
+            patches.push_back({ centre.cast<float>(), (2e-4 * out).cast<float>() });
+        }
+    return patches;
+}
+
+FrontShape shape_of(const std::vector<ClothPatch>& cloth, const Vec3& front)
+{
+    return front_shape(cloth, {}, {}, front);
+}
+
+TEST(FrontShape, ASeatLiesBehindTheRim)
+{
+    const auto skirt = tube([](double depth) { return depth > 0.1 ? -0.02 : 0.0; });
+    EXPECT_NEAR(shape_of(skirt, Vec3::UnitZ()).seat, -1, 0.2) << "twice 2 cm on a width of 40 cm";
+    EXPECT_NEAR(shape_of(skirt, -Vec3::UnitZ()).seat, 1, 0.2);
+    EXPECT_NEAR(shape_of(tube([](double) { return 0.0; }), Vec3::UnitZ()).seat, 0, 0.1);
+}
+
+TEST(FrontShape, ATopAndBottomBehindTheMiddleAreABow)
+{
+    const auto shirt = tube([](double depth) { return depth < 0.08 || depth > 0.42 ? -0.04 : 0.0; });
+    EXPECT_NEAR(shape_of(shirt, Vec3::UnitZ()).bow, -1, 0.2);
+    EXPECT_NEAR(shape_of(shirt, -Vec3::UnitZ()).bow, 1, 0.2);
+}
+
+TEST(FrontShape, ANecklineLeavesLessClothInFront)
+{
+    auto shirt = tube([](double) { return 0.0; });
+    std::erase_if(shirt, [](const ClothPatch& patch) {
+        return patch.centre.z() > 0.05f && patch.centre.y() > -0.1f && std::abs(patch.centre.x()) < 0.06f;
+    });
+    EXPECT_GT(shape_of(shirt, Vec3::UnitZ()).bare, 0.2);
+    EXPECT_LT(shape_of(shirt, -Vec3::UnitZ()).bare, -0.2);
+}
+
+TEST(FrontShape, ThighsMakeTheLapBroaderThanTheBack)
+{
+    auto trousers = tube([](double) { return 0.0; });
+    for (ClothPatch& patch : trousers)
+        if (patch.centre.z() < 0)
+            patch.centre.x() *= 0.8f;
+    EXPECT_GT(shape_of(trousers, Vec3::UnitZ()).lap, 0.5);
+    EXPECT_LT(shape_of(trousers, -Vec3::UnitZ()).lap, -0.5);
+}
+
+}  // namespace
