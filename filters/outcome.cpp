@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::size_t k_named = 3;  // unit: parts of the body that one line of text names
 
-std::string millimetres(double metres)
-{
-    const double value = 1000 * metres;
-    return (value >= 10 ? std::to_string(std::lround(value)) : rounded_text(value, 2)) + " mm";  // a doll's are small
-}
-
 /// Those of the garment that has the tightest part.
 std::vector<TooTight> tight_parts(const Dressing& dressing)
 {
@@ -38,7 +32,7 @@ std::string held_parts(const Dressing& dressing)
     std::ostringstream text;
     for (std::size_t i = 0; i < std::min(k_named, dressing.held_back.size()); ++i)
         text << (i > 0 ? ", " : "; too little space for the cloth at ") << dressing.held_back[i].part
-             << " (held back by " << millimetres(dressing.held_back[i].distance) << ")";
+             << " (held back by " << length_text(dressing.held_back[i].distance, dressing.unit) << ")";
     return text.str();
 }
 
@@ -48,7 +42,7 @@ std::string entered_parts(const Dressing& dressing)
     for (std::size_t i = 0; i < std::min(k_named, dressing.overlaps.size()); ++i) {
         const Overlap& overlap = dressing.overlaps[i];
         text << (i > 0 ? ", " : "; the body crosses itself, and no cloth fits between ") << overlap.part << " and "
-             << overlap.other << " (" << millimetres(overlap.depth) << " deep)";
+             << overlap.other << " (" << length_text(overlap.depth, dressing.unit) << " deep)";
     }
     return text.str();
 }
@@ -75,7 +69,7 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
     text << names[garment] << " is too small" << (end.scale_reached < 1 ? "" : " for the input pose");
     double enlargement = 0;
     for (const TooTight& part : parts) {
-        text << (enlargement > 0 ? ", " : ": it lacks ") << millimetres(part.missing_girth) << " of girth at "
+        text << (enlargement > 0 ? ", " : ": it lacks ") << length_text(part.missing_girth, end.unit) << " of girth at "
              << part.part;
         enlargement = std::max(enlargement, part.enlargement);
     }

@@ -92,6 +92,7 @@ Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& le
     Dressing dressing;
     dressing.pose = pose;
     dressing.to_human_size = factor_to_human_size(*scene.body);
+    dressing.unit = scene.unit;
     dressing.outermost = scene.fits.size() == worn.size() ? outermost(scene.fits) : worn.size() - 1;
     dressing.body = keep_left(skinned(scene, pose), left);
     for (std::size_t i = 0; i < worn.size(); ++i) {

@@ -36,7 +36,7 @@ void warn_of_guesses(std::vector<std::string>& warnings, const std::string& name
 }
 
 void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment,
-                     double to_human_size)
+                     const Dressing& end)
 {
     if (garment.size > 1)
         warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
@@ -49,15 +49,19 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
                            + std::to_string(pieces.free)
                            + (pieces.free == 1 ? " lies on no other; it is a layer of its own"
                                                : " lie on no other; they are layers of their own"));
-    if (garment.slipped * to_human_size > k_slipped)
-        warnings.push_back(name + " slipped down by " + std::to_string(std::lround(100 * garment.slipped))
-                           + " cm: it is too wide for this body to stay where it is worn");
+    if (garment.piece_shift * end.to_human_size > k_piece_gone)
+        warnings.push_back(
+            "a piece of " + name + " went " + length_text(garment.piece_shift, end.unit)
+            + " away from the cloth that it lay on; join its border to that cloth in the garment's file");
+    if (garment.slipped * end.to_human_size > k_slipped)
+        warnings.push_back(name + " slipped down by " + length_text(garment.slipped, end.unit)
+                           + ": it is too wide for this body to stay where it is worn");
 }
 
 /// Of one that is worn; whether it is tight, too.
 void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, const Dressing& end, std::size_t garment)
 {
-    warn_of_garment(warnings, name, end.garments[garment], end.to_human_size);
+    warn_of_garment(warnings, name, end.garments[garment], end);
     const std::optional<FitVerdict> verdict = fit_verdict(end, garment);
     if (!verdict || verdict->verdict != Verdict::tight)
         return;
@@ -109,6 +113,15 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
     return warnings;
 }
 
+std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,
+                                             const HowToSet& set)
+{
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < scene.fits.size(); ++i)
+        warn_of_guesses(warnings, names[i], scene.fits[i], set);
+    return warnings;
+}
+
 std::vector<std::string> warnings_about_layers(const Scene& scene, const std::vector<std::string>& names,
                                                const HowToSet& set)
 {
@@ -130,10 +143,11 @@ std::vector<std::string> warnings_about_layers(const Scene& scene, const std::ve
 std::vector<std::string> warnings_about_dressing(const Dressing& end, const std::vector<std::string>& names)
 {
     std::vector<std::string> warnings;
-    if (end.speed && *end.speed >= k_at_rest)
-        warnings.push_back("the cloth is not at rest yet (" + std::to_string(std::lround(1000 * *end.speed))
-                           + " mm/s); give more "
-                           + (end.out_of_time ? "time as time_limit: it was reached" : "settling steps"));
+    if (end.residual && !end.residual->is_at_rest())
+        warnings.push_back("the cloth is not at rest: forces on it are out of balance by "
+                           + std::to_string(std::lround(100 * end.residual->mean)) + " % of its weight on the mean; "
+                           + (end.out_of_time ? "give more time as time_limit: it was reached"
+                                              : "quality draft ends so, standard goes on where it can"));
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
             warn_of_worn(warnings, names[i], end, i);
@@ -160,8 +174,8 @@ std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vec
     if (scene.rig && scene.rig->side_confidence < k_low_confidence)
         warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));
-    for (std::size_t i = 0; i < scene.fits.size(); ++i)
-        warn_of_guesses(warnings, names[i], scene.fits[i], set);
+    const std::vector<std::string> fits = warnings_about_fits(scene, names, set);
+    warnings.insert(warnings.end(), fits.begin(), fits.end());
     for (std::size_t i = 0; i < scene.garments.size(); ++i)
         warn_of_closed_ends(warnings, names[i], closed_ends(scene, i));
     const std::vector<std::string> layers = warnings_about_layers(scene, names, set);

@@ -373,7 +373,7 @@ double step_until_converged(ClothMotion& motion, const MotionStep& step, const P
     return lag;
 }
 
-SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress)
+SettleResult settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress)
 {
     MotionStep step;
     step.obstacle_target = &target;
@@ -382,8 +382,7 @@ SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int
     step.iterations = k_settling_iterations;
     StallDetector detector(k_most_extra_settling_steps);
     double lag = INFINITY;
-    const auto moves = [&](int i) { return i < steps + to_rest && motion.speed() >= k_at_rest; };
-    for (int i = 0; i < steps || detector.goes_on(lag) || moves(i); ++i) {
+    for (int i = 0; i < steps || detector.goes_on(lag); ++i) {
         if (!progress.goes_on(double(i) / (steps + k_most_extra_settling_steps)))
             return { motion.advect_obstacle(target) == 0, motion.speed(), true };
         step.velocity_kept = i < k_swinging_steps * steps ? k_swinging_velocity : k_calming_velocity;

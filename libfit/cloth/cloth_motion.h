@@ -37,6 +37,11 @@ struct MotionStep {
     int iterations = k_moving_iterations;  ///< of conjugate gradients
 };
 
+struct RestResult {
+    ForceResidual residual;  ///< how far the forces on the cloth are from balance
+    bool out_of_time;  ///< the deadline passed
+};
+
 class ClothMotion {
 public:
     /// `cloth` and the obstacle must not cross.
@@ -79,8 +84,7 @@ public:
 
     /// Moves the cloth to a static equilibrium, or as near to one as k_most_rest_moves go. The obstacle stands still.
     /// @param seconds  of simulated time to go on for afterwards
-    /// @return how far the forces are from balance at the end. None: the deadline passed
-    std::optional<ForceResidual> find_rest(double seconds, const Progress& progress);
+    RestResult find_rest(double seconds, const Progress& progress);
 
     double speed() const;  ///< m/s, of the fastest vertex of the cloth
     int vertices() const { return weld_.given(); }  ///< of the garment
@@ -137,7 +141,6 @@ struct SettleResult {
 
 /// Hangs the cloth on the obstacle under gravity, for so many time steps, and some more while parts of the obstacle are
 /// still held back.
-/// @param to_rest  time steps more, at most, until no vertex is faster than k_at_rest
-SettleResult settle(ClothMotion& motion, const Positions& target, int steps, int to_rest, const Progress& progress);
+SettleResult settle(ClothMotion& motion, const Positions& target, int steps, const Progress& progress);
 
 }  // namespace garmentfit

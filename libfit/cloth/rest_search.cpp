@@ -44,38 +44,67 @@ ForceResidual measure(const Positions& forces, const std::vector<double>& masses
 class ClothMotion::RestSearch {
 public:
     explicit RestSearch(ClothMotion& motion) :
-        motion_(motion), energy_(*motion.energy_), factor_(energy_), anchors_(motion.cloth_vertices_),
-        memory_(k_remembered_moves)
+        motion_(motion), energy_(*motion.energy_), anchors_(motion.cloth_vertices_), memory_(k_remembered_moves)
     {
         step_.contact_stiffness = k_settling_contact_stiffness;
         step_.contact_softening = k_contact_softening;
-        energy_.set_time_step(k_rest_time_step);
         find_forces();
     }
 
-    ForceResidual residual() const { return measure(forces_, energy_.masses()); }
+    const ForceResidual& residual() const { return residual_; }
 
-    /// Rounds until one moves nothing, and `more` after it. @return whether there was time enough
+    /// Rounds until one moves nothing, and `more` after it. Where forces do not balance, ends where they did best.
+    /// @return whether there was time enough
     bool run(int more, const Progress& progress)
     {
         const int most = k_most_rest_moves + more;
-        for (int round = 0, after_rest = -1; after_rest < more && moves_ < most; ++round) {
+        bool in_time = true;
+        std::vector<double> left;  // after each round
+        for (int after_rest = -1; in_time && after_rest < more && moves_ < most && !has_stalled(left);) {
             const Positions before = cloth();
-            if (round > 0)
+            if (!left.empty())
                 let_go();
-            for (int move = 0; move == 0 || (move < k_most_round_moves && !residual().is_at_rest()); ++move) {
-                if (!progress.goes_on(double(moves_) / most))
-                    return false;
-                make_move();
-            }
+            in_time = make_round(progress, most);
+            left.push_back(residual_.mean);
             const double farthest = (cloth() - before).rowwise().norm().maxCoeff();
-            if (after_rest >= 0 || (round > 0 && residual().is_at_rest() && farthest < k_still))
+            if (after_rest >= 0 || (left.size() > 1 && residual_.is_at_rest() && farthest < k_still))
                 ++after_rest;
+        }
+        if (!residual_.is_at_rest() && best_.rows() > 0)
+            go_back();
+        return in_time;
+    }
+
+private:
+    /// Whether two rounds brought the forces no nearer to balance.
+    static bool has_stalled(const std::vector<double>& left)
+    {
+        const std::size_t n = left.size();
+        return n > 2 && left[n - 1] > left[n - 3] && left[n - 1] > k_balanced;
+    }
+
+    /// @return whether there was time enough
+    bool make_round(const Progress& progress, int most)
+    {
+        for (int move = 0; move == 0 || (move < k_most_round_moves && !residual_.is_at_rest()); ++move) {
+            if (!progress.goes_on(double(moves_) / most))
+                return false;
+            make_move();
+            if (residual_.mean < least_) {
+                least_ = residual_.mean;
+                best_ = motion_.x_;
+            }
         }
         return true;
     }
 
-private:
+    void go_back()
+    {
+        motion_.x_ = best_;
+        find_contacts();
+        find_forces();
+    }
+
     Positions cloth() const { return motion_.x_.topRows(motion_.cloth_vertices_); }
 
     bool contacts_are_old(const Positions& x) const
@@ -87,6 +116,8 @@ private:
     {
         motion_.contact_.detect(motion_.x_, Positions::Zero(motion_.x_.rows(), 3), motion_.contact_margins());
         contacts_ = motion_.find_active_contacts(motion_.x_);
+        for (ActiveContact& contact : contacts_)  // motion must stay possible
+            contact.rest_distance = std::max(contact.rest_distance, k_least_gap * motion_.options_.min_distance);
         found_at_ = cloth();
     }
 
@@ -98,6 +129,7 @@ private:
             find_contacts();
         anchors_.set_touches(find_touches(x), x);
         forces_ = forces_at(x);
+        residual_ = measure(forces_, energy_.masses());
     }
 
     std::vector<SoftConstraint> contacts_at(const Positions& x) const
@@ -172,9 +204,13 @@ private:
     void make_move()
     {
         const Positions from = cloth(), forces = forces_;
+        if (!factor_) {  // only here: its order of elimination costs more than the forces
+            energy_.set_time_step(k_rest_time_step);
+            factor_.emplace(energy_);
+        }
         if (moves_++ % k_factor_period == 0)
-            factor_.factorise(from, constraints_);
-        const auto solve = [&](const Positions& f) { return factor_.solve(f); };
+            factor_->factorise(from, constraints_);
+        const auto solve = [&](const Positions& f) { return factor_->solve(f); };
         Positions direction = memory_.direction(forces, solve);
         if (direction.cwiseProduct(forces).sum() <= 0) {
             memory_.forget();
@@ -206,28 +242,29 @@ private:
     ClothMotion& motion_;
     ClothEnergy& energy_;
     MotionStep step_ {};
-    TangentFactor factor_;
+    std::optional<TangentFactor> factor_;
     FrictionAnchors anchors_;
     LimitedMemory memory_;
     double grip_ = k_kinetic_friction;  // share of the friction coefficients
     int moves_ = 0;
+    double least_ = INFINITY;  // mean residual
+    Positions best_;  // all positions, there
     Positions found_at_;
     std::vector<ActiveContact> contacts_;
     std::vector<SoftConstraint> constraints_;  // of the last forces_at()
     Positions forces_;  // where the cloth is
+    ForceResidual residual_;  // of these
 };
 
 ForceResidual ClothMotion::residual() { return RestSearch(*this).residual(); }
 
-std::optional<ForceResidual> ClothMotion::find_rest(double seconds, const Progress& progress)
+RestResult ClothMotion::find_rest(double seconds, const Progress& progress)
 {
     RestSearch search(*this);
     const bool in_time = search.run(int(std::ceil(seconds / k_rest_time_step)), progress);
     velocity_.setZero();
     sticking_.clear();
-    if (!in_time)
-        return {};
-    return search.residual();
+    return { search.residual(), !in_time };
 }
 
 }  // namespace garmentfit

@@ -162,14 +162,17 @@ void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const Gr
                         const Grading& grading, const Make& make, const Wearer& wearer)
 {
     const Positions reached = motion.obstacle();
-    std::vector<WornGarment> outermost {
-        { grading.garment(), motion.cloth(), {}, grading.size(), 0, make.pieces, make.closed_ends }
-    };
+    std::vector<WornGarment> outermost { { .rest = grading.garment(),
+                                           .positions = motion.cloth(),
+                                           .size = grading.size(),
+                                           .pieces = make.pieces,
+                                           .closed_ends = make.closed_ends } };
     add_slips(outermost, outermost[0].rest.positions);
     static_cast<DressedBody&>(result) = wearer.dressed;
     result.body = inside.body_of(reached);
     set_positions(result.garments, reached.bottomRows(reached.rows() - inside.body_vertices));
     result.garments.push_back(outermost[0]);
+    measure_piece_shifts(result.garments);
     const bool clean = certify_all(result.garments, { result.body, wearer.body.surface.triangles });
     result.certified = clean && reached == inside.full.positions;
     if (!clean && result.scale_reached < 1 && !wearer.dressed.garments.empty()) {
@@ -226,7 +229,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
     result.out_of_time = growth.out_of_time;
     if (result.scale_reached == 1) {
         const SettleResult settled
-            = settle(motion, inside.full.positions, options.settling_steps, 0, progress.part(0.7, 1));
+            = settle(motion, inside.full.positions, options.settling_steps, progress.part(0.7, 1));
         result.speed = settled.speed;
         result.out_of_time = settled.out_of_time;
     } else if (!result.out_of_time)

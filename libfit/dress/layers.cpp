@@ -27,4 +27,10 @@ void add_slips(std::vector<WornGarment>& garments, const Positions& followed)
     }
 }
 
+void measure_piece_shifts(std::vector<WornGarment>& garments)
+{
+    for (WornGarment& garment : garments)
+        garment.piece_shift = longest_piece_shift(garment.rest, garment.positions);
+}
+
 }  // namespace garmentfit

@@ -16,4 +16,7 @@ void set_positions(std::vector<WornGarment>& garments, const Positions& position
 /// @param followed  where the vertices would be, garment after garment, had they gone along with the body
 void add_slips(std::vector<WornGarment>& garments, const Positions& followed);
 
+/// Measures of each garment how far its pieces went from each other.
+void measure_piece_shifts(std::vector<WornGarment>& garments);
+
 }  // namespace garmentfit

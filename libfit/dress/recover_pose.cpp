@@ -262,7 +262,52 @@ std::vector<TooTight> list_tight_parts(const Rig& rig, const DressedBody& before
     return result;
 }
 
+struct Start {
+    const Rig& rig;
+    const DressedBody& dressed;
+};
+
+/// Lets the cloth hang at the end of the way, leads it to rest where that is asked for, and writes what comes of it.
+/// What looks too small is led there as well: it may slide to where it is not.
+/// @return whether the whole body is in its place
+bool come_to_rest(ClothMotion& motion, const Positions& end, Quality quality, const RecoverOptions& options,
+                  const Start& start, RecoverResult& result, const Progress& progress)
+{
+    const auto write = [&] {
+        result.body = motion.obstacle();
+        set_positions(result.garments, motion.cloth());
+        result.too_tight = list_tight_parts(start.rig, start.dressed, result, options.cloth);
+    };
+    const auto hang = [&](int steps) {
+        const SettleResult settled = settle(motion, end, steps, progress.part(0, k_progress_of_settling));
+        write();
+        return settled;
+    };
+    SettleResult settled = hang(options.settling_steps);
+    if (!result.too_tight.empty() && !settled.out_of_time)  // it may only be caught
+        settled = hang(k_steps_if_tight);
+    result.speed = settled.speed;
+    result.out_of_time = settled.out_of_time;
+    if (settled.out_of_time)
+        return settled.is_at_target;
+    if (quality == Quality::draft || !settled.is_at_target) {
+        result.residual = motion.residual();
+        return settled.is_at_target;
+    }
+    const RestResult rest = motion.find_rest(options.settle_time, progress.part(k_progress_of_settling, 1));
+    result.residual = rest.residual;
+    result.out_of_time = rest.out_of_time;
+    write();
+    return true;
+}
+
 }  // namespace
+
+const std::vector<std::string_view>& quality_names()
+{
+    static const std::vector<std::string_view> names { "standard", "draft" };
+    return names;
+}
 
 RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
                            const RecoverOptions& options, const Progress& progress)
@@ -283,7 +328,8 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     recorder.record_start(dressed.body.rows() > 0
                               ? dressed.body
                               : skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, dressed.pose)));
-    const PathOutcome outcome = follow_path(motion, path, weights, options, recorder, progress.part(0, 0.8));
+    const PathOutcome outcome
+        = follow_path(motion, path, weights, options, recorder, progress.part(0, k_progress_of_path));
 
     RecoverResult result;
     if (outcome.ended_early()) {
@@ -295,23 +341,17 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
         motion.advect_obstacle(path.end());
     }
     const Positions end = path.at(outcome.reached());
-    const double rest_share = options.settle_time > 0 ? k_progress_of_rest : 0;
-    const auto [arrived, speed, hurried]
-        = settle(motion, end, options.settling_steps, k_steps_to_rest, progress.part(0.8, 1 - rest_share));
-    if (!hurried)
-        result.residual = arrived && options.settle_time > 0
-            ? motion.find_rest(options.settle_time, progress.part(1 - rest_share, 1))
-            : motion.residual();
+    result.pose = slerp(start.pose, target, outcome.reached());
+    result.garments = start.garments;
+    const bool in_place = come_to_rest(motion, end, outcome.ended_early() ? Quality::draft : options.quality, options,
+                                       { rig, start }, result, progress.part(k_progress_of_path, 1));
     if (!outcome.ended_early())
         recorder.record(motion, 1);
 
-    result.pose = slerp(start.pose, target, outcome.reached());
-    result.body = motion.obstacle();
-    result.garments = start.garments;
     for (WornGarment& garment : result.garments)
         if (garment.pieces.count == 0)  // not from drape_garment
             garment.pieces = count_pieces_held(garment.rest);
-    set_positions(result.garments, motion.cloth());
+    measure_piece_shifts(result.garments);
     add_slips(result.garments,
               skin(outfit.cloth.positions, weights.cloth,
                    relative_transforms(path.transforms(0), path.transforms(outcome.reached()))));
@@ -319,12 +359,10 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
         result.held_back = list_held_back_parts(result.body, end, rig.weights);
     result.frames = std::move(recorder).take();
     result.pose_reached = outcome.reached();
-    result.speed = result.residual && options.settle_time > 0 ? motion.speed() : speed;
-    result.out_of_time = outcome.out_of_time || !result.residual;
+    result.out_of_time |= outcome.out_of_time;
     result.seconds = motion.seconds();
-    result.too_tight = list_tight_parts(rig, start, result, options.cloth);
     const bool clean = certify_all(result.garments, { result.body, body.surface.triangles });
-    result.certified = clean && arrived && !outcome.ended_early() && result.too_tight.empty();
+    result.certified = clean && in_place && !outcome.ended_early() && result.too_tight.empty();
     if (!result.certified && !result.out_of_time)
         result.overlaps = find_overlaps({ path.end(), body.surface.triangles }, rig.weights,
                                         mark_near_cloth(result.body, motion.cloth()));

@@ -323,6 +323,36 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
     return std::move(sewing).take();
 }
 
+double longest_piece_shift(const GarmentMesh& garment, const Positions& positions)
+{
+    const Weld weld(garment);
+    const GarmentMesh rest = weld.gather(garment);
+    const MeshTopology topology(rest.triangles, int(rest.positions.rows()));
+    const std::vector<Piece> pieces = collect_pieces(rest, topology, {});
+    if (pieces.size() < 2)
+        return 0;
+    const Positions now = weld.gather(positions);
+    const auto further = [&](const Foot& foot) {
+        Eigen::RowVector3d there = now.row(foot.tie.vertex);
+        for (int k = 0; k < 3; ++k)
+            there -= foot.tie.weights[k] * now.row(foot.tie.corners[k]);
+        return std::max(0.0, there.norm() - foot.distance);
+    };
+    Feet feet(rest, topology, pieces);
+    double longest = 0;
+    for (std::size_t p = 1; p < pieces.size(); ++p) {
+        double least = INFINITY;
+        for (std::size_t q = 0; q < p; ++q)
+            if (pieces[p].box.exteriorDistance(pieces[q].box) <= k_beside)
+                for (const Foot& foot : feet.find(pieces[p].vertices, q, k_beside))
+                    if (std::isfinite(foot.distance))
+                        least = std::min(least, further(foot));
+        if (std::isfinite(least))
+            longest = std::max(longest, least);
+    }
+    return longest;
+}
+
 PieceCounts count_pieces_held(const GarmentMesh& garment)
 {
     const GarmentMesh rest = Weld(garment).gather(garment);

@@ -110,6 +110,10 @@ inline constexpr double k_along_distance = 3e-3, k_along_share = 0.6;
 /// fitted: guess; all pieces of the wild data of that kind are small ones.
 inline constexpr double k_patch = 0.6, k_patch_share = 0.5;
 
+/// m; what lies further from a larger piece is not beside it.
+/// fitted: guess.
+inline constexpr double k_beside = 0.05;
+
 // ---- close_seams.cpp -----------------------------------------------------------------------------------------------
 
 /// Dimensionless, a share of the shorter of two border edges. A vertex of one border that is this close to one of the

@@ -121,6 +121,11 @@ void write(const Call& call, Session& session, OutputFolder& folder)
 
 int run(int argc, char** argv)
 {
+    // Who installed this program alone has to learn where the command is.
+    if (argc > 1 && std::string_view(argv[1]) == "catalogue")
+        throw InvalidInput(ErrorCode::wrong_call,
+                           "catalogue is a command of the Python package; install it with: "
+                           "pip install 'garmentfit[catalogue]'");
     std::optional<Call> call = parse(argc, argv);
     if (!call)
         return 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include <sys/resource.h>
 
@@ -17,6 +18,8 @@ namespace garmentfit::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t k_crossings_listed = 10;  // unit: what a person looks at
 
 double peak_memory_bytes()
 {
@@ -60,15 +63,28 @@ Json body_of(const Session& session)
     return json;
 }
 
-/// Each as the vertices of the edge and of the triangle that it passes through, counted from 0.
-Json pairs_of(const std::vector<Crossing>& crossings, const Triangles& triangles)
+/// How many, and those of the longest edges: the vertices of the edge and of the triangle that it passes through,
+/// counted from 0.
+Json crossings_of(const std::vector<Crossing>& crossings, const WornGarment& garment, double metres_per_unit)
 {
+    const Triangles& triangles = garment.rest.triangles;
     const auto edges = edges_of(triangles);
-    Json pairs = Json::array();
-    for (const auto& [e, f] : crossings)
-        pairs.push_back({ { "edge", { edges(e, 0), edges(e, 1) } },
-                          { "triangle", { triangles(f, 0), triangles(f, 1), triangles(f, 2) } } });
-    return pairs;
+    std::vector<std::pair<double, Crossing>> longest;
+    for (const Crossing& crossing : crossings) {
+        const auto e = crossing.first;
+        const double length = (garment.positions.row(edges(e, 0)) - garment.positions.row(edges(e, 1))).norm();
+        longest.push_back({ length, crossing });
+    }
+    std::stable_sort(longest.begin(), longest.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    longest.resize(std::min(longest.size(), k_crossings_listed));
+    Json list = Json::array();
+    for (const auto& [length, crossing] : longest) {
+        const auto& [e, f] = crossing;
+        list.push_back({ { "edge", { edges(e, 0), edges(e, 1) } },
+                         { "triangle", { triangles(f, 0), triangles(f, 1), triangles(f, 2) } },
+                         { "length", length / metres_per_unit } });
+    }
+    return { { "count", crossings.size() }, { "longest", list } };
 }
 
 void put_certificate(Json& json, const WornGarment& garment, double metres_per_unit)
@@ -78,14 +94,15 @@ void put_certificate(Json& json, const WornGarment& garment, double metres_per_u
                           { "self", c.self_crossings },
                           { "self_input", c.input_self_crossings },
                           { "layers", c.layer_crossings } };
-    json["self_kept"] = pairs_of(c.kept_self_crossings, garment.rest.triangles);
+    json["self_kept"] = crossings_of(c.kept_self_crossings, garment, metres_per_unit);
     json["vertices_inside"] = c.vertices_inside;
     json["min_distance"] = c.min_distance / metres_per_unit;
     json["slipped"] = garment.slipped / metres_per_unit;
     json["pieces"] = { { "count", garment.pieces.count },
                        { "seamed", garment.pieces.seamed },
                        { "held", garment.pieces.held },
-                       { "free", garment.pieces.free } };
+                       { "free", garment.pieces.free },
+                       { "longest_shift", garment.piece_shift / metres_per_unit } };
     json["strain"] = { { "median", c.strain.median }, { "p95", c.strain.p95 }, { "max", c.strain.max } };
 }
 
@@ -260,7 +277,7 @@ Json json_of(const Call& call, const Session& session)
         json["certified"] = end->certified;
         json["scale_reached"] = end->scale_reached;
         json["pose_reached"] = end->pose_reached;
-        json["settled"] = end->speed ? Json(*end->speed < k_at_rest) : Json();
+        json["settled"] = end->residual ? Json(end->residual->is_at_rest()) : Json();
         json["speed"] = end->speed ? Json(*end->speed) : Json();
         json["residual"] = end->residual ? Json { { "mean", end->residual->mean },
                                                   { "percentile_99", end->residual->percentile_99 },

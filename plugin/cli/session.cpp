@@ -32,8 +32,7 @@ bool same(const Frame& a, const Frame& b)
 
 void make_scene_body(Session& session)
 {
-    const MeshFile& file = session.body.file;
-    session.scene.body = make_body(session.body.frame.frame.to_metres(file.positions()), session.body.triangles);
+    put_body(session.scene, session.body.frame.frame, session.body.file.positions(), session.body.triangles);
     if (session.scene.body->repaired)
         session.warnings.push_back(session.body.path.filename().string()
                                    + " is not one closed surface; the skeleton is found on a repaired copy");

@@ -114,7 +114,7 @@ Fitting fitting_from_file(const std::filesystem::path& path, const std::string& 
     Fitting fitting;
     fitting.body_name = body_name;
     fitting.body_frame = contents.frame;
-    fitting.scene.body = make_body(contents.frame.to_metres(body.positions), body.triangles);
+    put_body(fitting.scene, contents.frame, body.positions, body.triangles);
     fitting.scene.rig = rig_on(std::move(contents.rig), fitting.scene.body->surface.positions, path.string());
     for (const FittedGarment& garment : contents.garments) {
         fitting.garment_names.push_back(garment.file);

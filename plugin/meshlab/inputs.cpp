@@ -20,7 +20,7 @@ Fitting new_fitting(const Choice& choice, Report& report)
         const BodyChoice body { choice.body_frame, choice.parameters.body_sizes.height };
         const FrameGuess guess = body_frame(mesh.positions, mesh.triangles, body);
         fitting.body_frame = guess.frame;
-        fitting.scene.body = make_body(guess.frame.to_metres(mesh.positions), mesh.triangles);
+        put_body(fitting.scene, guess.frame, mesh.positions, mesh.triangles);
         report.lines.push_back(fitting.body_name + ": " + guess.why);
         report.warn(warnings_about_frame(fitting.body_name, guess, "", set_by_name));
     });
@@ -34,6 +34,7 @@ Fitting new_fitting(const Choice& choice, Report& report)
 void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
 {
     Scene scene;
+    scene.unit = fitting.scene.unit;
     scene.body = std::move(fitting.scene.body);
     scene.rig = std::move(fitting.scene.rig);
     fitting.garment_names.clear();

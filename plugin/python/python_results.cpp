@@ -164,10 +164,14 @@ nb::dict verdict_of(const PythonScene& s)
                                     : nb::object(nb::none());
     made["note"] = end.certified ? std::string() : explain(end, s.names);
     nb::list warnings;
-    for (const std::string& warning : warnings_about_layers(s.scene, s.names, set_by_name))
-        warnings.append(nb::str(warning.c_str()));
-    for (const std::string& warning : warnings_about_dressing(end, s.names))
-        warnings.append(nb::str(warning.c_str()));
+    const auto add = [&](const std::vector<std::string>& lines) {
+        for (const std::string& line : lines)
+            warnings.append(nb::str(line.c_str()));
+    };
+    add(s.frame_warnings);
+    add(warnings_about_fits(s.scene, s.names, set_by_name));
+    add(warnings_about_layers(s.scene, s.names, set_by_name));
+    add(warnings_about_dressing(end, s.names));
     made["warnings"] = warnings;
     nb::list held;
     for (const HeldBack& part : end.held_back)

@@ -9,6 +9,7 @@
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/snapshot.h"
+#include "garmentfit/filters/warnings.h"
 
 namespace garmentfit::python {
 namespace {
@@ -105,10 +106,10 @@ Positions as_positions(const std::vector<double>& place, const std::string& join
 }
 
 /// Repairs may take seconds: other Python threads run meanwhile.
-BodyMesh body_from(const Frame& frame, const Positions& in_file, const Triangles& triangles)
+void put_body_in(PythonScene& made, const Positions& in_file, const Triangles& triangles)
 {
     const nb::gil_scoped_release other_threads_run;
-    return make_body(frame.to_metres(in_file), triangles);
+    put_body(made.scene, made.body_frame, in_file, triangles);
 }
 
 /// Reports to Python. Stops where progress returns False, or on Ctrl-C.
@@ -123,6 +124,16 @@ Progress progress_to(const nb::object& progress)
         const nb::object answer = progress(fraction, std::string(stage));
         return answer.is_none() || nb::cast<bool>(nb::bool_(answer));
     });
+}
+
+/// Adds the warnings about it to the scene.
+Frame guessed_frame(PythonScene& scene, const Positions& in_file, const Triangles& triangles,
+                    const GarmentChoice& choice, const std::string& name)
+{
+    const FrameGuess guess = garment_frame(in_file, triangles, scene.body_frame, choice, stature_of(*scene.scene.body));
+    for (const std::string& line : warnings_about_frame(name, guess, "garment_", set_by_name))
+        scene.frame_warnings.push_back(line);
+    return guess.frame;
 }
 
 /// Of this garment, where it has one of its own.
@@ -157,8 +168,10 @@ PythonScene scene_of_body(const NumbersIn& positions, const IndicesIn& triangles
     const Positions in_file = positions_from(positions);
     const Triangles faces = triangles_from(triangles);
     const BodySizes known = parameters_of(filter_of("rig"), sizes, { "height" }).body_sizes;
-    made.body_frame = body_frame(in_file, faces, { { unit, up }, known.height }).frame;
-    made.scene.body = body_from(made.body_frame, in_file, faces);
+    const FrameGuess guess = body_frame(in_file, faces, { { unit, up }, known.height });
+    made.body_frame = guess.frame;
+    made.frame_warnings = warnings_about_frame("the body", guess, "", set_by_name);
+    put_body_in(made, in_file, faces);
     made.front = front_of_body(made.body_frame, front);
     for (const auto& [name, place] : joints)
         joint_of(made.joints, name) = made.body_frame.to_metres(as_positions(place, name)).row(0);
@@ -170,7 +183,7 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
     PythonScene made;
     const FindArray find_array = find_with(find);
     made.body_frame = body_frame_from(find_array);
-    made.scene.body = body_from(made.body_frame, positions_from(positions), triangles_from(triangles));
+    put_body_in(made, positions_from(positions), triangles_from(triangles));
     made.scene.rig = rig_from(find_array, made.scene.body->surface.positions);
     if (fitted)
         made.scene.fits = fits_from(find_array);
@@ -186,8 +199,7 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
     const std::optional<Frame> known = garment_frame_from(find_with(find));
     const Parameters p = parameters_of(filter_of("fit"), sizes, { "garment_scale", "as_placed" });
     const GarmentChoice choice { { unit, up }, p.garment_sizes.scale, p.fit.as_placed, front };
-    const Frame frame
-        = known ? *known : garment_frame(in_file, faces, scene.body_frame, choice, stature_of(*scene.scene.body)).frame;
+    const Frame frame = known ? *known : guessed_frame(scene, in_file, faces, choice, name);
     scene.scene.garments.push_back({ make_garment(frame.to_metres(in_file), faces),
                                      garment_type_of(type),
                                      {},

@@ -20,6 +20,7 @@ struct PythonScene {
     Frame body_frame;
     std::vector<Frame> garment_frames;
     std::vector<std::string> names;
+    std::vector<std::string> frame_warnings;  ///< one line for each guess of unit, axes and scale that is uncertain
     std::optional<Vec3> front;
     GivenJoints joints;
     ClothOptions cloth;  ///< of the last step that moved the garments

@@ -493,7 +493,8 @@ TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_EQ(report.at("garments").at(0).at("file"), "coat.ply");
     EXPECT_EQ(report.at("garments").at(0).at("layer"), 1);
-    const Ended back = run({ "recover", draped, "--recovery-settling-steps", "2", "-o", folder / "dressed" });
+    const Ended back
+        = run({ "recover", draped, "--recovery-settling-steps", "2", "--quality", "draft", "-o", folder / "dressed" });
     EXPECT_EQ(back.code, 0) << back.err;
 
     fs::remove(draped / "coat.ply");  // as where it is too small
@@ -507,10 +508,13 @@ TEST_F(Slow, WritesAsManyFramesAsAskedForAndNoneStayFromAnEarlierRun)
 {
     const fs::path result = folder / "result";
     const auto dress = [&](const Arguments& more) {
-        Arguments arguments {
-            "dress", k_body,   k_skirt, "--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps",
-            "2",     "--json", "-o",    result
-        };
+        Arguments arguments { "dress", k_body,
+                              k_skirt, "--type",
+                              "skirt", "--settling-steps",
+                              "2",     "--recovery-settling-steps",
+                              "2",     "--quality",
+                              "draft", "--json",
+                              "-o",    result };
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Ended ended = run(arguments);
         EXPECT_EQ(ended.code, 0) << ended.err;
@@ -536,7 +540,7 @@ TEST_F(Slow, RemovesNoFolderThatItDidNotWrite)
     std::ofstream(result / "frames/holiday.txt") << "mine";
     std::ofstream(result / "report.json") << "{}";
     ASSERT_EQ(run({ "dress", k_body, k_skirt, "--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps",
-                    "2", "-o", result })
+                    "2", "--quality", "draft", "-o", result })
                   .code,
               0);
     EXPECT_EQ(read_text(result / "frames/holiday.txt"), "mine");
@@ -557,10 +561,14 @@ TEST_F(Slow, ChangesAllOrNothingWhereverItIsStopped)
 {
     const fs::path result = folder / "result";
     const auto arguments = [&](const char* density) {
-        return Arguments {
-            "dress", k_body,      k_skirt, "--type", "skirt", "--settling-steps", "2", "--recovery-settling-steps",
-            "2",     "--density", density, "-o",     result
-        };
+        return Arguments { "dress", k_body,
+                           k_skirt, "--type",
+                           "skirt", "--settling-steps",
+                           "2",     "--recovery-settling-steps",
+                           "2",     "--quality",
+                           "draft", "--density",
+                           density, "-o",
+                           result };
     };
     const fs::path earlier = folder / "earlier";
     const auto begin = std::chrono::steady_clock::now();

@@ -115,7 +115,7 @@ TEST(ClothMotion, AClothLaidOnABallRestsOnItWithItsWeight)
     const GarmentMesh rest { cloth.positions, cloth.triangles };
     ClothOptions options;
     ClothMotion motion(rest, rest.positions, ball, options);
-    const SettleResult settled = settle(motion, ball.positions, 150, 0, {});
+    const SettleResult settled = settle(motion, ball.positions, 150, {});
     EXPECT_LT(settled.speed, 0.02);
     const Positions x = motion.cloth();
     EXPECT_EQ(crossing_count({ x, cloth.triangles }, ball), 0);

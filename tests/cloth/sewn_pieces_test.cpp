@@ -81,7 +81,7 @@ Positions fall(const GarmentMesh& garment)
                                Vec3(0.03, -0.13, 0.03), Vec3(0.17, 0.01, 0.17), 0.01);
     const TriangleMesh obstacle = fixtures::joined(floor, peg);
     ClothMotion motion(garment, garment.positions, obstacle, {});
-    settle(motion, obstacle.positions, 60, 0, {});
+    settle(motion, obstacle.positions, 60, {});
     return motion.cloth();
 }
 
@@ -106,6 +106,24 @@ TEST(SewnPieces, SmallOnesAreTiedHoweverFarTheVerticesUnderThemAre)
 }
 
 TEST(SewnPieces, FarFromAnyClothAreFree) { expect_counts(sheet_with_button(0.03), 2, 0, 0, 1); }
+
+TEST(PieceShift, IsHowFarAPieceWentFromTheClothThatItLayOn)
+{
+    const GarmentMesh garment = sheet_with_button(0.004);
+    Positions fallen = garment.positions;
+    fallen.bottomRows(fallen.rows() - 400).col(1).array() -= 0.2;
+    EXPECT_NEAR(longest_piece_shift(garment, fallen), 0.192, 1e-9);  // from 4 mm above to 196 mm below
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vec3::UnitX()).toRotationMatrix();
+    EXPECT_NEAR(longest_piece_shift(garment, garment.positions * turn.transpose()), 0, 1e-9) << "both went together";
+}
+
+TEST(PieceShift, IsNoneOfPiecesThatLieBesideNoOther)
+{
+    const GarmentMesh garment = sheet_with_button(0.08);
+    Positions fallen = garment.positions;
+    fallen.bottomRows(fallen.rows() - 400).col(1).array() -= 0.2;
+    EXPECT_EQ(longest_piece_shift(garment, fallen), 0);
+}
 
 TEST(SewnPieces, OneAloneHasNothingToLieOn) { expect_counts(garment_of({ flat(5, 0.02, Vec3::Zero()) }), 1, 0, 0, 0); }
 

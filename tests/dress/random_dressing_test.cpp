@@ -112,6 +112,7 @@ TEST_P(RandomDressing, NothingCrosses)
     RecoverOptions recover;
     recover.settling_steps = 5;
     recover.frames = 4;
+    recover.quality = random.between(0, 1) < 0.5 ? Quality::draft : Quality::standard;
     const RecoverResult moved = recover_pose(rig, body, dressed, random_pose(random, 35), recover);
     for (const RecoverFrame& frame : moved.frames)
         expect_no_crossing(dressed.garments, frame.garments, { frame.body, skin });

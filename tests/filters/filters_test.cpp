@@ -53,9 +53,9 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     EXPECT_EQ(count_of(ClothOptions()), 9u);
     [[maybe_unused]] const auto [drape_cloth, growing, settling] = DrapeOptions();
     EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
-    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, settle_time, frames]
+    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, frames]
         = RecoverOptions();
-    EXPECT_EQ(count_of(RecoverOptions()), 8u + 5u);  // all of the cloth but how much larger it may be made
+    EXPECT_EQ(count_of(RecoverOptions()), 8u + 6u);  // all of the cloth but how much larger it may be made
 }
 
 TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)

@@ -53,6 +53,7 @@ Parameters short_settling()
 {
     Parameters parameters;
     parameters.drape.settling_steps = parameters.recover.settling_steps = 10;
+    parameters.recover.quality = Quality::draft;
     return parameters;
 }
 

@@ -31,6 +31,16 @@ TEST(DressingOutcome, NamesThePartsAtWhichAGarmentIsTooSmall)
         "larger would not be stretched there; in fleece, which gives 18%, it would do");
 }
 
+TEST(DressingOutcome, TellsLengthsInTheUnitOfTheFile)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->scale_reached = 0.876;
+    scene.draped->too_tight = { { 0, "chest", 0.031, 0.034 } };
+    scene.draped->unit = { 0.1, "dm" };
+    EXPECT_NE(explain(*final_dressing(scene), { "coat" }).find("it lacks 0.31 dm of girth"), std::string::npos);
+}
+
 TEST(DressingOutcome, NamesTheGarmentThatIsTightestAndItsOwnParts)
 {
     Scene scene = draped_scene();

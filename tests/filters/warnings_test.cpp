@@ -76,13 +76,18 @@ TEST(Warnings, SayHowManyPiecesLieOnNoOther)
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
 {
     Scene scene = worn_scene();
-    scene.draped->speed = 1.5;
+    scene.draped->residual = { 0.35, 2 };
     scene.draped->garments.pop_back();
     scene.draped->garments[0].size = 1.08;
     scene.draped->garments[0].slipped = 0.214;
+    scene.draped->garments[0].piece_shift = 0.12;
     EXPECT_EQ(warnings_of(scene),
-              (Lines { "the cloth is not at rest yet (1500 mm/s); give more settling steps", "skirt was made 8% larger",
-                       "skirt slipped down by 21 cm: it is too wide for this body to stay where it is worn",
+              (Lines { "the cloth is not at rest: forces on it are out of balance by 35 % of its weight on the mean; "
+                       "quality draft ends so, standard goes on where it can",
+                       "skirt was made 8% larger",
+                       "a piece of skirt went 120 mm away from the cloth that it lay on; join its border to that cloth "
+                       "in the garment's file",
+                       "skirt slipped down by 214 mm: it is too wide for this body to stay where it is worn",
                        "coat was not put on, because the garments under it were not certified" }));
 }
 

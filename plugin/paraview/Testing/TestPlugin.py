@@ -14,7 +14,7 @@ LoadPlugin(plugin, ns=globals())
 
 body = PLYReader(FileNames=[body_file])
 skirt = PLYReader(FileNames=[skirt_file])
-dress = DressBody(Body=body, Garments=skirt, Type="skirt", SettlingSteps=2, RecoverySettlingSteps=2, Frames=3)
+dress = DressBody(Body=body, Garments=skirt, Type="skirt", SettlingSteps=2, RecoverySettlingSteps=2, Quality="draft", Frames=3)
 assert list(dress.TimestepValues) == [0, 0.5, 1], dress.TimestepValues
 assert dress.ContactDistance == 0.0025
 assert dress.Density == "of the fabric"

@@ -10,10 +10,12 @@
 from ._core import Cancelled, InvalidInput, SolverFailure, TimeLimitReached, __version__
 from ._meshes import Mesh, read_mesh
 from ._steps import (Certificate, Conflict, DressedGarment, Dressing, Fit, FitOfGarment, FitVerdict, Frame,
-                     Garment, Girth, Overstretch, PlaceVerdict, Rig, dress, drape_garment, fit_skeleton, recover_pose, rig_body)
+                     Garment, Girth, Overstretch, PlaceVerdict, Rig, dress, drape_garment, fit_skeleton,
+                     recover_pose, rig_body)
 
 __all__ = [
     "Cancelled", "Certificate", "Conflict", "DressedGarment", "Dressing", "Fit", "FitOfGarment", "FitVerdict",
-    "Frame", "Garment", "Girth", "InvalidInput", "Mesh", "Overstretch", "PlaceVerdict", "Rig", "SolverFailure", "TimeLimitReached", "__version__",
-    "drape_garment", "dress", "fit_skeleton", "read_mesh", "recover_pose", "rig_body",
+    "Frame", "Garment", "Girth", "InvalidInput", "Mesh", "Overstretch", "PlaceVerdict", "Rig", "SolverFailure",
+    "TimeLimitReached", "__version__", "drape_garment", "dress", "fit_skeleton", "read_mesh",
+    "recover_pose", "rig_body",
 ]

@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[3]
 SAMPLES = ROOT / "docs" / "samples"
 BODY = ROOT / "tests" / "bodies" / "woman_t_pose.ply"
 SKIRT = SAMPLES / "skirt.ply"
-QUICK = dict(type="skirt", settling_steps=2, recovery_settling_steps=2)
+QUICK = dict(type="skirt", settling_steps=2, recovery_settling_steps=2, quality="draft")
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ def run(*words):
 
 def test_dresses_to_the_same_numbers_as_the_functions(body, skirt, tmp_path):
     done = run("dress", BODY, SKIRT, "--type", "skirt", *SETTLE, "--recovery-settling-steps", "2",
-               "-o", tmp_path / "out")
+               "--quality", "draft", "-o", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert "written to" in done.stdout or "certified" in done.stdout, done.stdout
     result = garmentfit.dress(body, skirt, **QUICK)
@@ -33,7 +33,7 @@ def test_dresses_to_the_same_numbers_as_the_functions(body, skirt, tmp_path):
 def test_has_every_step_and_their_files(tmp_path):
     for words in (["rig", BODY], ["fit", BODY, SKIRT, "--type", "skirt", "--rig", tmp_path / "rig" / "rig.json"],
                   ["drape", tmp_path / "fit", *SETTLE],
-                  ["recover", tmp_path / "drape", "--recovery-settling-steps", "2"]):
+                  ["recover", tmp_path / "drape", "--recovery-settling-steps", "2", "--quality", "draft"]):
         done = run(*words, "-o", tmp_path / words[0])
         assert done.returncode == 0, done.stderr
     assert (tmp_path / "recover" / "skirt.ply").exists()

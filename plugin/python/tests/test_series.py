@@ -13,7 +13,7 @@ from garmentfit.vtk import DrapeGarment, DressBody, FitSkeleton, RecoverPose, Ri
 @pytest.fixture(scope="module")
 def chain():
     rig, fit, drape, recover = steps = (RigBody(), FitSkeleton(type="skirt"), DrapeGarment(settling_steps=2),
-                                        RecoverPose(recovery_settling_steps=2, frames=3))
+                                        RecoverPose(recovery_settling_steps=2, quality="draft", frames=3))
     rig.SetInputData(pyvista.read(BODY))
     fit.SetInputConnection(0, rig.GetOutputPort(0))
     fit.SetInputData(1, pyvista.read(SKIRT))

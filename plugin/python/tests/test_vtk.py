@@ -62,6 +62,7 @@ def test_the_same_numbers_as_the_functions(dress, body, skirt):
 def test_a_chain_gives_the_same_and_does_not_rig_again(dress, sources):
     rig, fit, drape, recover = RigBody(), FitSkeleton(type="skirt"), DrapeGarment(settling_steps=2), RecoverPose()
     recover.recovery_settling_steps = 2
+    recover.quality = "draft"
     rig.SetInputConnection(sources[0].GetOutputPort())
     fit.SetInputConnection(0, rig.GetOutputPort())
     fit.SetInputConnection(1, sources[1].GetOutputPort())

@@ -171,12 +171,16 @@ Snapshot FilterState::snapshot(double time) const { return snapshot_of(known_.sc
 
 std::vector<std::string> FilterState::warnings() const
 {
-    std::vector<std::string> lines = warnings_about_layers(known_.scene, known_.garment_names, set_by_name);
+    std::vector<std::string> lines = known_.body_frame_warnings;
+    const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    add(known_.garment_frame_warnings);
+    if (filter.has(Stage::fit))
+        add(warnings_about_fits(known_.scene, known_.garment_names, set_by_name));
+    add(warnings_about_layers(known_.scene, known_.garment_names, set_by_name));
     const Dressing* dressing = final_dressing(known_.scene);
     if (!dressing)
         return lines;
-    const std::vector<std::string> warnings = warnings_about_dressing(*dressing, known_.garment_names);
-    lines.insert(lines.end(), warnings.begin(), warnings.end());
+    add(warnings_about_dressing(*dressing, known_.garment_names));
     if (!dressing->certified)
         lines.insert(lines.begin(), explain(*dressing, known_.garment_names));
     return lines;

@@ -5,6 +5,7 @@
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/scene_arrays.h"
 #include "garmentfit/filters/snapshot.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/number_text.h"
 #include "named_arrays.h"
 #include "polydata.h"
@@ -58,13 +59,15 @@ GivenJoints joints(const Hints& hints, const Frame& frame)
 
 void set_body(KnownScene& known, const TriangleMesh& mesh)
 {
-    known.scene.body = make_body(known.body_frame.to_metres(mesh.positions), mesh.triangles);
+    put_body(known.scene, known.body_frame, mesh.positions, mesh.triangles);
 }
 
 KnownScene unknown_body(const TriangleMesh& mesh, const Hints& hints, const BodySizes& sizes)
 {
     KnownScene known;
-    known.body_frame = body_frame(mesh.positions, mesh.triangles, { frame_choice(hints, ""), sizes.height }).frame;
+    const FrameGuess guess = body_frame(mesh.positions, mesh.triangles, { frame_choice(hints, ""), sizes.height });
+    known.body_frame = guess.frame;
+    known.body_frame_warnings = warnings_about_frame("the body", guess, "", set_by_name);
     set_body(known, mesh);
     return known;
 }
@@ -94,9 +97,13 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
     std::optional<Frame> frame;
     if (seen)
         frame = garment_frame_from(find_in(garment));
-    if (!frame)
-        frame = garment_frame(mesh.positions, mesh.triangles, known.body_frame, choice, stature_of(*known.scene.body))
-                    .frame;
+    if (!frame) {
+        const FrameGuess guess
+            = garment_frame(mesh.positions, mesh.triangles, known.body_frame, choice, stature_of(*known.scene.body));
+        frame = guess.frame;
+        for (const std::string& line : warnings_about_frame(name, guess, "garment_", set_by_name))
+            known.garment_frame_warnings.push_back(line);
+    }
     known.garment_frames.push_back(*frame);
     known.scene.garments.push_back({ make_garment(frame->to_metres(mesh.positions), mesh.triangles),
                                      given_type(garment),
@@ -143,6 +150,7 @@ void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garme
 {
     known.scene.garments.clear();
     known.garment_frames.clear();
+    known.garment_frame_warnings.clear();
     known.garment_names = garment_names_in(garments);
     const bool seen = filter.reads(Data::fits) || filter.reads(Data::draped);
     for (vtkPolyData* garment : garments_in(garments))

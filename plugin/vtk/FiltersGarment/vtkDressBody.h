@@ -38,7 +38,7 @@ public:
 
     /// Parameters of the return to the input pose.
     vtkFitRecoveryParametersMacro();
-    vtkFitFramesParameterMacro();
+    vtkFitEndParametersMacro();
 
     /// The time that an execution may take.
     vtkFitTimeLimitMacro();

@@ -59,10 +59,12 @@
 #define vtkFitRecoveryParametersMacro()                                                                                \
     vtkFitNumberMacro(RecoverySteps, int, recovery_steps);                                                             \
     vtkFitNumberMacro(RecoveryStepLength, double, recovery_step_length);                                               \
-    vtkFitNumberMacro(RecoverySettlingSteps, int, recovery_settling_steps);                                            \
-    vtkFitNumberMacro(SettleTime, double, settle_time)
+    vtkFitNumberMacro(RecoverySettlingSteps, int, recovery_settling_steps)
 
-#define vtkFitFramesParameterMacro() vtkFitNumberMacro(Frames, int, frames)
+#define vtkFitEndParametersMacro()                                                                                     \
+    vtkFitChoiceMacro(Quality, quality);                                                                               \
+    vtkFitNumberMacro(SettleTime, double, settle_time);                                                                \
+    vtkFitNumberMacro(Frames, int, frames)
 
 #define vtkFitTimeLimitMacro() vtkFitNumberMacro(TimeLimit, double, time_limit)
 

@@ -60,10 +60,9 @@ GARMENTFIT_API Material material_of(const ClothOptions& options, Fabric fabric);
 /// @param stretch  l / l0 - 1
 GARMENTFIT_API std::optional<Fabric> fabric_that_gives(double stretch, double present);
 
-/// m/s. Cloth counts as settled when no vertex is faster than this.
-/// fitted: guess, on the house data, where cloth that looks at rest still creeps by some millimetres a second. It
-/// stands here because programs compare speeds with it, too.
-constexpr double k_at_rest = 0.02;
+/// unit: a share of the weight of a vertex's cloth. Forces balance where no more is left of them on the mean, and ten
+/// times as much in 99 of 100 vertices.
+constexpr double k_balanced = 0.02;
 
 /// What is left of all forces on the cloth at the end: elastic forces, gravity, contact, and friction inside its cone.
 /// Dimensionless, shares of the weight of each vertex's cloth.
@@ -71,8 +70,7 @@ struct ForceResidual {
     double mean = 0;
     double percentile_99 = 0;
 
-    /// unit: what counts as a static equilibrium.
-    bool is_at_rest() const { return mean <= 0.02 && percentile_99 <= 0.2; }
+    bool is_at_rest() const { return mean <= k_balanced && percentile_99 <= 10 * k_balanced; }
 };
 
 /// Where the time of moving cloth went, s, by the wall clock.

@@ -48,12 +48,13 @@ struct HeldBack {
 struct WornGarment {
     GarmentMesh rest;  ///< as given without closed ends, or enlarged: edge lengths and folds
     Positions positions;  ///< as worn, n x 3
-    Certificate certificate;
+    Certificate certificate = {};
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
     /// m that it sank along the body since it was put on, by the median of its vertices. A large value: the garment is
     /// too wide to stay.
     double slipped = 0;
     PieceCounts pieces = {};  ///< how it was held together
+    double piece_shift = 0;  ///< m; longest_piece_shift()
     int closed_ends = 0;  ///< flat caps at its ends, whose faces `rest` leaves out: a hand, foot or head passes there
     std::optional<Fabric> fabric = {};  ///< what it is made of, where not of the fabric of ClothOptions
 };
@@ -81,8 +82,7 @@ struct DrapeResult : DressedBody {
     double scale_reached = 1;
     std::vector<TooTight> too_tight;
     std::vector<HeldBack> held_back;  ///< parts that cloth holds back from their places at full size; worst first
-    /// m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest. None below full size: then nothing
-    /// settles.
+    /// m/s, of the fastest vertex of the cloth in the last settling step. None below full size: then nothing settles.
     std::optional<double> speed;
     bool certified = false;  ///< every garment's certificate is clean and the body has its full size
     /// The deadline of the Progress passed: the body is at the scale it had reached, or the cloth is not settled.

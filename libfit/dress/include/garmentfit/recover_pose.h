@@ -8,21 +8,27 @@
 // Units, cost and promise as in drape_garment.h.
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "garmentfit/drape_garment.h"
 
 namespace garmentfit {
 
+/// How far cloth is led at the end. `standard`: until the forces on it balance. `draft`: it only hangs for the settling
+/// steps, in a fraction of the time; it is certified as well, but would go on to slide.
+enum class Quality { standard, draft };
+/// "standard", "draft".
+GARMENTFIT_API const std::vector<std::string_view>& quality_names();
+
 /// Defaults are fitted: guesses on the pairs that dress/tuning.h names.
 struct RecoverOptions {
     ClothOptions cloth;
     int largest_steps = 200;  ///< no more steps along the path than these; they get longer instead
     double step_length = 0.015;  ///< m; nothing under cloth moves further in a step, as far as largest_steps permits
-    int settling_steps = 60;  ///< time steps under gravity, at the end
-    /// s, of simulated time: the cloth then goes on until forces balance, for so long at most. About two seconds of
-    /// computing for each at 12,000 vertices. Not where parts of the body are held back.
-    double settle_time = 0;
+    int settling_steps = 20;  ///< time steps under gravity, once the target is reached
+    Quality quality = Quality::standard;  ///< where parts of the body are held back, always a draft
+    double settle_time = 0;  ///< s, of simulated time to go on for after rest
     /// States along the path to return, evenly spread, both ends included; 1: the end alone; 0: none. A frame is where
     /// a step ends, so there are at least frames - 1 steps.
     int frames = 0;
@@ -53,8 +59,9 @@ struct RecoverResult : DressedBody {
     /// part more than 8 cm behind, or time ran out, and it was put back to the last share at which all of it was in
     /// place.
     double pose_reached = 0;
-    double speed = 0;  ///< m/s, of the fastest vertex of the cloth at the end; settled below k_at_rest
-    std::optional<ForceResidual> residual;  ///< at the end; none where time ran out
+    double speed = 0;  ///< m/s, of the fastest vertex of the cloth in the last settling step
+    /// At the end. Without friction where the quality is a draft; none where time ran out before.
+    std::optional<ForceResidual> residual;
     bool certified = false;  ///< target reached, nothing too tight, every certificate clean
     bool out_of_time = false;  ///< the deadline of the Progress passed, on the path or before the cloth was settled
     ClothSeconds seconds;

@@ -89,6 +89,7 @@ void shorten(vtkDressBody& filter)
     filter.SetTypeByName("shorts");
     filter.SetSettlingSteps(2);
     filter.SetRecoverySettlingSteps(2);
+    filter.SetQualityByName("draft");
 }
 
 // ---- outputs --------------------------------------------------------------------------------------------
@@ -158,6 +159,7 @@ struct Chain {
         fit->SetTypeByName("shorts");
         drape->SetSettlingSteps(2);
         recover->SetRecoverySettlingSteps(2);
+        recover->SetQualityByName("draft");
     }
 };
 
@@ -194,6 +196,7 @@ Scene dressed_by_the_filters()
     Parameters p;
     p.fit.type = GarmentType::shorts;
     p.drape.settling_steps = p.recover.settling_steps = 2;
+    p.recover.quality = garmentfit::Quality::draft;
     filter_of("dress").run(scene, p);
     return scene;
 }
