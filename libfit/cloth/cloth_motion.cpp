@@ -9,6 +9,7 @@
 #include "garmentfit/stopwatch.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
+#include "surface_measures.h"
 
 namespace garmentfit {
 namespace {
@@ -36,6 +37,17 @@ std::vector<std::pair<int, int>> find_crossing_pairs(const PreparedCloth& cloth)
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
+}
+
+std::vector<double> vertex_areas(const GarmentMesh& rest)
+{
+    std::vector<double> areas(std::size_t(rest.positions.rows()), 0);
+    for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
+        const double third = area_vector(rest.positions, rest.triangles, f).norm() / 3;
+        for (const int v : rest.triangles.row(f))
+            areas[v] += third;
+    }
+    return areas;
 }
 
 Positions stack(const Positions& cloth, const Positions& obstacle)
@@ -121,7 +133,7 @@ ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const Cl
                          const std::vector<Fabric>& fabrics) :
     options_(options),
     materials_(options, fabrics, std::move(cloth.garments)), weld_(std::move(cloth.weld)), rest_(cloth.rest),
-    topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())),
+    topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())), areas_(vertex_areas(rest_)),
     self_contact_distance_(std::min(options_.contact_distance,
                                     k_self_contact_edges * mean_edge_length(rest_.positions, topology_.edges()))),
     contact_({ rest_.triangles, topology_.edges(), cloth_vertices_ },
@@ -149,6 +161,7 @@ double ClothMotion::contact_distance(ContactReason reason) const
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
     rest_ = weld_.gather(rest);
+    areas_ = vertex_areas(rest_);
     energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_);
 }
 
@@ -229,6 +242,17 @@ Material ClothMotion::material_at(const ContactPair& pair) const
     return second < cloth_vertices_ ? mixed(materials_.at(first), materials_.at(second)) : materials_.at(first);
 }
 
+// Of the cloth that takes part in a contact: around the point of contact, the smaller of two pieces.
+double ClothMotion::area_at(const ContactPair& pair) const
+{
+    const int first_size = pair.kind == PairKind::vertex_face ? 1 : 2;
+    double areas[2] = { 0, 0 };
+    for (int k = 0; k < 4; ++k)
+        if (const int v = pair.vertices[k]; v < cloth_vertices_)
+            areas[k >= first_size] += std::abs(pair.at.weights[k]) * areas_[v];
+    return areas[0] > 0 && areas[1] > 0 ? std::min(areas[0], areas[1]) : areas[0] + areas[1];
+}
+
 // A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
 // law.
 std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<ActiveContact>& contacts,
@@ -237,7 +261,9 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
     std::vector<SoftConstraint> result;
     for (const ActiveContact& contact : contacts) {
         const Material material = material_at(contact.pair);
-        const double contact_stiffness = step.contact_stiffness * material.stretch_stiffness;
+        double contact_stiffness = step.contact_stiffness * material.stretch_stiffness;
+        if (step.contact_area > 0)
+            contact_stiffness *= area_at(contact.pair) / step.contact_area;
         const double friction = step.friction_fraction * material.friction;
         const Vec3& normal = contact.normal;
         SoftConstraint constraint { contact.pair.vertices, contact.pair.at.weights,

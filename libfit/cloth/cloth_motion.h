@@ -34,6 +34,8 @@ struct MotionStep {
     double contact_stiffness = k_pushing_contact_stiffness;  ///< in stretch stiffnesses of the cloth
     /// m; the depth within which contact grows to its stiffness. 0: it is as stiff from the first touch on
     double contact_softening = 0;
+    /// m^2; the area of cloth whose contact has that stiffness, in proportion. 0: each contact has it
+    double contact_area = 0;
     int iterations = k_moving_iterations;  ///< of conjugate gradients
 };
 
@@ -108,6 +110,7 @@ private:
     std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
     static bool passes_by(const ActiveContact& contact, const Positions& targets);
     Material material_at(const ContactPair& pair) const;
+    double area_at(const ContactPair& pair) const;
     std::vector<SoftConstraint> contact_constraints(const std::vector<ActiveContact>& contacts,
                                                     const Positions& targets, const MotionStep& step) const;
     void remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before, const MotionStep& step);
@@ -118,6 +121,7 @@ private:
     GarmentMesh rest_;  // welded
     MeshTopology topology_;  // of rest_
     int cloth_vertices_;
+    std::vector<double> areas_;  // m^2, of the cloth around each of its vertices at rest
     double self_contact_distance_;  // m
     ContactDetector contact_;
     Positions x_;  // cloth, then obstacle

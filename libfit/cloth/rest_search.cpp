@@ -48,6 +48,7 @@ public:
     {
         step_.contact_stiffness = k_settling_contact_stiffness;
         step_.contact_softening = k_contact_softening;
+        step_.contact_area = k_contact_area;
         find_forces();
     }
 
@@ -170,16 +171,12 @@ private:
                                      { -contact.weights[1], -contact.weights[2], -contact.weights[3] },
                                      force,
                                      material(v, a).friction,
-                                     material(v, a).stretch_stiffness });
+                                     spring_stiffness(v, a) });
         }
         for (int v = 0; v < int(x.rows()); ++v)
             if (const Vec3 push = pushes.row(v).transpose(); push.norm() > 0)
-                result.push_back({ v,
-                                   { -1, -1, -1 },
-                                   { 0, 0, 0 },
-                                   push,
-                                   material(v, v).friction,
-                                   material(v, v).stretch_stiffness });
+                result.push_back(
+                    { v, { -1, -1, -1 }, { 0, 0, 0 }, push, material(v, v).friction, spring_stiffness(v, v) });
         std::stable_sort(on_cloth.begin(), on_cloth.end(), [](const auto& one, const auto& other) {
             return one.vertex != other.vertex ? one.vertex < other.vertex : one.force.norm() > other.force.norm();
         });
@@ -188,6 +185,12 @@ private:
             if (std::exchange(last, touch.vertex) != touch.vertex && touch.force.norm() > 0)
                 result.push_back(touch);
         return result;
+    }
+
+    /// N/m, of the spring by which friction holds a vertex.
+    double spring_stiffness(int v, int other) const
+    {
+        return material(v, other).stretch_stiffness * motion_.areas_[v] / k_contact_area;
     }
 
     Material material(int v, int other) const { return mixed(motion_.materials_.at(v), motion_.materials_.at(other)); }

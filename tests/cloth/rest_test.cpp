@@ -184,6 +184,25 @@ TEST(FindRest, IsWhereGoingOnMovesNothing)
     EXPECT_LT(moved.maxCoeff(), 5e-3);
 }
 
+/// m; how far a square sheet of these edges sinks into the contact distance over a table.
+double depth_on_a_table(int vertices_a_side, double edge)
+{
+    const TriangleMesh table = flat(3, 0.3, Vec3(-0.3, 0, -0.3));
+    const double half = 0.5 * (vertices_a_side - 1) * edge;
+    const ClothOptions options;
+    const TriangleMesh cloth = flat(vertices_a_side, edge, Vec3(-half, options.contact_distance, -half));
+    ClothMotion motion(GarmentMesh { cloth.positions, cloth.triangles }, cloth.positions, table, options);
+    EXPECT_TRUE(motion.find_rest(0, {}).residual.is_at_rest());
+    return options.contact_distance - motion.cloth().col(1).mean();
+}
+
+TEST(FindRest, LetsClothSinkEquallyFarOnFineAndCoarseMeshes)
+{
+    const double coarse = depth_on_a_table(9, 0.02), fine = depth_on_a_table(33, 0.005);
+    EXPECT_GT(coarse, 1e-6);
+    EXPECT_NEAR(fine / coarse, 1, 0.15);  // a quarter, where each contact is as stiff
+}
+
 TEST(FindRest, LetsASheetWithoutFrictionSlideOff)
 {
     const TriangleMesh obstacle = ball(), cloth = sheet(k_ball + 0.0035);
