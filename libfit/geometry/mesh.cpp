@@ -1,16 +1,67 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/mesh.h"
 
+#include <algorithm>
 #include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include "closed_surface.h"
 #include "garmentfit/error.h"
+#include "garmentfit/number_text.h"
 #include "named_vertices.h"
 #include "surface_measures.h"
 #include "topology.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
+
+std::vector<int> vertices_of_faces(Eigen::Index vertices, const Triangles& triangles)
+{
+    std::vector<char> is_used(std::size_t(vertices), 0);
+    for (const int v : triangles.reshaped())
+        is_used[v] = 1;
+    std::vector<int> result;
+    for (int v = 0; v < int(vertices); ++v)
+        if (is_used[v])
+            result.push_back(v);
+    return result;
+}
+
+/// The box of all vertices but few at either end of each axis.
+Eigen::AlignedBox3d usual_box(const Positions& positions, const std::vector<int>& vertices)
+{
+    const std::ptrdiff_t n = std::ptrdiff_t(vertices.size()),
+                         left_out = n < k_fewest_for_strays ? 0 : std::max(n / k_vertices_a_stray, std::ptrdiff_t(1));
+    Eigen::AlignedBox3d box;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> places;
+        for (const int v : vertices)
+            places.push_back(positions(v, axis));
+        std::nth_element(places.begin(), places.begin() + left_out, places.end());
+        box.min()[axis] = places[left_out];
+        std::nth_element(places.begin(), places.end() - 1 - left_out, places.end());
+        box.max()[axis] = places[n - 1 - left_out];
+    }
+    return box;
+}
+
+/// Exact predicates take for ever on triangles that span hundreds of powers of two.
+void require_no_stray(const std::string& name, const Positions& positions, const Triangles& triangles)
+{
+    const std::vector<int> vertices = vertices_of_faces(positions.rows(), triangles);
+    const Eigen::AlignedBox3d box = usual_box(positions, vertices);
+    const Vec3 middle = box.min() + 0.5 * (box.max() - box.min());
+    const double size = (box.max() - box.min()).stableNorm();
+    for (const int v : vertices)
+        if (const double away = (positions.row(v).transpose() - middle).stableNorm(); !(away <= k_stray_reach * size))
+            throw InvalidInput(ErrorCode::degenerate_mesh,
+                               name + ": vertex " + std::to_string(v) + " lies " + rounded_text(away / size, 2)
+                                   + " times as far away as the other vertices reach; remove it with its faces, or "
+                                     "repair the file");
+}
 
 void check(const char* what, const Positions& positions, const Triangles& triangles)
 {
@@ -22,6 +73,7 @@ void check(const char* what, const Positions& positions, const Triangles& triang
             throw InvalidInput(ErrorCode::not_finite,
                                name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
     require_named_vertices(name, positions.rows(), triangles);
+    require_no_stray(name, positions, triangles);
 }
 
 }  // namespace

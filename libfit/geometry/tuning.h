@@ -7,6 +7,14 @@
 
 namespace garmentfit {
 
+// ---- mesh.cpp -------------------------------------------------------------------------------------------------------
+
+/// Dimensionless. A vertex is astray where it is further from the middle than this many diagonals of the box of the
+/// others. One in so many vertices may be astray at either end of an axis, of meshes with at least so many vertices.
+/// fitted: guess; whole bodies and garments reach less than two diagonals.
+inline constexpr double k_stray_reach = 100;
+inline constexpr int k_vertices_a_stray = 100, k_fewest_for_strays = 16;
+
 // ---- closed_surface.cpp ---------------------------------------------------------------------------------------------
 
 /// Dimensionless, shares of the diagonal. Distances within which vertices become one, tried in turn: 2 micrometres of a

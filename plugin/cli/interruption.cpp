@@ -1,21 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interruption.h"
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <ctime>
+#include <utility>
 
 #include "garmentfit/error.h"
 
 namespace garmentfit::cli {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+constexpr double k_time_to_stop = 0.7;  // unit: s
+constexpr double k_time_to_finish = 10;  // unit: s, at least
 
-void raise_flag(int) { g_interrupted = 1; }
+volatile std::sig_atomic_t g_interrupted = 0;
+timer_t g_timer;  // rings on a thread of its own
+std::function<void(ForcedEnd)> g_end;
+
+// Of what POSIX allows in a handler of signals.
+void ring_in(double seconds)
+{
+    itimerspec when {};
+    when.it_value.tv_sec = std::time_t(seconds);
+    when.it_value.tv_nsec = long(1e9 * (seconds - std::floor(seconds)));
+    timer_settime(g_timer, 0, &when, nullptr);
+}
+
+void raise_flag(int)
+{
+    g_interrupted = 1;
+    ring_in(k_time_to_stop);
+}
+
+void force_end(sigval) { g_end(g_interrupted ? ForcedEnd::stopped : ForcedEnd::time_limit); }
 
 }  // namespace
 
-void watch_interruption()
+void watch_interruption(std::function<void(ForcedEnd)> end)
 {
+    const bool is_first = !g_end;
+    g_end = std::move(end);
+    sigevent event {};
+    event.sigev_notify = SIGEV_THREAD;
+    event.sigev_notify_function = force_end;
+    if (is_first)
+        timer_create(CLOCK_MONOTONIC, &event, &g_timer);
     struct sigaction action { };
     action.sa_handler = raise_flag;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
@@ -30,5 +61,13 @@ void stop_if_interrupted()
     if (interrupted())
         throw Cancelled();
 }
+
+void watch_time_limit(double seconds)
+{
+    if (seconds > 0 && !interrupted())
+        ring_in(seconds + std::max(seconds, k_time_to_finish));
+}
+
+void stop_watching() { ring_in(0); }
 
 }  // namespace garmentfit::cli

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Ctrl-C, passed to libfit through Progress.
+// The ends that come from outside: Ctrl-C and the time limit. Work that asks Progress ends by itself, with what it has
+// to say. A step inside a library that asks nothing is ended here, a little later.
+
+#include <filesystem>
+#include <functional>
 
 namespace garmentfit::cli {
 
-/// The first SIGINT or SIGTERM only raises a flag; a second one ends the program at once.
-void watch_interruption();
+enum class ForcedEnd { stopped, time_limit };
+
+/// The first SIGINT or SIGTERM only raises a flag, and leaves the program 0.7 s; a second one ends it at once.
+/// @param end  for an end that is forced, on a thread of its own: tells it and ends the process
+void watch_interruption(std::function<void(ForcedEnd)> end);
 bool interrupted();
 /// @throws Cancelled when interrupted.
 void stop_if_interrupted();
+
+/// Forces an end where the program still runs at twice this time, and at least 10 s after it. 0: no limit.
+void watch_time_limit(double seconds);
+/// From here on nothing is forced: the program is about to end, or to put finished files in their place.
+void stop_watching();
 
 }  // namespace garmentfit::cli

@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int k_attempts = 10;  // unit: a file may come while the folder is emptied
+
 fs::path without_trailing_slash(const fs::path& path)
 {
     const fs::path normal = fs::absolute(path).lexically_normal();
@@ -64,10 +66,12 @@ void move_into(const fs::path& from, const fs::path& to)
 
 OutputFolder::OutputFolder(const fs::path& place) : place_(without_trailing_slash(place)) { require_writable(place_); }
 
-OutputFolder::~OutputFolder()
+OutputFolder::~OutputFolder() { abandon(); }
+
+void OutputFolder::abandon() const
 {
     std::error_code ignored;
-    if (!draft_.empty())
+    for (int attempt = 0; attempt < k_attempts && !draft_.empty() && fs::exists(draft_, ignored); ++attempt)
         fs::remove_all(draft_, ignored);
     for (auto parent = made_parents_.rbegin(); parent != made_parents_.rend(); ++parent)
         fs::remove(*parent, ignored);  // only where empty

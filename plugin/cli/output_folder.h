@@ -23,6 +23,8 @@ public:
     /// Moves what was written to the final folder. Other files there stay, except those that are `outdated` (names of
     /// files and folders) and were not written again.
     void publish(const std::vector<std::string>& outdated);
+    /// What the destructor does, for a process that ends without it: also while somebody still writes there.
+    void abandon() const;
 
     const std::filesystem::path& place() const { return place_; }
 

@@ -2,10 +2,13 @@
 #include "program.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
@@ -112,12 +115,39 @@ void write(const Call& call, Session& session, OutputFolder& folder)
                                + ": cannot be written; check the space left on the disk");
     file.close();
     stop_if_interrupted();
+    stop_watching();
     folder.publish(outdated(call, session, folder));
     if (call.json)
         std::cout << report;
     else if (!call.quiet)
         std::cout << summary(call, session);
 }
+
+/// The folder that a forced end abandons, from a thread of its own.
+class Abandonable {
+public:
+    explicit Abandonable(const OutputFolder& folder) { set(&folder); }
+    ~Abandonable() { set(nullptr); }
+    Abandonable(const Abandonable&) = delete;
+    Abandonable& operator=(const Abandonable&) = delete;
+
+    static void abandon()
+    {
+        const std::lock_guard lock(mutex_);
+        if (folder_)
+            folder_->abandon();
+    }
+
+private:
+    static void set(const OutputFolder* folder)
+    {
+        const std::lock_guard lock(mutex_);
+        folder_ = folder;
+    }
+
+    static inline std::mutex mutex_;
+    static inline const OutputFolder* folder_ = nullptr;
+};
 
 int run(int argc, char** argv)
 {
@@ -133,7 +163,9 @@ int run(int argc, char** argv)
     if (call->threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, call->threads);
     const Deadline deadline = Deadline::in(call->parameters.time_limit);
+    watch_time_limit(call->parameters.time_limit);
     OutputFolder folder(call->out);
+    const Abandonable abandonable(folder);
     Session session = read(*call);
     stop_if_interrupted();
     compute(*call, session, deadline);
@@ -154,20 +186,38 @@ bool asks_for_json(int argc, char** argv)
 /// One line for people; for programs, its code too.
 int fail(int exit_code, std::string_view code, const std::string& message, bool json)
 {
+    static std::atomic_flag has_failed;
+    if (has_failed.test_and_set())  // the work ended by itself when it was about to be ended
+        return exit_code;
     std::cerr << "garmentfit: " << message << '\n';
     if (json)
-        std::cout << error_json(code, message);
+        std::cout << error_json(code, message) << std::flush;
     return exit_code;
+}
+
+/// What the program says where it had to be ended. Leaves no draft of results behind.
+void end_at_once(ForcedEnd why, bool json)
+{
+    Abandonable::abandon();
+    const int code = why == ForcedEnd::stopped
+        ? fail(k_stopped, "cancelled", Cancelled().what(), json)
+        : fail(k_not_certified, "time_limit",
+               "time_limit: it was reached in a step that could not end by itself; repair or simplify the meshes, or "
+               "give more time, or 0 for no limit",
+               json);
+    std::_Exit(code);
 }
 
 }  // namespace
 
 int run_program(int argc, char** argv)
 {
-    watch_interruption();
     const bool json = asks_for_json(argc, argv);
+    watch_interruption([json](ForcedEnd why) { end_at_once(why, json); });
     try {
-        return run(argc, argv);
+        const int code = run(argc, argv);
+        stop_watching();
+        return code;
     } catch (const Cancelled& stopped) {
         return fail(k_stopped, "cancelled", stopped.what(), json);
     } catch (const TimeLimitReached& error) {

@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -336,6 +337,38 @@ TEST_F(CommandLine, LeavesNothingBehindWhenStopped)
         EXPECT_EQ(ended.error_lines(), 1) << ended.err;
         expect_only_streams_and_inputs();
     }
+}
+
+/// A pipe that nobody writes to: whoever opens it waits for ever.
+fs::path silent_pipe(const fs::path& folder)
+{
+    const fs::path pipe = folder / "never.json";
+    EXPECT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    return pipe;
+}
+
+TEST_F(CommandLine, EndsWithinASecondOfASignalWhereItWaitsForEver)
+{
+    const fs::path pipe = silent_pipe(folder);
+    for (const int signal : { SIGINT, SIGTERM }) {
+        const pid_t pid = start({ "rig", k_body, "--joints", pipe, "-o", folder / "result" });
+        wait_until_caught(pid, signal);
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until it waits
+        kill(pid, signal);
+        const Ended ended = wait_for(pid);
+        EXPECT_EQ(ended.code, 130) << ended.err;
+        EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+        EXPECT_FALSE(fs::exists(folder / "result"));
+    }
+}
+
+TEST_F(CommandLine, EndsAfterItsTimeLimitWhereItWaitsForEver)
+{
+    const Ended ended = run(
+        { "rig", k_body, "--joints", silent_pipe(folder), "--time-limit", "0.1", "--json", "-o", folder / "result" });
+    EXPECT_EQ(ended.code, 4) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("error").at("code"), "time_limit") << ended.out;
+    EXPECT_FALSE(fs::exists(folder / "result"));
 }
 
 TEST_F(CommandLine, RigsABodyIntoAFolderThatExistsAlready)

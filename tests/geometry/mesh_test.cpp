@@ -216,4 +216,28 @@ TEST(EdgesOf, GivesEachEdgeOnceInOrder)
     EXPECT_EQ(edges_of(two), edges);
 }
 
+TEST(MakeBody, RefusesAVertexFarFromAllOthers)
+{
+    for (const double far : { 1e3, 1e30, 1e200 }) {
+        TriangleMesh mesh = ball(Vec3(5, 0, 0), 0.5, 0.1);
+        mesh.positions(17, 1) = far;
+        try {
+            make_body(mesh.positions, mesh.triangles);
+            FAIL() << far;
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(error.code(), ErrorCode::degenerate_mesh);
+            EXPECT_NE(std::string(error.what()).find("vertex 17 "), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(MakeBody, DoesNotMindVerticesWithoutFacesFarAway)
+{
+    TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    const Eigen::Index n = mesh.positions.rows();
+    mesh.positions.conservativeResize(n + 1, 3);
+    mesh.positions.row(n).setConstant(1e3);
+    EXPECT_NO_THROW(make_body(mesh.positions, mesh.triangles));
+}
+
 }  // namespace
