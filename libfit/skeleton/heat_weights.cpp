@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "cotangent_laplacian.h"
 #include "garmentfit/error.h"
 #include "segment.h"
 #include "tuning.h"
@@ -16,7 +17,6 @@ namespace {
 
 using namespace skeleton_tuning;
 
-constexpr double k_smallest_cotangent = 1e-3;  // unit: keeps the matrix positive definite with obtuse triangles
 constexpr double k_smallest_squared_distance = 1e-8;  // m^2, unit: 0.1 mm, for skin that touches a bone
 constexpr double k_no_length = 1e-300;  // unit: avoids 0 / 0
 
@@ -60,37 +60,12 @@ NearestBone nearest_visible(const Vec3& p, const Vec3& normal, const Skeleton& s
     return nearest;
 }
 
-/// Cotangent Laplacian (positive semi-definite) and the area of each vertex.
-Eigen::SparseMatrix<double> stiffness(const TriangleMesh& mesh, Eigen::VectorXd& areas)
-{
-    std::vector<Eigen::Triplet<double>> entries;
-    areas = Eigen::VectorXd::Zero(mesh.positions.rows());
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int i = mesh.triangles(f, k), j = mesh.triangles(f, (k + 1) % 3), o = mesh.triangles(f, (k + 2) % 3);
-            const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o),
-                       b = mesh.positions.row(j) - mesh.positions.row(o);
-            const double twice_area = a.cross(b).norm();
-            const double half_cotangent
-                = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, k_no_length));
-            areas[o] += twice_area / 6;  // derived: a third of the triangle
-            entries.emplace_back(i, i, half_cotangent);
-            entries.emplace_back(j, j, half_cotangent);
-            entries.emplace_back(i, j, -half_cotangent);
-            entries.emplace_back(j, i, -half_cotangent);
-        }
-    Eigen::SparseMatrix<double> matrix(mesh.positions.rows(), mesh.positions.rows());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-}
-
 }  // namespace
 
 Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleton, const VisibleBones& visible)
 {
     const Eigen::Index n = closed.positions.rows();
-    Eigen::VectorXd areas;
-    Eigen::SparseMatrix<double> system = stiffness(closed, areas);
+    auto [system, areas] = cotangent_laplacian(closed);
     const Positions normals = vertex_normals(closed.positions, closed.triangles);
     Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
     for (Eigen::Index v = 0; v < n; ++v) {

@@ -34,6 +34,14 @@ inline constexpr double k_normal_weight = 0.015;
 /// fitted: guess. Number of points from which a weight is interpolated.
 inline constexpr int k_neighbours = 4;
 
+// ---- weights of clothes (garment_weights.cpp) ---------------------------------------------------------------------
+
+/// fitted: guess. Share of the vertices of a piece of cloth whose normals are opposite to those of the skin next to
+/// them: above it, the piece has two sheets.
+inline constexpr double k_second_sheet = 0.25;
+/// fitted: guess. A joint with less weight moves cloth by less than contact keeps it off the skin.
+inline constexpr double k_least_weight = 1e-3;
+
 // ---- skin of hands and feet (extremity_skin.h) --------------------------------------------------------------------
 
 /// fitted: guess, on the bodies with hands or feet removed. Share of the bone before: a shorter extremity is a stump.

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/garment_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "disjoint_sets.h"
+#include "garmentfit/error.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "sewn_pieces.h"
+#include "skin_inpainting.h"
+#include "surface_measures.h"
+#include "topology.h"
+#include "tuning.h"
+#include "weld.h"
+
+namespace garmentfit {
+namespace {
+
+using namespace skeleton_tuning;
+
+constexpr double k_row_sum_precision = 1e-3;  // unit: weights of files come in single bytes
+constexpr int k_most_joints = 8;  // unit: two sets of four, as files have them
+
+void require_valid(const TriangleMesh& body, const JointWeights& weights, const GarmentMesh& garment,
+                   const Positions& worn, const GarmentWeightOptions& options)
+{
+    if (weights.rows() != body.positions.rows())
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           "skin weights: " + std::to_string(weights.rows()) + " rows for "
+                               + std::to_string(body.positions.rows())
+                               + " vertices of the body; give a row for each vertex");
+    if (worn.rows() != garment.positions.rows())
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           "garment: " + std::to_string(worn.rows()) + " vertices as worn, "
+                               + std::to_string(garment.positions.rows())
+                               + " as given; give the same vertices in the same order");
+    if (!(options.reach > 0) || !(options.largest_angle > 0 && options.largest_angle < 90)
+        || options.joints_per_vertex < 1 || options.joints_per_vertex > k_most_joints)
+        throw InvalidInput(ErrorCode::out_of_range,
+                           "weights of a garment: give a reach above 0, an angle between 0 and 90 degrees, and 1 to 8 "
+                           "joints per vertex");
+    for (Eigen::Index v = 0; v < weights.rows(); ++v)
+        if (!(std::abs(weights.row(v).sum() - 1) < k_row_sum_precision))
+            throw InvalidInput(ErrorCode::bad_rig,
+                               "skin weights of the body, vertex " + std::to_string(v) + ", sum to "
+                                   + std::to_string(weights.row(v).sum()) + "; normalise them to 1");
+}
+
+/// The skin nearest to a vertex of the cloth.
+struct Foot {
+    int triangle = 0;
+    Eigen::RowVector3d corners = { 1, 0, 0 };  // barycentric weights
+    double distance = 0;
+    double cosine = 0;  // between the normals of skin and cloth
+};
+
+Eigen::RowVector3d barycentric(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    const Vec3 normal = (b - a).cross(c - a);
+    Eigen::RowVector3d parts((c - b).cross(point - b).dot(normal), (a - c).cross(point - c).dot(normal),
+                             (b - a).cross(point - a).dot(normal));
+    parts = parts.cwiseMax(0.0);
+    return parts.sum() > 0 ? Eigen::RowVector3d(parts / parts.sum()) : Eigen::RowVector3d(1, 0, 0);
+}
+
+std::vector<Foot> find_feet(const TriangleMesh& body, const Positions& cloth, const Positions& cloth_normals)
+{
+    const TriangleTree tree(body);
+    const Positions normals = vertex_normals(body.positions, body.triangles);
+    std::vector<Foot> feet(std::size_t(cloth.rows()));
+    parallel_for(feet.size(), [&](std::size_t v) {
+        const Vec3 place = cloth.row(Eigen::Index(v));
+        const auto nearest = tree.nearest_triangle(place);
+        if (!nearest)
+            return;
+        const Eigen::RowVector3i corners = body.triangles.row(nearest->triangle);
+        const auto corner = [&](int k) { return Vec3(body.positions.row(corners[k])); };
+        Foot& foot = feet[v];
+        foot.triangle = nearest->triangle;
+        foot.corners = barycentric(nearest->point, corner(0), corner(1), corner(2));
+        foot.distance = (nearest->point - place).norm();
+        const Vec3 normal = (foot.corners * normals(corners, Eigen::all)).transpose();
+        foot.cosine = normal.normalized().dot(Vec3(cloth_normals.row(Eigen::Index(v))));
+    });
+    return feet;
+}
+
+/// Which side of a piece of cloth faces the skin.
+struct Sides {
+    int inside = 0, outside = 0;  // vertices with the normal of the skin, and with the opposite one
+
+    bool is_two_sheets() const { return std::min(inside, outside) > k_second_sheet * (inside + outside); }
+    /// Faces of garments may be oriented either way, so the larger number says which one it is.
+    bool fits(double cosine) const { return is_two_sheets() || (cosine > 0) == (inside >= outside); }
+};
+
+/// Vertices of the cloth that lie close to skin of the same direction.
+std::vector<char> find_matches(const std::vector<Foot>& feet, DisjointSets& pieces, double reach, double least_cosine)
+{
+    std::vector<Sides> sides(feet.size());
+    const auto is_near
+        = [&](const Foot& foot) { return foot.distance < reach && std::abs(foot.cosine) > least_cosine; };
+    for (int v = 0; v < int(feet.size()); ++v)
+        if (is_near(feet[v]))
+            ++(feet[v].cosine > 0 ? sides[pieces.root(v)].inside : sides[pieces.root(v)].outside);
+    std::vector<char> matches(feet.size());
+    for (int v = 0; v < int(feet.size()); ++v)
+        matches[v] = is_near(feet[v]) && sides[pieces.root(v)].fits(feet[v].cosine);
+    return matches;
+}
+
+DisjointSets pieces_of(const GarmentMesh& cloth)
+{
+    DisjointSets pieces(int(cloth.positions.rows()));
+    for (const auto& corners : cloth.triangles.rowwise())
+        for (int k = 1; k < 3; ++k)
+            pieces.join(corners[0], corners[k]);
+    return pieces;
+}
+
+/// What is held by other cloth, such as a button, follows that cloth and not the skin.
+void release_held_pieces(const std::vector<Tie>& ties, DisjointSets& pieces, std::vector<char>& is_known)
+{
+    std::vector<char> is_held(is_known.size(), 0);
+    for (const Tie& tie : ties)
+        if (!tie.is_seam)
+            is_held[pieces.root(tie.vertex)] = 1;
+    for (int v = 0; v < int(is_known.size()); ++v)
+        if (is_held[pieces.root(v)])
+            is_known[v] = 0;
+}
+
+/// Cloth that hangs on nothing that is known follows the skin next to it.
+void anchor_the_rest(const std::vector<Foot>& feet, const std::vector<Tie>& ties, DisjointSets pieces,
+                     std::vector<char>& is_known)
+{
+    for (const Tie& tie : ties)
+        for (const int corner : tie.corners)
+            pieces.join(tie.vertex, corner);
+    std::vector<char> has_known(feet.size(), 0);
+    std::vector<int> nearest(feet.size(), -1);
+    for (int v = 0; v < int(feet.size()); ++v) {
+        int& best = nearest[pieces.root(v)];
+        has_known[pieces.root(v)] |= is_known[v];
+        if (best < 0 || feet[v].distance < feet[best].distance)
+            best = v;
+    }
+    for (int v = 0; v < int(feet.size()); ++v)
+        if (nearest[v] >= 0 && !has_known[v])
+            is_known[nearest[v]] = 1;
+}
+
+Eigen::MatrixXd weights_at(const std::vector<Foot>& feet, const std::vector<char>& is_known, const TriangleMesh& body,
+                           const JointWeights& weights)
+{
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Eigen::Index(feet.size()), weights.cols());
+    for (std::size_t v = 0; v < feet.size(); ++v)
+        for (int k = 0; k < 3 && is_known[v]; ++k)
+            for (JointWeights::InnerIterator entry(weights, body.triangles(feet[v].triangle, k)); entry; ++entry)
+                result(Eigen::Index(v), entry.col()) += feet[v].corners[k] * entry.value();
+    return result;
+}
+
+using Entry = std::pair<double, int>;  // weight, joint
+
+/// The largest weights of a row, scaled to sum to 1. Of equal ones, the first joints.
+std::vector<Entry> largest_of(const Eigen::RowVectorXd& row, int count)
+{
+    std::vector<Entry> entries;
+    for (int j = 0; j < int(row.size()); ++j)
+        if (row[j] > k_least_weight)
+            entries.emplace_back(row[j], j);
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.first > b.first; });
+    entries.resize(std::min(entries.size(), std::size_t(count)));
+    double sum = 0;
+    for (const auto& [weight, joint] : entries)
+        sum += weight;
+    for (auto& [weight, joint] : entries)
+        weight /= sum;
+    return entries;
+}
+
+JointWeights spread(const Eigen::MatrixXd& cloth_weights, const Weld& weld, int joints_per_vertex)
+{
+    std::vector<std::vector<Entry>> rows(std::size_t(cloth_weights.rows()));
+    parallel_for(rows.size(),
+                 [&](std::size_t v) { rows[v] = largest_of(cloth_weights.row(Eigen::Index(v)), joints_per_vertex); });
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int v = 0; v < weld.given(); ++v)
+        for (const auto& [weight, joint] : rows[std::size_t(weld.cloth_vertex(v))])
+            entries.emplace_back(v, joint, weight);
+    JointWeights result(weld.given(), cloth_weights.cols());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+JointWeights joint_weights_of(const SkinWeights& weights)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index v = 0; v < weights.bones.rows(); ++v)
+        for (int k = 0; k < 4; ++k)
+            if (weights.weights(v, k) > 0)
+                entries.emplace_back(int(v), weights.bones(v, k), weights.weights(v, k));
+    JointWeights result(weights.bones.rows(), bone_count);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+/// Largest first, as all tables of libfit have them.
+SkinWeights skin_weights_of(const JointWeights& weights)
+{
+    SkinWeights result;
+    result.bones.setZero(weights.rows(), 4);
+    result.weights.setZero(weights.rows(), 4);
+    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+        const std::vector<Entry> entries = largest_of(Eigen::RowVectorXd(weights.row(v)), 4);
+        for (int k = 0; k < int(entries.size()); ++k) {
+            result.bones(v, k) = entries[std::size_t(k)].second;
+            result.weights(v, k) = entries[std::size_t(k)].first;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+JointWeights garment_weights(const TriangleMesh& body, const JointWeights& body_weights, const GarmentMesh& garment,
+                             const Positions& worn, const GarmentWeightOptions& options)
+{
+    require_valid(body, body_weights, garment, worn, options);
+    const Weld weld(garment);
+    const GarmentMesh cloth = weld.gather(garment);
+    const Positions worn_cloth = weld.gather(worn);
+    const std::vector<Tie> ties
+        = find_sewn_pieces(cloth, MeshTopology(cloth.triangles, int(cloth.positions.rows()))).ties;
+    DisjointSets pieces = pieces_of(cloth);
+    const double reach = options.reach * diagonal(body.positions);
+
+    const std::vector<Foot> feet = find_feet(body, worn_cloth, vertex_normals(worn_cloth, cloth.triangles));
+    std::vector<char> is_known
+        = find_matches(feet, pieces, reach, std::cos(options.largest_angle * std::numbers::pi / 180));
+    release_held_pieces(ties, pieces, is_known);
+    anchor_the_rest(feet, ties, pieces, is_known);
+
+    Eigen::MatrixXd weights = weights_at(feet, is_known, body, body_weights);
+    inpaint(cloth, ties, is_known, reach, weights);
+    return spread(weights, weld, options.joints_per_vertex);
+}
+
+SkinWeights garment_weights(const TriangleMesh& body, const SkinWeights& body_weights, const GarmentMesh& garment,
+                            const Positions& worn, const GarmentWeightOptions& options)
+{
+    GarmentWeightOptions at_most_four = options;
+    if (options.joints_per_vertex <= k_most_joints)  // more than those is refused
+        at_most_four.joints_per_vertex = std::min(options.joints_per_vertex, 4);
+    return skin_weights_of(garment_weights(body, joint_weights_of(body_weights), garment, worn, at_most_four));
+}
+
+}  // namespace garmentfit
