@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/mesh.h"
 #include "garmentfit/skinned_gltf.h"
@@ -48,22 +49,34 @@ Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const s
     return rows;
 }
 
-/// The body first, then the joints.
-std::vector<tinygltf::Node> nodes_of(const std::vector<Joint>& joints)
+/// The meshes first, then the joints.
+std::vector<tinygltf::Node> nodes_of(const std::vector<SkinnedMesh>& meshes, const std::vector<Joint>& joints)
 {
-    std::vector<tinygltf::Node> nodes(1 + joints.size());
-    nodes[0].name = "body";
-    nodes[0].mesh = 0;
-    nodes[0].skin = 0;
+    std::vector<tinygltf::Node> nodes(meshes.size() + joints.size());
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        nodes[m].name = meshes[m].name;
+        nodes[m].mesh = int(m);
+        nodes[m].skin = 0;
+    }
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const Joint& joint = joints[j];
         const Vec3 d = joint.parent < 0 ? joint.place : Vec3(joint.place - joints[std::size_t(joint.parent)].place);
-        nodes[j + 1].name = joint.name;
-        nodes[j + 1].translation = { d.x(), d.y(), d.z() };
+        nodes[meshes.size() + j].name = joint.name;
+        nodes[meshes.size() + j].translation = { d.x(), d.y(), d.z() };
         if (joint.parent >= 0)
-            nodes[std::size_t(joint.parent) + 1].children.push_back(int(j) + 1);
+            nodes[meshes.size() + std::size_t(joint.parent)].children.push_back(int(meshes.size() + j));
     }
     return nodes;
+}
+
+/// The format wants unit normals, also where a vertex has no face.
+Positions unit_normals(const TriangleMesh& surface)
+{
+    Positions normals = vertex_normals(surface.positions, surface.triangles);
+    for (auto normal : normals.rowwise())
+        if (!(normal.squaredNorm() > 0))
+            normal = Eigen::RowVector3d::UnitY();
+    return normals;
 }
 
 tinygltf::Primitive primitive_of(const TriangleMesh& surface, const SkinWeights& weights, GlbModel& glb)
@@ -73,8 +86,8 @@ tinygltf::Primitive primitive_of(const TriangleMesh& surface, const SkinWeights&
     const int positions = glb.add<float>(surface.positions, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
     glb.set_bounds(positions, surface.positions);
     primitive.attributes["POSITION"] = positions;
-    primitive.attributes["NORMAL"] = glb.add<float>(vertex_normals(surface.positions, surface.triangles),
-                                                    TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["NORMAL"]
+        = glb.add<float>(unit_normals(surface), TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
     const Eigen::MatrixXi used = (weights.weights.array() > 0).select(weights.bones.array() + 1, 0);  // 0 where unused
     primitive.attributes["JOINTS_0"] = glb.add<std::uint8_t>(used, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.attributes["WEIGHTS_0"]
@@ -86,23 +99,38 @@ tinygltf::Primitive primitive_of(const TriangleMesh& surface, const SkinWeights&
 
 }  // namespace
 
-void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig)
+void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skeleton,
+                       const std::vector<SkinnedMesh>& meshes)
 {
-    const std::vector<Joint> joints = joints_of(rig.skeleton);
+    for (const SkinnedMesh& mesh : meshes)
+        if (mesh.weights.weights.rows() != mesh.surface.positions.rows())
+            throw InvalidInput(ErrorCode::count_mismatch,
+                               "skinned GLB: " + mesh.name + " has " + std::to_string(mesh.surface.positions.rows())
+                                   + " vertices and " + std::to_string(mesh.weights.weights.rows())
+                                   + " rows of weights; give a row for each vertex");
+    const std::vector<Joint> joints = joints_of(skeleton);
     GlbModel glb;
-    tinygltf::Mesh mesh;
-    mesh.name = "body";
-    mesh.primitives.push_back(primitive_of(surface, rig.weights, glb));
-    glb.model.meshes.push_back(mesh);
+    for (const SkinnedMesh& skinned : meshes) {
+        tinygltf::Mesh mesh;
+        mesh.name = skinned.name;
+        mesh.primitives.push_back(primitive_of(skinned.surface, skinned.weights, glb));
+        glb.model.scenes[0].nodes.push_back(int(glb.model.meshes.size()));
+        glb.model.meshes.push_back(mesh);
+    }
     tinygltf::Skin skin;
-    skin.skeleton = 1;
+    skin.skeleton = int(meshes.size());  // the node of the root
     skin.joints.resize(joints.size());
-    std::iota(skin.joints.begin(), skin.joints.end(), 1);
+    std::iota(skin.joints.begin(), skin.joints.end(), skin.skeleton);
     skin.inverseBindMatrices = glb.add<float>(inverse_binds(joints), TINYGLTF_TYPE_MAT4);
     glb.model.skins.push_back(skin);
-    glb.model.nodes = nodes_of(joints);
-    glb.model.scenes[0].nodes = { 0, 1 };
+    glb.model.nodes = nodes_of(meshes, joints);
+    glb.model.scenes[0].nodes.push_back(skin.skeleton);
     write_file(path, glb.file());
+}
+
+void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig)
+{
+    write_skinned_glb(path, rig.skeleton, { { "body", surface, rig.weights } });
 }
 
 }  // namespace garmentfit

@@ -52,6 +52,42 @@ TEST_F(SkinnedGlb, IsReadByAnotherLibraryWithAllBonesAndWeights)
         EXPECT_NEAR(sum, 1, 1e-6);
 }
 
+TEST_F(SkinnedGlb, HoldsBodyAndClothesOnOneSkeleton)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    const Rig rig = fixtures::simple_rig(person);
+    const GarmentMesh sleeve = fixtures::sleeve_round(person.skeleton, lhumerus, 0.08, 0.02, 0.2);
+    TriangleMesh cloth { sleeve.positions, sleeve.triangles };
+    cloth.positions.conservativeResize(cloth.positions.rows() + 1, 3);  // a vertex without a face
+    cloth.positions.bottomRows<1>().setZero();
+    SkinWeights weights;
+    weights.bones.setConstant(cloth.positions.rows(), 4, lhumerus);
+    weights.weights.setZero(cloth.positions.rows(), 4);
+    weights.weights.col(0).setOnes();
+    write_skinned_glb(folder / "outfit.glb", person.skeleton,
+                      { { "body", person.mesh, rig.weights }, { "sleeve", cloth, weights } });
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile((folder / "outfit.glb").string(), 0);
+    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+    ASSERT_EQ(scene->mNumMeshes, 2u);
+    const aiMesh& read = *scene->mMeshes[1];
+    ASSERT_EQ(read.mNumVertices, unsigned(cloth.positions.rows()));
+    for (unsigned v = 0; v < read.mNumVertices; ++v) {
+        EXPECT_NEAR(read.mNormals[v].Length(), 1, 1e-5) << v;
+        EXPECT_NEAR(read.mVertices[v].x, cloth.positions(v, 0), 1e-6) << v;
+    }
+    double moved = 0;
+    for (unsigned b = 0; b < read.mNumBones; ++b)
+        if (read.mBones[b]->mName == aiString(std::string(bone_name(lhumerus))))
+            for (unsigned k = 0; k < read.mBones[b]->mNumWeights; ++k)
+                moved += read.mBones[b]->mWeights[k].mWeight;
+    EXPECT_NEAR(moved, double(cloth.positions.rows()), 1e-4);
+    weights.weights.conservativeResize(3, 4);
+    EXPECT_THROW(write_skinned_glb(folder / "short.glb", person.skeleton, { { "sleeve", cloth, weights } }),
+                 InvalidInput);
+    EXPECT_FALSE(std::filesystem::exists(folder / "short.glb"));
+}
+
 using AnimatedGlb = fixtures::TemporaryFolder;
 
 TEST_F(AnimatedGlb, IsReadByAnotherLibraryWithAllFrames)

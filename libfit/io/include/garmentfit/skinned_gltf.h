@@ -4,11 +4,26 @@
 // Rigged bodies as skinned glTF, so that other programs can pose them, and rigs made by other programs.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "garmentfit/export.h"
 #include "garmentfit/skeleton.h"
 
 namespace garmentfit {
+
+/// One mesh of a skinned file, in the rest pose of its skeleton.
+struct SkinnedMesh {
+    std::string name;
+    TriangleMesh surface;  ///< metres, +y up
+    SkinWeights weights;  ///< a row for each vertex
+};
+
+/// Writes body and clothes as one GLB: a mesh each, with its own vertices in their order, and one skin for all of them.
+/// Joints as below; without UVs and materials. Never leaves a half-written file.
+/// @throws InvalidInput: a mesh has not a row of weights for each vertex, or the place cannot be written.
+GARMENTFIT_API void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skeleton,
+                                      const std::vector<SkinnedMesh>& meshes);
 
 /// Writes a GLB: metres, +y up, one mesh, one skin. Joints have the names of Bone and are at the heads of the bones.
 /// Head, hands, feet and their tips follow as joints without weight. Never leaves a half-written file.
