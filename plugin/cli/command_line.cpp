@@ -72,6 +72,7 @@ private:
 bool starts_from_meshes(const Filter& filter) { return filter.has(Stage::rig) || filter.has(Stage::fit); }
 /// `fit` also rigs, unless it is given a rig.
 bool moves_cloth(const Filter& filter) { return filter.has(Stage::drape) || filter.has(Stage::recover); }
+bool recovers(const Filter& filter) { return filter.has(Stage::recover); }
 bool takes_a_rig(const Filter& filter) { return filter.has(Stage::fit) && !filter.has(Stage::rig); }
 
 double scale_from(const std::string& text)
@@ -162,6 +163,15 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
                         "Folder that garmentfit " + std::string(filter.name == "drape" ? "fit" : "drape") + " wrote")
             ->required();
     command.add_option("-o,--output", call.out, "Folder for the results")->required();
+    if (recovers(filter))
+        command
+            .add_option("--outfit", call.outfit,
+                        "Write body and clothes as one skinned GLB, too, where they are certified: one skeleton, and "
+                        "weights for all meshes, so that other programs can pose them")
+            ->check([](const std::string& path) {
+                return std::filesystem::path(path).extension() == ".glb" ? ""
+                                                                         : path + ": give a name that ends in .glb";
+            });
     command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
         ->check(CLI::Range(0, 1024))
         ->default_str("0");

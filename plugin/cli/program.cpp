@@ -117,6 +117,9 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     stop_if_interrupted();
     stop_watching();
     folder.publish(outdated(call, session, folder));
+    const Dressing* end = final_dressing(session.scene);
+    if (!call.outfit.empty() && end && end->certified)
+        write_outfit(session, call.outfit);
     if (call.json)
         std::cout << report;
     else if (!call.quiet)

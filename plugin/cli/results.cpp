@@ -12,6 +12,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/warnings.h"
+#include "garmentfit/garment_weights.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 
@@ -257,6 +258,24 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_last_state(session, *scene.recovered, folder);
     else if (scene.draped)
         write_last_state(session, *scene.draped, folder);
+}
+
+void write_outfit(const Session& session, const fs::path& path)
+{
+    const Scene& scene = session.scene;
+    const Dressing& dressing = *scene.recovered;
+    const TriangleMesh body { dressing.body, scene.body->surface.triangles };
+    std::vector<SkinnedMesh> meshes { { "body", body, scene.rig->weights } };
+    for (const std::size_t i : dressing.worn()) {
+        const GarmentMesh& garment = scene.garments[i].mesh;
+        const Positions& worn = dressing.garments[i].positions;
+        meshes.push_back({ session.garments[i].path.stem().string(),
+                           { worn, garment.triangles },
+                           garment_weights(body, scene.rig->weights, garment, worn) });
+    }
+    if (path.has_parent_path())
+        fs::create_directories(path.parent_path());
+    write_skinned_glb(path, scene.rig->skeleton, meshes);
 }
 
 }  // namespace garmentfit::cli

@@ -18,6 +18,10 @@ void add_warnings(Session& session);
 /// Writes all results of a command but the report. The certificates become those of the files as written.
 void write_results(Session& session, std::string_view command, const std::filesystem::path& folder);
 
+/// Body and clothes as one skinned GLB, in the pose of the body's file. Of a session whose pose was recovered.
+/// @throws InvalidInput where it cannot be written.
+void write_outfit(const Session& session, const std::filesystem::path& path);
+
 /// Names of files and folders that an earlier run may have written into `folder` under the names of this command's
 /// results: beside the new report they would look like its results. Empty where no earlier run wrote there; never a
 /// file that was read.

@@ -339,6 +339,17 @@ TEST_F(CommandLine, LeavesNothingBehindWhenStopped)
     }
 }
 
+TEST_F(CommandLine, WritesNoOutfitOfAGarmentThatIsTooSmallAndNoneOfAnotherFormat)
+{
+    const Ended wrong = run({ "dress", k_body, k_skirt, "--outfit", folder / "outfit.fbx", "-o", folder / "result" });
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_NE(wrong.err.find(".glb"), std::string::npos) << wrong.err;
+    const Ended small = run({ "dress", k_body, k_skirt, "--type", "skirt", "--garment-scale", "0.5", "--outfit",
+                              folder / "outfit.glb", "-o", folder / "result" });
+    EXPECT_NE(small.code, 0);
+    EXPECT_FALSE(fs::exists(folder / "outfit.glb"));
+}
+
 /// A pipe that nobody writes to: whoever opens it waits for ever.
 fs::path silent_pipe(const fs::path& folder)
 {
@@ -666,7 +677,8 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
 {
     const fs::path dressed = folder / "dressed", fitted = folder / "fitted", draped = folder / "draped",
                    own = folder / "own";
-    const Ended whole = run({ "dress", k_body, k_skirt, "--type", "skirt", "--json", "-o", dressed });
+    const Ended whole = run({ "dress", k_body, k_skirt, "--type", "skirt", "--json", "--outfit",
+                              folder / "worn" / "outfit.glb", "-o", dressed });
     ASSERT_EQ(whole.code, 0) << whole.err;
     const auto report = nlohmann::json::parse(whole.out);
     EXPECT_TRUE(report.at("certified").get<bool>());
@@ -681,6 +693,11 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     const auto given = garmentfit::MeshFile::read(k_skirt), worn = garmentfit::MeshFile::read(dressed / "skirt.ply");
     EXPECT_EQ(worn.triangles(), given.triangles());
     EXPECT_TRUE(fs::exists(dressed / "fitted" / "skirt.ply"));
+    const auto outfit = garmentfit::MeshFile::read(folder / "worn" / "outfit.glb");
+    ASSERT_EQ(outfit.positions().rows(), body.positions().rows() + worn.positions().rows());
+    EXPECT_EQ(outfit.triangles().rows(), body.triangles().rows() + worn.triangles().rows());
+    const garmentfit::Positions skirt_of_outfit = outfit.positions().bottomRows(worn.positions().rows());
+    EXPECT_LT((skirt_of_outfit - worn.positions()).cwiseAbs().maxCoeff(), 1e-6) << "metres, like the input";
 
     ASSERT_EQ(run({ "fit", k_body, k_skirt, "--type", "skirt", "-o", fitted }).code, 0);
     ASSERT_EQ(run({ "drape", fitted, "-o", draped }).code, 0);
