@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 namespace garmentfit {
 namespace {
@@ -16,35 +17,73 @@ struct Word {
 };
 
 constexpr std::array k_words {
-    Word { "hips", JointKind::pelvis, false },      Word { "pelvis", JointKind::pelvis, false },
-    Word { "root", JointKind::pelvis, false },      Word { "hip", JointKind::pelvis, false },
-    Word { "spine", JointKind::spine, false },      Word { "chest", JointKind::spine, false },
-    Word { "upperchest", JointKind::spine, false }, Word { "lowerback", JointKind::spine, false },
-    Word { "upperback", JointKind::spine, false },  Word { "thorax", JointKind::spine, false },
-    Word { "neck", JointKind::neck, false },        Word { "lowerneck", JointKind::neck, false },
-    Word { "head", JointKind::head, false },        Word { "clavicle", JointKind::clavicle, true },
-    Word { "collar", JointKind::clavicle, true },   Word { "shoulder", JointKind::shoulder, true },
-    Word { "arm", JointKind::shoulder, true },      Word { "upperarm", JointKind::shoulder, true },
-    Word { "uparm", JointKind::shoulder, true },    Word { "humerus", JointKind::shoulder, true },
-    Word { "forearm", JointKind::elbow, true },     Word { "lowerarm", JointKind::elbow, true },
-    Word { "elbow", JointKind::elbow, true },       Word { "radius", JointKind::elbow, true },
-    Word { "hand", JointKind::wrist, true },        Word { "wrist", JointKind::wrist, true },
-    Word { "upleg", JointKind::hip, true },         Word { "upperleg", JointKind::hip, true },
-    Word { "thigh", JointKind::hip, true },         Word { "femur", JointKind::hip, true },
-    Word { "hip", JointKind::hip, true },           Word { "leg", JointKind::knee, true },
-    Word { "lowerleg", JointKind::knee, true },     Word { "calf", JointKind::knee, true },
-    Word { "shin", JointKind::knee, true },         Word { "tibia", JointKind::knee, true },
-    Word { "knee", JointKind::knee, true },         Word { "foot", JointKind::ankle, true },
+    Word { "hips", JointKind::pelvis, false },
+    Word { "pelvis", JointKind::pelvis, false },
+    Word { "root", JointKind::pelvis, false },
+    Word { "hip", JointKind::pelvis, false },
+    Word { "spine", JointKind::spine, false },
+    Word { "chest", JointKind::spine, false },
+    Word { "upperchest", JointKind::spine, false },
+    Word { "lowerback", JointKind::spine, false },
+    Word { "upperback", JointKind::spine, false },
+    Word { "thorax", JointKind::spine, false },
+    Word { "neck", JointKind::neck, false },
+    Word { "lowerneck", JointKind::neck, false },
+    Word { "head", JointKind::head, false },
+    Word { "clavicle", JointKind::clavicle, true },
+    Word { "collar", JointKind::clavicle, true },
+    Word { "shoulder", JointKind::shoulder, true },
+    Word { "arm", JointKind::shoulder, true },
+    Word { "upperarm", JointKind::shoulder, true },
+    Word { "uparm", JointKind::shoulder, true },
+    Word { "humerus", JointKind::shoulder, true },
+    Word { "forearm", JointKind::elbow, true },
+    Word { "lowerarm", JointKind::elbow, true },
+    Word { "elbow", JointKind::elbow, true },
+    Word { "radius", JointKind::elbow, true },
+    Word { "hand", JointKind::wrist, true },
+    Word { "wrist", JointKind::wrist, true },
+    Word { "upleg", JointKind::hip, true },
+    Word { "upperleg", JointKind::hip, true },
+    Word { "thigh", JointKind::hip, true },
+    Word { "femur", JointKind::hip, true },
+    Word { "hip", JointKind::hip, true },
+    Word { "leg", JointKind::knee, true },
+    Word { "lowerleg", JointKind::knee, true },
+    Word { "calf", JointKind::knee, true },
+    Word { "shin", JointKind::knee, true },
+    Word { "tibia", JointKind::knee, true },
+    Word { "knee", JointKind::knee, true },
+    Word { "foot", JointKind::ankle, true },
     Word { "ankle", JointKind::ankle, true },
+    Word { "abdomen", JointKind::spine, false },
+    Word { "abdomenlower", JointKind::spine, false },
+    Word { "abdomenupper", JointKind::spine, false },
+    Word { "chestlower", JointKind::spine, false },
+    Word { "chestupper", JointKind::spine, false },
+    Word { "neckupper", JointKind::neck, false },
+    Word { "necklower", JointKind::neck, false },
+    Word { "necktwist", JointKind::neck, false },
+    Word { "shldr", JointKind::shoulder, true },
+    Word { "shldrbend", JointKind::shoulder, true },
+    Word { "forearmbend", JointKind::elbow, true },
+    Word { "thighbend", JointKind::hip, true },
 };
 
-/// "mixamorig:LeftUpLeg" -> left, up, leg; "thigh_l" -> thigh, l; digits are dropped.
+/// What programs put before or between the words: VRM, 3ds Max, Source, Mixamo without its colon, Rigify, Character
+/// Creator, SMPL.
+constexpr std::array<std::string_view, 13> k_fillers { "j",  "c",    "bip", "biped", "valve", "mixamorig", "def",
+                                                       "cc", "base", "m",   "f",     "avg",   "armature" };
+
+/// "mixamorig:LeftUpLeg" -> left, up, leg; "thigh_l" -> thigh, l; "LCalf" -> l, calf; digits are dropped.
 std::vector<std::string> tokens_of(const std::string& name)
 {
     std::vector<std::string> tokens(1);
     for (std::size_t i = name.find(':') == std::string::npos ? 0 : name.find(':') + 1; i < name.size(); ++i) {
         const auto c = static_cast<unsigned char>(name[i]);
-        if (std::isupper(c) && i > 0 && !std::isupper(static_cast<unsigned char>(name[i - 1])))
+        const auto is_upper = [&](std::size_t k) { return std::isupper(static_cast<unsigned char>(name[k])) != 0; };
+        const auto is_lower = [&](std::size_t k) { return std::islower(static_cast<unsigned char>(name[k])) != 0; };
+        if (is_upper(i) && i > 0 && (!is_upper(i - 1) || (i + 1 < name.size() && is_lower(i + 1))))
             tokens.emplace_back();
         if (std::isalpha(c))
             tokens.back() += char(std::tolower(c));
@@ -71,7 +110,7 @@ std::optional<NamedJoint> recognize(const std::string& name)
             side = 1;
         else if (token == "right" || token == "r")
             side = 2;
-        else if (token != "j" && token != "bip" && token != "c")  // prefixes of VRM names
+        else if (std::find(k_fillers.begin(), k_fillers.end(), token) == k_fillers.end())
             word += token;
     if (const auto joint = look_up(word, side))
         return joint;
@@ -80,20 +119,96 @@ std::optional<NamedJoint> recognize(const std::string& name)
     return {};
 }
 
+bool has_token(const std::string& name, std::string_view token)
+{
+    const std::vector<std::string> tokens = tokens_of(name);
+    return std::find(tokens.begin(), tokens.end(), token) != tokens.end();
+}
+
+/// Names that mean one thing alone and another thing beside others.
+class JointNames {
+public:
+    explicit JointNames(const std::vector<std::string>& names) : names_(names)
+    {
+        for (const std::string& name : names)
+            joints_.push_back(recognize(name));
+    }
+
+    std::vector<std::optional<NamedJoint>> read()
+    {
+        if (count(JointKind::shoulder) > 2)  // derived: a rig has two shoulders, so some are clavicles
+            rename(JointKind::shoulder, "shoulder", JointKind::clavicle);
+        if (count(JointKind::hip) == 0 && count(JointKind::knee) > 2)  // "Left leg" above "Left knee"
+            rename(JointKind::knee, "leg", JointKind::hip);
+        leave_out_roots();
+        if (count(JointKind::head) == 0)
+            name_upper_spine();
+        if (count(JointKind::pelvis) == 0)
+            name_first_of_spine();
+        return std::move(joints_);
+    }
+
+private:
+    bool is(std::size_t joint, JointKind kind) const { return joints_[joint] && joints_[joint]->kind == kind; }
+
+    int count(JointKind kind) const
+    {
+        int result = 0;
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            result += is(i, kind);
+        return result;
+    }
+
+    void rename(JointKind from, std::string_view token, JointKind to)
+    {
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            if (is(i, from) && has_token(names_[i], token))
+                joints_[i]->kind = to;
+    }
+
+    /// Beside hips or a pelvis, a root lies on the floor.
+    void leave_out_roots()
+    {
+        const auto is_root = [&](std::size_t i) { return is(i, JointKind::pelvis) && has_token(names_[i], "root"); };
+        int roots = 0;
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            roots += is_root(i);
+        if (roots == count(JointKind::pelvis))
+            return;
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            if (is_root(i))
+                joints_[i].reset();
+    }
+
+    /// Rigify's human goes on counting the spine through neck (4, 5) and head (6).
+    void name_upper_spine()
+    {
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            if (is(i, JointKind::spine) && names_[i].ends_with("006"))
+                joints_[i]->kind = JointKind::head;
+            else if (is(i, JointKind::spine) && (names_[i].ends_with("004") || names_[i].ends_with("005")))
+                joints_[i]->kind = JointKind::neck;
+    }
+
+    /// It begins in the pelvis there.
+    void name_first_of_spine()
+    {
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            if (is(i, JointKind::spine)) {
+                joints_[i]->kind = JointKind::pelvis;
+                return;
+            }
+    }
+
+    const std::vector<std::string>& names_;
+    std::vector<std::optional<NamedJoint>> joints_;
+};
+
 }  // namespace
 
 std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names)
 {
-    std::vector<std::optional<NamedJoint>> joints;
-    const auto is_shoulder = [](const std::optional<NamedJoint>& j) { return j && j->kind == JointKind::shoulder; };
-    for (const std::string& name : names)
-        joints.push_back(recognize(name));
-    if (std::count_if(joints.begin(), joints.end(), is_shoulder)
-        > 2)  // derived: a rig has two shoulders, so some are clavicles
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (is_shoulder(joints[i]) && tokens_of(names[i]).back() == "shoulder")
-                joints[i]->kind = JointKind::clavicle;
-    return joints;
+    return JointNames(names).read();
 }
 
 }  // namespace garmentfit

@@ -15,9 +15,10 @@ struct NamedJoint {
     int side = 0;  ///< 0 none, 1 left, 2 right
 };
 
-/// Reads the joint names of Mixamo, Unreal, VRM, MakeHuman, SMPL and this program; empty for fingers, toes and helper
-/// joints. Needs all names of a rig at once: "LeftShoulder" is a clavicle if there is a "LeftArm", otherwise a
-/// shoulder.
+/// Reads the joint names of Mixamo, Ready Player Me, Unreal, Unity, VRM, MakeHuman, Rigify, Daz, Character Creator, 3ds
+/// Max's Biped, CMU, SMPL and this program; empty for fingers, toes and helper joints. Needs all names of a rig at once:
+/// "LeftShoulder" is a clavicle if there is a "LeftArm", otherwise a shoulder, and "root" is the pelvis only where no
+/// other joint is.
 std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names);
 
 }  // namespace garmentfit

@@ -30,6 +30,93 @@ TEST(JointNames, NamesOfSeveralProgramsAreRecognized)
     expect_joint("L_Hip", JointKind::hip, 1);
 }
 
+/// A rig as a program names it: pelvis, neck, head; then of the left side clavicle, shoulder, elbow, wrist, hip, knee,
+/// ankle. Empty: the program has none.
+struct NamedRig {
+    const char* program;
+    std::vector<std::string> names;
+    std::vector<std::string> others;  ///< that must mean none of these
+};
+
+const NamedRig k_rigs[] = {
+    { "Mixamo",
+      { "mixamorig:Hips", "mixamorig:Neck", "mixamorig:Head", "mixamorig:LeftShoulder", "mixamorig:LeftArm",
+        "mixamorig:LeftForeArm", "mixamorig:LeftHand", "mixamorig:LeftUpLeg", "mixamorig:LeftLeg",
+        "mixamorig:LeftFoot" },
+      { "mixamorig:RightArm", "mixamorig:RightShoulder", "mixamorig:LeftHandThumb1", "mixamorig:HeadTop_End",
+        "mixamorig:LeftToeBase" } },
+    { "Mixamo, its colon lost",
+      { "mixamorigHips", "mixamorigNeck", "mixamorigHead", "mixamorigLeftShoulder", "mixamorigLeftArm",
+        "mixamorigLeftForeArm", "mixamorigLeftHand", "mixamorigLeftUpLeg", "mixamorigLeftLeg", "mixamorigLeftFoot" },
+      { "mixamorigRightArm", "mixamorigRightShoulder" } },
+    { "Unreal",
+      { "pelvis", "neck_01", "head", "clavicle_l", "upperarm_l", "lowerarm_l", "hand_l", "thigh_l", "calf_l",
+        "foot_l" },
+      { "root", "ik_foot_root", "ik_hand_l", "upperarm_twist_01_l", "ball_l", "thigh_twist_01_l" } },
+    { "Unity",
+      { "Hips", "Neck", "Head", "LeftShoulder", "LeftUpperArm", "LeftLowerArm", "LeftHand", "LeftUpperLeg",
+        "LeftLowerLeg", "LeftFoot" },
+      { "RightShoulder", "RightUpperArm", "LeftToes" } },
+    { "VRM 0",
+      { "J_Bip_C_Hips", "J_Bip_C_Neck", "J_Bip_C_Head", "J_Bip_L_Shoulder", "J_Bip_L_UpperArm", "J_Bip_L_LowerArm",
+        "J_Bip_L_Hand", "J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg", "J_Bip_L_Foot" },
+      { "J_Bip_R_Shoulder", "J_Bip_R_UpperArm", "Root", "J_Sec_Hair1_01" } },
+    { "Rigify",
+      { "DEF-spine", "DEF-spine.004", "DEF-spine.006", "DEF-shoulder.L", "DEF-upper_arm.L", "DEF-forearm.L",
+        "DEF-hand.L", "DEF-thigh.L", "DEF-shin.L", "DEF-foot.L" },
+      { "DEF-shoulder.R", "DEF-upper_arm.R", "ORG-thigh.L", "MCH-foot.L", "DEF-toe.L" } },
+    { "MakeHuman",
+      { "root", "neck01", "head", "clavicle.L", "upperarm01.L", "lowerarm01.L", "wrist.L", "upperleg01.L",
+        "lowerleg01.L", "foot.L" },
+      { "pelvis.L", "toe1-1.L" } },
+    { "SMPL-X",
+      { "pelvis", "neck", "head", "left_collar", "left_shoulder", "left_elbow", "left_wrist", "left_hip", "left_knee",
+        "left_ankle" },
+      { "jaw", "left_eye_smplhf", "left_index1" } },
+    { "SMPL",
+      { "m_avg_Pelvis", "m_avg_Neck", "m_avg_Head", "m_avg_L_Collar", "m_avg_L_Shoulder", "m_avg_L_Elbow",
+        "m_avg_L_Wrist", "m_avg_L_Hip", "m_avg_L_Knee", "m_avg_L_Ankle" },
+      { "m_avg_root" } },
+    { "CMU",
+      { "Hips", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand", "LeftUpLeg", "LeftLeg",
+        "LeftFoot" },
+      { "LHipJoint", "RightShoulder", "RightArm", "LThumb" } },
+    { "Daz",
+      { "pelvis", "neckLower", "head", "lCollar", "lShldrBend", "lForearmBend", "lHand", "lThighBend", "lShin",
+        "lFoot" },
+      { "lThighTwist", "lForearmTwist", "lToe" } },
+    { "3ds Max",
+      { "Bip01 Pelvis", "Bip01 Neck", "Bip01 Head", "Bip01 L Clavicle", "Bip01 L UpperArm", "Bip01 L Forearm",
+        "Bip01 L Hand", "Bip01 L Thigh", "Bip01 L Calf", "Bip01 L Foot" },
+      { "Bip01", "Bip01 L Finger0", "Bip01 Footsteps" } },
+    { "Character Creator",
+      { "CC_Base_Hip", "CC_Base_NeckTwist01", "CC_Base_Head", "CC_Base_L_Clavicle", "CC_Base_L_Upperarm",
+        "CC_Base_L_Forearm", "CC_Base_L_Hand", "CC_Base_L_Thigh", "CC_Base_L_Calf", "CC_Base_L_Foot" },
+      { "CC_Base_L_UpperarmTwist01", "CC_Base_L_ToeBase" } },
+    { "of one's own",
+      { "Hips", "Neck", "Head", "Left shoulder", "Left arm", "Left elbow", "Left wrist", "Left leg", "Left knee",
+        "Left ankle" },
+      { "Right leg", "Right knee", "Right arm", "Right shoulder" } },
+};
+
+TEST(JointNames, RigsOfManyProgramsAreReadWhole)
+{
+    using enum JointKind;
+    const JointKind kinds[] = { pelvis, neck, head, clavicle, shoulder, elbow, wrist, hip, knee, ankle };
+    for (const NamedRig& rig : k_rigs) {
+        std::vector<std::string> names = rig.names;
+        names.insert(names.end(), rig.others.begin(), rig.others.end());
+        const auto joints = recognize_joints(names);
+        for (std::size_t i = 0; i < rig.names.size(); ++i) {
+            ASSERT_TRUE(joints[i]) << rig.program << ' ' << names[i];
+            EXPECT_EQ(joints[i]->kind, kinds[i]) << rig.program << ' ' << names[i];
+            EXPECT_EQ(joints[i]->side, kinds[i] < clavicle ? 0 : 1) << rig.program << ' ' << names[i];
+        }
+        for (std::size_t i = rig.names.size(); i < names.size(); ++i)
+            EXPECT_FALSE(joints[i] && joints[i]->side < 2) << rig.program << ' ' << names[i];
+    }
+}
+
 TEST(JointNames, FingersToesAndHelpersAreNot)
 {
     for (const char* name : { "mixamorig:LeftHandThumb1", "LeftToeBase", "ik_hand_gun", "" })
