@@ -81,7 +81,8 @@ Vec3 ClothEnergy::FramedSum::sum(const Positions& x) const
 ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
                          const std::vector<std::pair<int, int>>& pairs, const Materials& materials,
                          const std::vector<Tie>& sewn) :
-    masses_(rest.positions.rows(), k_least_mass)
+    masses_(rest.positions.rows(), k_least_mass),
+    areas_(rest.positions.rows(), 0)
 {
     add_springs(rest, topology, pairs, materials);
     add_hinges(rest, topology, materials);
@@ -109,6 +110,7 @@ void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topol
         const double area = 0.5 * (b - a).cross(c - a).norm();
         for (int k = 0; k < 3; ++k) {
             const int v = rest.triangles(f, k);
+            areas_[v] += area / 3;
             masses_[v] += materials.at(v).density * area / 3;
             if (const int edge = topology.edge_of(3 * int(f) + k); edge >= 0)
                 area_at_edge[edge] += area;

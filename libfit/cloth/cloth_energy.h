@@ -62,6 +62,7 @@ public:
     /// Minus the gradient of that energy, N, with the frames of hinges and ties held.
     Positions elastic_forces(const Positions& x) const;
     const std::vector<double>& masses() const { return masses_; }  ///< kg
+    const std::vector<double>& areas() const { return areas_; }  ///< m^2, of the cloth around each vertex at rest
 
     // ---- the parts of the implicit time step, for its solver ----
 
@@ -90,7 +91,7 @@ private:
     void add_inertia(const Positions& x, Positions& sum) const;
     static Positions multiply(const SparseRows& matrix, const Positions& x);
 
-    std::vector<double> masses_;
+    std::vector<double> masses_, areas_;
     std::vector<Spring> springs_;
     std::vector<FramedSum> sums_;
     SparseRows spring_gradients_, sum_gradients_;  // n x elements: how their loads act on the vertices

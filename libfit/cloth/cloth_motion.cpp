@@ -9,7 +9,6 @@
 #include "garmentfit/stopwatch.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
-#include "surface_measures.h"
 
 namespace garmentfit {
 namespace {
@@ -37,17 +36,6 @@ std::vector<std::pair<int, int>> find_crossing_pairs(const PreparedCloth& cloth)
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
-}
-
-std::vector<double> vertex_areas(const GarmentMesh& rest)
-{
-    std::vector<double> areas(std::size_t(rest.positions.rows()), 0);
-    for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
-        const double third = area_vector(rest.positions, rest.triangles, f).norm() / 3;
-        for (const int v : rest.triangles.row(f))
-            areas[v] += third;
-    }
-    return areas;
 }
 
 Positions stack(const Positions& cloth, const Positions& obstacle)
@@ -133,7 +121,7 @@ ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const Cl
                          const std::vector<Fabric>& fabrics) :
     options_(options),
     materials_(options, fabrics, std::move(cloth.garments)), weld_(std::move(cloth.weld)), rest_(cloth.rest),
-    topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())), areas_(vertex_areas(rest_)),
+    topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())),
     self_contact_distance_(std::min(options_.contact_distance,
                                     k_self_contact_edges * mean_edge_length(rest_.positions, topology_.edges()))),
     contact_({ rest_.triangles, topology_.edges(), cloth_vertices_ },
@@ -161,7 +149,6 @@ double ClothMotion::contact_distance(ContactReason reason) const
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
     rest_ = weld_.gather(rest);
-    areas_ = vertex_areas(rest_);
     energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_);
 }
 
@@ -249,7 +236,7 @@ double ClothMotion::area_at(const ContactPair& pair) const
     double areas[2] = { 0, 0 };
     for (int k = 0; k < 4; ++k)
         if (const int v = pair.vertices[k]; v < cloth_vertices_)
-            areas[k >= first_size] += std::abs(pair.at.weights[k]) * areas_[v];
+            areas[k >= first_size] += std::abs(pair.at.weights[k]) * energy_->areas()[v];
     return areas[0] > 0 && areas[1] > 0 ? std::min(areas[0], areas[1]) : areas[0] + areas[1];
 }
 

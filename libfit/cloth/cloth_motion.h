@@ -121,7 +121,6 @@ private:
     GarmentMesh rest_;  // welded
     MeshTopology topology_;  // of rest_
     int cloth_vertices_;
-    std::vector<double> areas_;  // m^2, of the cloth around each of its vertices at rest
     double self_contact_distance_;  // m
     ContactDetector contact_;
     Positions x_;  // cloth, then obstacle

@@ -190,7 +190,7 @@ private:
     /// N/m, of the spring by which friction holds a vertex.
     double spring_stiffness(int v, int other) const
     {
-        return material(v, other).stretch_stiffness * motion_.areas_[v] / k_contact_area;
+        return material(v, other).stretch_stiffness * energy_.areas()[v] / k_contact_area;
     }
 
     Material material(int v, int other) const { return mixed(motion_.materials_.at(v), motion_.materials_.at(other)); }

@@ -14,21 +14,10 @@
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
+#include "used_vertices.h"
 
 namespace garmentfit {
 namespace {
-
-std::vector<int> vertices_of_faces(Eigen::Index vertices, const Triangles& triangles)
-{
-    std::vector<char> is_used(std::size_t(vertices), 0);
-    for (const int v : triangles.reshaped())
-        is_used[v] = 1;
-    std::vector<int> result;
-    for (int v = 0; v < int(vertices); ++v)
-        if (is_used[v])
-            result.push_back(v);
-    return result;
-}
 
 /// The box of all vertices but few at either end of each axis.
 Eigen::AlignedBox3d usual_box(const Positions& positions, const std::vector<int>& vertices)
@@ -51,7 +40,7 @@ Eigen::AlignedBox3d usual_box(const Positions& positions, const std::vector<int>
 /// Exact predicates take for ever on triangles that span hundreds of powers of two.
 void require_no_stray(const std::string& name, const Positions& positions, const Triangles& triangles)
 {
-    const std::vector<int> vertices = vertices_of_faces(positions.rows(), triangles);
+    const std::vector<int> vertices = used_vertices(triangles);
     const Eigen::AlignedBox3d box = usual_box(positions, vertices);
     const Vec3 middle = box.min() + 0.5 * (box.max() - box.min());
     const double size = (box.max() - box.min()).stableNorm();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "barycentric.h"
 #include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
@@ -85,17 +86,6 @@ std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& t
     }
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.size() > b.size(); });
     return pieces;
-}
-
-std::array<double, 3> barycentric(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c)
-{
-    const Vec3 normal = (b - a).cross(c - a);
-    const double square = normal.squaredNorm();
-    if (!(square > 0))
-        return { 1, 0, 0 };
-    const double at_a = std::clamp((b - point).cross(c - point).dot(normal) / square, 0.0, 1.0);
-    const double at_b = std::clamp((c - point).cross(a - point).dot(normal) / square, 0.0, 1 - at_a);
-    return { at_a, at_b, 1 - at_a - at_b };
 }
 
 /// Finds where vertices of one piece lie on another.

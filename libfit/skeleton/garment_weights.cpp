@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "barycentric.h"
 #include "disjoint_sets.h"
 #include "garmentfit/error.h"
 #include "nearest.h"
@@ -59,15 +60,6 @@ struct Foot {
     double cosine = 0;  // between the normals of skin and cloth
 };
 
-Eigen::RowVector3d barycentric(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c)
-{
-    const Vec3 normal = (b - a).cross(c - a);
-    Eigen::RowVector3d parts((c - b).cross(point - b).dot(normal), (a - c).cross(point - c).dot(normal),
-                             (b - a).cross(point - a).dot(normal));
-    parts = parts.cwiseMax(0.0);
-    return parts.sum() > 0 ? Eigen::RowVector3d(parts / parts.sum()) : Eigen::RowVector3d(1, 0, 0);
-}
-
 std::vector<Foot> find_feet(const TriangleMesh& body, const Positions& cloth, const Positions& cloth_normals)
 {
     const TriangleTree tree(body);
@@ -82,7 +74,7 @@ std::vector<Foot> find_feet(const TriangleMesh& body, const Positions& cloth, co
         const auto corner = [&](int k) { return Vec3(body.positions.row(corners[k])); };
         Foot& foot = feet[v];
         foot.triangle = nearest->triangle;
-        foot.corners = barycentric(nearest->point, corner(0), corner(1), corner(2));
+        foot.corners = Eigen::RowVector3d::Map(barycentric(nearest->point, corner(0), corner(1), corner(2)).data());
         foot.distance = (nearest->point - place).norm();
         const Vec3 normal = (foot.corners * normals(corners, Eigen::all)).transpose();
         foot.cosine = normal.normalized().dot(Vec3(cloth_normals.row(Eigen::Index(v))));

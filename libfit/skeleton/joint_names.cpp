@@ -169,14 +169,12 @@ private:
     /// Beside hips or a pelvis, a root lies on the floor.
     void leave_out_roots()
     {
-        const auto is_root = [&](std::size_t i) { return is(i, JointKind::pelvis) && has_token(names_[i], "root"); };
-        int roots = 0;
+        std::vector<std::size_t> roots;
         for (std::size_t i = 0; i < joints_.size(); ++i)
-            roots += is_root(i);
-        if (roots == count(JointKind::pelvis))
-            return;
-        for (std::size_t i = 0; i < joints_.size(); ++i)
-            if (is_root(i))
+            if (is(i, JointKind::pelvis) && has_token(names_[i], "root"))
+                roots.push_back(i);
+        if (int(roots.size()) < count(JointKind::pelvis))
+            for (const std::size_t i : roots)
                 joints_[i].reset();
     }
 

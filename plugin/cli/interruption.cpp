@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <ctime>
+#include <mutex>
 #include <utility>
 
 #include "garmentfit/error.h"
@@ -17,7 +18,9 @@ constexpr double k_time_to_finish = 10;  // unit: s, at least
 
 volatile std::sig_atomic_t g_interrupted = 0;
 timer_t g_timer;  // rings on a thread of its own
+std::mutex g_mutex;  // of the next two
 std::function<void(ForcedEnd)> g_end;
+bool g_is_watching = false;
 
 // Of what POSIX allows in a handler of signals.
 void ring_in(double seconds)
@@ -34,14 +37,21 @@ void raise_flag(int)
     ring_in(k_time_to_stop);
 }
 
-void force_end(sigval) { g_end(g_interrupted ? ForcedEnd::stopped : ForcedEnd::time_limit); }
+void force_end(sigval)
+{
+    const std::lock_guard lock(g_mutex);
+    if (g_is_watching)
+        g_end(g_interrupted ? ForcedEnd::stopped : ForcedEnd::time_limit);
+}
 
 }  // namespace
 
 void watch_interruption(std::function<void(ForcedEnd)> end)
 {
+    const std::lock_guard lock(g_mutex);
     const bool is_first = !g_end;
     g_end = std::move(end);
+    g_is_watching = true;
     sigevent event {};
     event.sigev_notify = SIGEV_THREAD;
     event.sigev_notify_function = force_end;
@@ -68,6 +78,11 @@ void watch_time_limit(double seconds)
         ring_in(seconds + std::max(seconds, k_time_to_finish));
 }
 
-void stop_watching() { ring_in(0); }
+void stop_watching()
+{
+    const std::lock_guard lock(g_mutex);
+    g_is_watching = false;
+    ring_in(0);
+}
 
 }  // namespace garmentfit::cli

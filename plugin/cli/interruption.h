@@ -12,7 +12,7 @@ namespace garmentfit::cli {
 enum class ForcedEnd { stopped, time_limit };
 
 /// The first SIGINT or SIGTERM only raises a flag, and leaves the program 0.7 s; a second one ends it at once.
-/// @param end  for an end that is forced, on a thread of its own: tells it and ends the process
+/// @param end  for an end that is forced, on a thread of its own: tells it and ends the process, so does not return
 void watch_interruption(std::function<void(ForcedEnd)> end);
 bool interrupted();
 /// @throws Cancelled when interrupted.
@@ -20,7 +20,8 @@ void stop_if_interrupted();
 
 /// Forces an end where the program still runs at twice this time, and at least 10 s after it. 0: no limit.
 void watch_time_limit(double seconds);
-/// From here on nothing is forced: the program is about to end, or to put finished files in their place.
+/// From here on nothing is forced, until somebody watches again: the program is about to end, or to put finished files
+/// in their place. Does not return where an end is being forced.
 void stop_watching();
 
 }  // namespace garmentfit::cli

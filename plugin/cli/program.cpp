@@ -2,7 +2,6 @@
 #include "program.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -187,15 +186,19 @@ bool asks_for_json(int argc, char** argv)
 }
 
 /// One line for people; for programs, its code too.
-int fail(int exit_code, std::string_view code, const std::string& message, bool json)
+int tell_failure(int exit_code, std::string_view code, const std::string& message, bool json)
 {
-    static std::atomic_flag has_failed;
-    if (has_failed.test_and_set())  // the work ended by itself when it was about to be ended
-        return exit_code;
     std::cerr << "garmentfit: " << message << '\n';
     if (json)
         std::cout << error_json(code, message) << std::flush;
     return exit_code;
+}
+
+/// Of work that ends by itself.
+int fail(int exit_code, std::string_view code, const std::string& message, bool json)
+{
+    stop_watching();
+    return tell_failure(exit_code, code, message, json);
 }
 
 /// What the program says where it had to be ended. Leaves no draft of results behind.
@@ -203,11 +206,12 @@ void end_at_once(ForcedEnd why, bool json)
 {
     Abandonable::abandon();
     const int code = why == ForcedEnd::stopped
-        ? fail(k_stopped, "cancelled", Cancelled().what(), json)
-        : fail(k_not_certified, "time_limit",
-               "time_limit: it was reached in a step that could not end by itself; repair or simplify the meshes, or "
-               "give more time, or 0 for no limit",
-               json);
+        ? tell_failure(k_stopped, "cancelled", Cancelled().what(), json)
+        : tell_failure(
+            k_not_certified, "time_limit",
+            "time_limit: it was reached in a step that could not end by itself; repair or simplify the meshes, or "
+            "give more time, or 0 for no limit",
+            json);
     std::_Exit(code);
 }
 

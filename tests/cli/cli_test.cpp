@@ -29,6 +29,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 using Arguments = std::vector<std::string>;
 
 const std::string k_body = GARMENTFIT_SAMPLES "/walking_woman.ply", k_skirt = GARMENTFIT_SAMPLES "/skirt.ply";
@@ -45,6 +46,19 @@ struct Ended {
 
     long error_lines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
+
+// A program that still loads its libraries has no say in how it ends.
+void wait_until_caught(pid_t pid, int signal)
+{
+    for (int attempt = 0; attempt < 6000; ++attempt) {
+        std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+        for (std::string line; std::getline(status, line);)
+            if (line.rfind("SigCgt:", 0) == 0 && (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1))
+                return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    FAIL() << "no handler for signal " << signal;
+}
 
 class CommandLine : public testing::Test {
 protected:
@@ -82,6 +96,16 @@ protected:
     }
 
     Ended run(const Arguments& arguments) const { return wait_for(start(arguments)); }
+
+    /// Sends a signal so long after the program can catch it.
+    Ended stop(const Arguments& arguments, int signal, std::chrono::duration<double> after) const
+    {
+        const pid_t pid = start(arguments);
+        wait_until_caught(pid, signal);
+        std::this_thread::sleep_for(after);
+        kill(pid, signal);
+        return wait_for(pid);
+    }
 
     std::string write(const std::string& name, const std::string& text) const
     {
@@ -311,28 +335,12 @@ TEST_F(CommandLine, KeepsWhatStoodInTheResultFolderWhenItRefuses)
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "result"), {}), 1);
 }
 
-// A program that still loads its libraries has no say in how it ends.
-void wait_until_caught(pid_t pid, int signal)
-{
-    for (int attempt = 0; attempt < 6000; ++attempt) {
-        std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-        for (std::string line; std::getline(status, line);)
-            if (line.rfind("SigCgt:", 0) == 0 && (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1))
-                return;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    FAIL() << "no handler for signal " << signal;
-}
-
 TEST_F(CommandLine, LeavesNothingBehindWhenStopped)
 {
     for (const int signal : { SIGINT, SIGTERM }) {
-        const pid_t pid = start(
-            { "dress", k_body, k_skirt, "--type", "skirt", "--settling-steps", "10000", "-o", folder / "result" });
-        wait_until_caught(pid, signal);
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // into the work
-        kill(pid, signal);
-        const Ended ended = wait_for(pid);
+        const Ended ended = stop(
+            { "dress", k_body, k_skirt, "--type", "skirt", "--settling-steps", "10000", "-o", folder / "result" },
+            signal, 0.2s);  // into the work
         EXPECT_EQ(ended.code, 130) << ended.err;
         EXPECT_EQ(ended.error_lines(), 1) << ended.err;
         expect_only_streams_and_inputs();
@@ -362,11 +370,8 @@ TEST_F(CommandLine, EndsWithinASecondOfASignalWhereItWaitsForEver)
 {
     const fs::path pipe = silent_pipe(folder);
     for (const int signal : { SIGINT, SIGTERM }) {
-        const pid_t pid = start({ "rig", k_body, "--joints", pipe, "-o", folder / "result" });
-        wait_until_caught(pid, signal);
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until it waits
-        kill(pid, signal);
-        const Ended ended = wait_for(pid);
+        const Ended ended
+            = stop({ "rig", k_body, "--joints", pipe, "-o", folder / "result" }, signal, 0.5s);  // until it waits
         EXPECT_EQ(ended.code, 130) << ended.err;
         EXPECT_EQ(ended.error_lines(), 1) << ended.err;
         EXPECT_FALSE(fs::exists(folder / "result"));
@@ -632,11 +637,7 @@ TEST_F(Slow, ChangesAllOrNothingWhereverItIsStopped)
         fs::remove_all(result);
         if (!is_new)
             fs::copy(earlier, result, fs::copy_options::recursive);
-        const pid_t pid = start(arguments("0.3"));
-        wait_until_caught(pid, signal);
-        std::this_thread::sleep_for(share * whole);
-        kill(pid, signal);
-        const Ended ended = wait_for(pid);
+        const Ended ended = stop(arguments("0.3"), signal, share * whole);
         const auto after = contents_of(result);
         if (ended.code == 130) {
             ++stopped;

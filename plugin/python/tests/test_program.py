@@ -30,6 +30,13 @@ def test_dresses_to_the_same_numbers_as_the_functions(body, skirt, tmp_path):
     assert json.loads((tmp_path / "out" / "report.json").read_text())["certified"]
 
 
+def test_tells_each_failure_of_several_runs_in_one_process():
+    once = "_core.run_program(['garmentfit', 'rig', 'no.ply', '-o', 'o'])"
+    twice = f"from garmentfit import _core; {once}; {once}"
+    done = subprocess.run([sys.executable, "-c", twice], capture_output=True, text=True)
+    assert len(done.stderr.splitlines()) == 2, done.stderr
+
+
 def test_has_every_step_and_their_files(tmp_path):
     for words in (["rig", BODY], ["fit", BODY, SKIRT, "--type", "skirt", "--rig", tmp_path / "rig" / "rig.json"],
                   ["drape", tmp_path / "fit", *SETTLE],
