@@ -22,33 +22,33 @@ Vec3 FrictionAnchors::offset(int vertex, const Anchor& anchor, const Positions& 
     return result;
 }
 
-void FrictionAnchors::set_touches(std::vector<Touch> touches, const Positions& x)
+void FrictionAnchors::set_active_contacts(std::vector<ActiveContact> contacts, const Positions& x)
 {
-    touches_ = std::move(touches);
-    for (const Touch& touch : touches_) {
-        std::optional<Anchor>& anchor = anchors_[index_of(touch)];
+    contacts_ = std::move(contacts);
+    for (const ActiveContact& contact : contacts_) {
+        std::optional<Anchor>& anchor = anchors_[index_of(contact)];
         if (anchor)
             continue;
-        anchor = { touch.corners, touch.weights, Vec3::Zero() };
-        anchor->place = offset(touch.vertex, *anchor, x);
+        anchor = { contact.corners, contact.weights, Vec3::Zero() };
+        anchor->place = offset(contact.vertex, *anchor, x);
     }
 }
 
 std::vector<SoftConstraint> FrictionAnchors::constraints(const Positions& x, double share) const
 {
     std::vector<SoftConstraint> result;
-    for (const Touch& touch : touches_) {
-        const Anchor& anchor = *anchors_[index_of(touch)];
-        const double pressing = touch.force.norm(), most = share * touch.friction * pressing;
-        const Vec3 normal = touch.force / pressing, here = offset(touch.vertex, anchor, x),
+    for (const ActiveContact& contact : contacts_) {
+        const Anchor& anchor = *anchors_[index_of(contact)];
+        const double pressing = contact.force.norm(), most = share * contact.friction * pressing;
+        const Vec3 normal = contact.force / pressing, here = offset(contact.vertex, anchor, x),
                    slip = across(here - anchor.place, normal);
-        SoftConstraint constraint { { touch.vertex, anchor.corners[0], anchor.corners[1], anchor.corners[2] },
+        SoftConstraint constraint { { contact.vertex, anchor.corners[0], anchor.corners[1], anchor.corners[2] },
                                     { 1, -anchor.weights[0], -anchor.weights[1], -anchor.weights[2] },
                                     anchor.place,
                                     normal,
                                     0,
-                                    touch.stiffness };
-        if (const double pull = touch.stiffness * slip.norm(); pull > most) {
+                                    contact.stiffness };
+        if (const double pull = contact.stiffness * slip.norm(); pull > most) {
             constraint.tangent_stiffness *= k_sliding_stiffness * most / pull;
             constraint.target = here - slip / k_sliding_stiffness;
         }
@@ -60,17 +60,17 @@ std::vector<SoftConstraint> FrictionAnchors::constraints(const Positions& x, dou
 void FrictionAnchors::follow(const Positions& x, double share)
 {
     std::vector<std::optional<Anchor>> kept(anchors_.size());
-    for (const Touch& touch : touches_) {
-        const Anchor& anchor = *anchors_[index_of(touch)];
-        const double pressing = touch.force.norm(), most = touch.friction * pressing;
-        const Vec3 slip = across(offset(touch.vertex, anchor, x) - anchor.place, touch.force / pressing);
-        const double pull = touch.stiffness * slip.norm();
-        std::optional<Anchor>& next = kept[index_of(touch)];
+    for (const ActiveContact& contact : contacts_) {
+        const Anchor& anchor = *anchors_[index_of(contact)];
+        const double pressing = contact.force.norm(), most = contact.friction * pressing;
+        const Vec3 slip = across(offset(contact.vertex, anchor, x) - anchor.place, contact.force / pressing);
+        const double pull = contact.stiffness * slip.norm();
+        std::optional<Anchor>& next = kept[index_of(contact)];
         next = anchor;
         if (pull <= share * most)
             continue;
-        next = { touch.corners, touch.weights, Vec3::Zero() };
-        next->place = offset(touch.vertex, *next, x) - k_kinetic_friction * most / pull * slip;
+        next = { contact.corners, contact.weights, Vec3::Zero() };
+        next->place = offset(contact.vertex, *next, x) - k_kinetic_friction * most / pull * slip;
     }
     anchors_ = std::move(kept);
 }

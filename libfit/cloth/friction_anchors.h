@@ -22,7 +22,7 @@ namespace garmentfit {
 class FrictionAnchors {
 public:
     /// A vertex presses on what stands still (corners -1), or on a triangle of the cloth itself.
-    struct Touch {
+    struct ActiveContact {
         int vertex;
         std::array<int, 3> corners;
         std::array<double, 3> weights;  ///< barycentric, of the nearest point
@@ -33,10 +33,10 @@ public:
 
     explicit FrictionAnchors(Eigen::Index vertices) : anchors_(2 * std::size_t(vertices)) { }
 
-    /// What touches now, at most once each vertex and kind. Touches without an anchor get one, here.
-    void set_touches(std::vector<Touch> touches, const Positions& x);
+    /// The contacts now, at most one for each vertex and kind. Contacts without an anchor get one, here.
+    void set_active_contacts(std::vector<ActiveContact> contacts, const Positions& x);
 
-    /// The friction forces on the cloth at x, under the normal forces of the touches.
+    /// The friction forces on the cloth at x, under the normal forces of the contacts.
     /// @param share  of the friction coefficients beyond which a vertex slides
     std::vector<SoftConstraint> constraints(const Positions& x, double share) const;
 
@@ -49,11 +49,14 @@ private:
         std::array<double, 3> weights;
         Vec3 place;  // relative to the point of the triangle, if there is one
     };
-    static std::size_t index_of(const Touch& touch) { return 2 * std::size_t(touch.vertex) + (touch.corners[0] >= 0); }
+    static std::size_t index_of(const ActiveContact& contact)
+    {
+        return 2 * std::size_t(contact.vertex) + (contact.corners[0] >= 0);
+    }
     static Vec3 offset(int vertex, const Anchor& anchor, const Positions& x);
 
     std::vector<std::optional<Anchor>> anchors_;
-    std::vector<Touch> touches_;
+    std::vector<ActiveContact> contacts_;
 };
 
 }  // namespace garmentfit

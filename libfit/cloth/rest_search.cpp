@@ -128,7 +128,7 @@ private:
         const Positions x = cloth();
         if (contacts_are_old(x))
             find_contacts();
-        anchors_.set_touches(find_touches(x), x);
+        anchors_.set_active_contacts(find_active_contacts(x), x);
         forces_ = forces_at(x);
         residual_ = measure(forces_, energy_.masses());
     }
@@ -156,10 +156,10 @@ private:
     }
 
     /// Of each vertex all that pushes it off the obstacle, as one, and the strongest contact with a triangle of cloth.
-    std::vector<FrictionAnchors::Touch> find_touches(const Positions& x) const
+    std::vector<FrictionAnchors::ActiveContact> find_active_contacts(const Positions& x) const
     {
         Positions pushes = Positions::Zero(x.rows(), 3);
-        std::vector<FrictionAnchors::Touch> on_cloth, result;
+        std::vector<FrictionAnchors::ActiveContact> on_cloth, result;
         for (const SoftConstraint& contact : contacts_at(x)) {
             const Vec3 force = contact.stiffness_times(contact.target - contact.sum(x));
             const auto& [v, a, b, c] = contact.vertices;
@@ -181,9 +181,9 @@ private:
             return one.vertex != other.vertex ? one.vertex < other.vertex : one.force.norm() > other.force.norm();
         });
         int last = -1;
-        for (const FrictionAnchors::Touch& touch : on_cloth)
-            if (std::exchange(last, touch.vertex) != touch.vertex && touch.force.norm() > 0)
-                result.push_back(touch);
+        for (const FrictionAnchors::ActiveContact& contact : on_cloth)
+            if (std::exchange(last, contact.vertex) != contact.vertex && contact.force.norm() > 0)
+                result.push_back(contact);
         return result;
     }
 

@@ -102,7 +102,10 @@ TEST(LimitedMemory, RemembersNoMoveAlongWhichForcesRise)
     EXPECT_TRUE(memory.empty());
 }
 
-FrictionAnchors::Touch pressed(double force) { return { 0, { -1, -1, -1 }, { 0, 0, 0 }, { 0, force, 0 }, 0.5, 100 }; }
+FrictionAnchors::ActiveContact pressed(double force)
+{
+    return { 0, { -1, -1, -1 }, { 0, 0, 0 }, { 0, force, 0 }, 0.5, 100 };
+}
 
 /// Along x, on a vertex at that x whose anchor is at 0.
 double friction_at(const FrictionAnchors& anchors, double x, double share)
@@ -117,7 +120,7 @@ double friction_at(const FrictionAnchors& anchors, double x, double share)
 TEST(FrictionAnchors, HoldAsSpringsWithinTheConeAndPullEvenlyBeyond)
 {
     FrictionAnchors anchors(1);
-    anchors.set_touches({ pressed(2) }, Eigen::RowVector3d(0, 0, 0));
+    anchors.set_active_contacts({ pressed(2) }, Eigen::RowVector3d(0, 0, 0));
     EXPECT_DOUBLE_EQ(friction_at(anchors, 0.005, 1), -0.5);
     EXPECT_DOUBLE_EQ(friction_at(anchors, 0.02, 1), -1);  // 0.5 of 2 N
     EXPECT_NEAR(friction_at(anchors, 3, 1), -1, 1e-12);
@@ -127,12 +130,12 @@ TEST(FrictionAnchors, HoldAsSpringsWithinTheConeAndPullEvenlyBeyond)
 TEST(FrictionAnchors, FollowWhatSlidAndThenHoldItWithLess)
 {
     FrictionAnchors anchors(1);
-    anchors.set_touches({ pressed(2) }, Eigen::RowVector3d(0, 0, 0));
+    anchors.set_active_contacts({ pressed(2) }, Eigen::RowVector3d(0, 0, 0));
     anchors.follow(Eigen::RowVector3d(0.005, 0, 0), 1);
     EXPECT_DOUBLE_EQ(friction_at(anchors, 0.005, 1), -0.5) << "within the cone";
     const Positions far = Eigen::RowVector3d(3, 0, 0);
     anchors.follow(far, 1);
-    anchors.set_touches({ pressed(2) }, far);
+    anchors.set_active_contacts({ pressed(2) }, far);
     EXPECT_NEAR(friction_at(anchors, 3, 1), -k_kinetic_friction, 1e-12);
     EXPECT_NEAR(friction_at(anchors, 3 - 0.001, 1), 0.1 - k_kinetic_friction, 1e-12) << "a spring again";
 }
@@ -140,14 +143,14 @@ TEST(FrictionAnchors, FollowWhatSlidAndThenHoldItWithLess)
 TEST(FrictionAnchors, ForgetWhatNoLongerTouches)
 {
     FrictionAnchors anchors(1);
-    anchors.set_touches({ pressed(2) }, Eigen::RowVector3d(0, 0, 0));
-    anchors.set_touches({}, Eigen::RowVector3d(1, 0, 0));
+    anchors.set_active_contacts({ pressed(2) }, Eigen::RowVector3d(0, 0, 0));
+    anchors.set_active_contacts({}, Eigen::RowVector3d(1, 0, 0));
     EXPECT_DOUBLE_EQ(friction_at(anchors, 1, 1), 0);
-    anchors.set_touches({ pressed(2) }, Eigen::RowVector3d(1, 0, 0));
+    anchors.set_active_contacts({ pressed(2) }, Eigen::RowVector3d(1, 0, 0));
     EXPECT_LT(friction_at(anchors, 1, 1), 0) << "it only left for a moment";
-    anchors.set_touches({}, Eigen::RowVector3d(1, 0, 0));
+    anchors.set_active_contacts({}, Eigen::RowVector3d(1, 0, 0));
     anchors.follow(Eigen::RowVector3d(1, 0, 0), 1);
-    anchors.set_touches({ pressed(2) }, Eigen::RowVector3d(1, 0, 0));
+    anchors.set_active_contacts({ pressed(2) }, Eigen::RowVector3d(1, 0, 0));
     EXPECT_DOUBLE_EQ(friction_at(anchors, 1, 1), 0);
 }
 
