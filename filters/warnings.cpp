@@ -113,12 +113,21 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
     return warnings;
 }
 
+std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set)
+{
+    if (!scene.rig || scene.rig->side_confidence >= k_low_confidence)
+        return {};
+    return { std::string("which side of the body is left") + k_guess + "; if it is wrong, " + set("swap_sides") };
+}
+
 std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,
                                              const HowToSet& set)
 {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = explain(scene.conflicts, names);
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         warn_of_guesses(warnings, names[i], scene.fits[i], set);
+    for (std::size_t i = 0; i < scene.garments.size(); ++i)
+        warn_of_closed_ends(warnings, names[i], closed_ends(scene, i));
     return warnings;
 }
 
@@ -170,20 +179,13 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
 std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vector<std::string>& names,
                                               const HowToSet& set)
 {
-    std::vector<std::string> warnings = explain(scene.conflicts, names);
-    if (scene.rig && scene.rig->side_confidence < k_low_confidence)
-        warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
-                           + set("swap_sides"));
-    const std::vector<std::string> fits = warnings_about_fits(scene, names, set);
-    warnings.insert(warnings.end(), fits.begin(), fits.end());
-    for (std::size_t i = 0; i < scene.garments.size(); ++i)
-        warn_of_closed_ends(warnings, names[i], closed_ends(scene, i));
-    const std::vector<std::string> layers = warnings_about_layers(scene, names, set);
-    warnings.insert(warnings.end(), layers.begin(), layers.end());
-    if (const Dressing* end = final_dressing(scene)) {
-        const std::vector<std::string> more = warnings_about_dressing(*end, names);
-        warnings.insert(warnings.end(), more.begin(), more.end());
-    }
+    std::vector<std::string> warnings = warnings_about_rig(scene, set);
+    const auto add
+        = [&](const std::vector<std::string>& more) { warnings.insert(warnings.end(), more.begin(), more.end()); };
+    add(warnings_about_fits(scene, names, set));
+    add(warnings_about_layers(scene, names, set));
+    if (const Dressing* end = final_dressing(scene))
+        add(warnings_about_dressing(*end, names));
     return warnings;
 }
 

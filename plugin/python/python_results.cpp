@@ -169,9 +169,7 @@ nb::dict verdict_of(const PythonScene& s)
             warnings.append(nb::str(line.c_str()));
     };
     add(s.frame_warnings);
-    add(warnings_about_fits(s.scene, s.names, set_by_name));
-    add(warnings_about_layers(s.scene, s.names, set_by_name));
-    add(warnings_about_dressing(end, s.names));
+    add(warnings_about_scene(s.scene, s.names, set_by_name));
     made["warnings"] = warnings;
     nb::list held;
     for (const HeldBack& part : end.held_back)

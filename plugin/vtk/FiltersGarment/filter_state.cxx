@@ -174,6 +174,8 @@ std::vector<std::string> FilterState::warnings() const
     std::vector<std::string> lines = known_.body_frame_warnings;
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(known_.garment_frame_warnings);
+    if (filter.has(Stage::rig))
+        add(warnings_about_rig(known_.scene, set_by_name));
     if (filter.has(Stage::fit))
         add(warnings_about_fits(known_.scene, known_.garment_names, set_by_name));
     add(warnings_about_layers(known_.scene, known_.garment_names, set_by_name));

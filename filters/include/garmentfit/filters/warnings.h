@@ -23,7 +23,11 @@ std::string set_by_name(std::string_view parameter);
 std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
                                               const std::string& prefix, const HowToSet& set);
 
-/// About the type, front and up of each garment, where they are guessed with a low probability.
+/// About left and right.
+std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set);
+
+/// About garments that were not fitted in one pose, about type, front and up where they are guessed with a low
+/// probability, and about ends closed by caps.
 std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,
                                              const HowToSet& set);
 
@@ -34,7 +38,7 @@ std::vector<std::string> warnings_about_layers(const Scene& scene, const std::ve
 /// About the dressed garments: overstretched, not at rest, slipped, crossing themselves as given.
 std::vector<std::string> warnings_about_dressing(const Dressing& dressing, const std::vector<std::string>& names);
 
-/// About left and right, garment types, poses and the dressed garments. `names` are those of the garments.
+/// All of the above but frames. `names` are those of the garments.
 std::vector<std::string> warnings_about_scene(const Scene& scene, const std::vector<std::string>& names,
                                               const HowToSet& set);
 
