@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exact_crossings.h"
 
+#include <algorithm>
+
 #include "parallel.h"
+#include "segment_triangle.h"
 
 namespace garmentfit {
 namespace {
 
 // Vertices at one place count as one vertex: seams of UV charts have two.
-bool is_corner(const TriangleMesh& mesh, int triangle, const Eigen::RowVector3d& place)
+bool is_corner(const Positions& positions, const Triangles& triangles, int triangle, const Eigen::RowVector3d& place)
 {
-    const auto corners = mesh.triangles.row(triangle);
-    return mesh.positions.row(corners[0]) == place || mesh.positions.row(corners[1]) == place
-        || mesh.positions.row(corners[2]) == place;
+    const auto corners = triangles.row(triangle);
+    return positions.row(corners[0]) == place || positions.row(corners[1]) == place
+        || positions.row(corners[2]) == place;
+}
+
+template <class Corners>
+void refit_tree(BoxTree& tree, const Corners& corners, const Positions& positions)
+{
+    std::vector<Box> boxes(corners.rows());
+    for (Eigen::Index i = 0; i < corners.rows(); ++i)
+        for (const int v : corners.row(i))
+            boxes[i].extend(Vec3(positions.row(v)));
+    if (tree.empty())
+        tree = BoxTree(boxes);
+    else
+        tree.refit(boxes);
 }
 
 // @param is_left_out  (edge, triangle) -> bool
@@ -41,9 +57,35 @@ std::vector<Crossing> find_crossings(const TriangleMesh& a, const Edges& edges_o
 std::vector<Crossing> find_self_crossings(const TriangleMesh& mesh, const Edges& edges, const TriangleTree& tree)
 {
     return find(mesh, edges, tree, [&](Eigen::Index e, int triangle) {
-        return is_corner(mesh, triangle, mesh.positions.row(edges(e, 0)))
-            || is_corner(mesh, triangle, mesh.positions.row(edges(e, 1)));
+        return is_corner(mesh.positions, mesh.triangles, triangle, mesh.positions.row(edges(e, 0)))
+            || is_corner(mesh.positions, mesh.triangles, triangle, mesh.positions.row(edges(e, 1)));
     });
+}
+
+bool SelfCrossingSearch::cross(const Positions& positions, int edge, int triangle) const
+{
+    const auto corners = triangles_.row(triangle);
+    const auto at = [&](int v) { return Vec3(positions.row(v)); };
+    for (const int v : edges_.row(edge))
+        if (is_corner(positions, triangles_, triangle, positions.row(v)))
+            return false;
+    return meets(at(edges_(edge, 0)), at(edges_(edge, 1)), at(corners[0]), at(corners[1]), at(corners[2]));
+}
+
+std::vector<Crossing> SelfCrossingSearch::find(const Positions& positions)
+{
+    refit_tree(edge_tree_, edges_, positions);
+    refit_tree(triangle_tree_, triangles_, positions);
+    std::vector<std::vector<Crossing>> parts(BoxTree::k_parts);
+    BoxTree::overlaps(edge_tree_, triangle_tree_, [&](int part, int edge, int triangle) {
+        if (cross(positions, edge, triangle))
+            parts[part].emplace_back(edge, triangle);
+    });
+    std::vector<Crossing> result;
+    for (const std::vector<Crossing>& part : parts)
+        result.insert(result.end(), part.begin(), part.end());
+    std::sort(result.begin(), result.end());
+    return result;
 }
 
 std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b)

@@ -3,6 +3,7 @@
 
 // The searches of certificate.h for callers that have edges and trees already.
 
+#include "box_tree.h"
 #include "garmentfit/certificate.h"
 #include "nearest.h"
 #include "topology.h"
@@ -13,5 +14,20 @@ namespace garmentfit {
 std::vector<Crossing> find_crossings(const TriangleMesh& a, const Edges& edges_of_a, const TriangleTree& tree_of_b);
 /// The edges of `mesh` through its own triangles, neighbours left out.
 std::vector<Crossing> find_self_crossings(const TriangleMesh& mesh, const Edges& edges, const TriangleTree& tree);
+
+/// find_self_crossings of one mesh again and again, while it moves: its trees are renewed, not built.
+class SelfCrossingSearch {
+public:
+    /// Keeps references: both have to live as long.
+    SelfCrossingSearch(const Triangles& triangles, const Edges& edges) : triangles_(triangles), edges_(edges) { }
+    std::vector<Crossing> find(const Positions& positions);
+
+private:
+    bool cross(const Positions& positions, int edge, int triangle) const;
+
+    const Triangles& triangles_;
+    const Edges& edges_;
+    BoxTree edge_tree_, triangle_tree_;
+};
 
 }  // namespace garmentfit

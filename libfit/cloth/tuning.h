@@ -211,6 +211,8 @@ inline constexpr double k_untangle_gradient = 1;
 /// fitted: guess, on the tangled garments of the house data, by the crossings left.
 inline constexpr int k_untangle_smoothing_passes = 4;
 inline constexpr double k_untangle_smoothing = 0.5;
+/// Rings of edges about cloth that is put back, over which the motion fades in. fitted: guess
+inline constexpr int k_untangle_blend_rings = 4;
 
 // ---- preconditioner (single_precision_factor) -----------------------------------------------------------------------
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
-#include "disjoint_sets.h"
 #include "exact_crossings.h"
 #include "nearest.h"
 #include "tuning.h"
@@ -77,23 +77,29 @@ public:
     explicit ContourMinimiser(Region region) :
         region_(std::move(region)), given_(region_.mesh.positions),
         topology_(region_.mesh.triangles, int(given_.rows())), edges_(topology_.edges()),
-        edges_at_(edge_counts(edges_, given_.rows())), step_(k_untangle_step * mean_edge_length(given_, edges_))
+        edges_at_(edge_counts(edges_, given_.rows())), search_(region_.mesh.triangles, edges_),
+        step_(k_untangle_step * mean_edge_length(given_, edges_))
     {
     }
 
-    /// Moves the region's vertices until nothing crosses, and restores those of tangles that are left.
+    /// Moves the region's vertices until nothing crosses, or to where the fewest crossings are left.
     const Region& run()
     {
-        std::vector<Crossing> left = find_tangles(region_.mesh, edges_);
+        std::vector<Crossing> left = search_.find(region_.mesh.positions);
         std::size_t fewest = left.size();
+        Positions best = region_.mesh.positions;
         for (int round = 0, stalled = 0;
              round < k_untangle_rounds && stalled < k_untangle_stall_rounds && !left.empty(); ++round) {
             region_.mesh.positions += motion(left);
-            left = find_tangles(region_.mesh, edges_);
-            stalled = left.size() < fewest ? 0 : stalled + 1;
-            fewest = std::min(fewest, left.size());
+            left = search_.find(region_.mesh.positions);
+            ++stalled;
+            if (left.size() < fewest) {
+                stalled = 0;
+                fewest = left.size();
+                best = region_.mesh.positions;
+            }
         }
-        restore(left);
+        region_.mesh.positions = best;
         return region_;
     }
 
@@ -168,29 +174,98 @@ private:
         return motion;
     }
 
-    // Pieces that cross each other are one tangle.
-    void restore(const std::vector<Crossing>& left)
-    {
-        const Triangles& triangles = region_.mesh.triangles;
-        DisjointSets pieces(int(given_.rows()));
-        for (Eigen::Index e = 0; e < edges_.rows(); ++e)
-            pieces.join(edges_(e, 0), edges_(e, 1));
-        for (const auto& [e, f] : left)
-            pieces.join(edges_(e, 0), triangles(f, 0));
-        std::vector<char> is_tangled(given_.rows(), 0);
-        for (const auto& [e, f] : left)
-            is_tangled[pieces.root(edges_(e, 0))] = 1;
-        for (int v = 0; v < int(given_.rows()); ++v)
-            if (is_tangled[pieces.root(v)])
-                region_.mesh.positions.row(v) = given_.row(v);
-    }
-
     Region region_;
     const Positions given_;
     const MeshTopology topology_;
     const Edges& edges_;  // of topology_
     const Eigen::VectorXd edges_at_;  // each vertex
+    SelfCrossingSearch search_;
     const double step_;  // metres
+};
+
+/// What an untangling that does not come to its end may keep: only crossings that the cloth was given with.
+class PartialResult {
+public:
+    PartialResult(const TriangleMesh& given, const Edges& edges, const std::vector<Crossing>& tangles,
+                  const Positions& parted) :
+        given_(given),
+        edges_(edges), tangles_(tangles), parted_(parted), search_(given.triangles, edges_),
+        rings_(given.positions.rows(), k_untangle_blend_rings)
+    {
+    }
+
+    /// Restores the cloth around new crossings until there are none. Each round restores more, so it ends.
+    UntangleResult settle()
+    {
+        for (;;) {
+            Positions positions = blended();
+            std::vector<Crossing> left = search_.find(positions), fresh;
+            std::set_difference(left.begin(), left.end(), tangles_.begin(), tangles_.end(), std::back_inserter(fresh));
+            if (fresh.empty())
+                return { std::move(positions), std::move(left) };
+            restore(fresh);
+        }
+    }
+
+private:
+    /// The parted cloth, moved less the nearer it is to restored cloth.
+    Positions blended() const
+    {
+        Positions result = parted_;
+        for (Eigen::Index v = 0; v < result.rows(); ++v)
+            if (rings_[v] < k_untangle_blend_rings)
+                result.row(v) = given_.positions.row(v)
+                    + double(rings_[v]) / k_untangle_blend_rings * (parted_.row(v) - given_.positions.row(v));
+        return result;
+    }
+
+    // The corners of the crossings, and one ring about those that are restored already.
+    void restore(const std::vector<Crossing>& fresh)
+    {
+        const auto restore_corner = [&](int v) {
+            if (rings_[v] == 0)
+                widened_.push_back(v);
+            rings_[v] = 0;
+        };
+        widened_.clear();
+        for (const auto& [e, f] : fresh) {
+            for (const int v : edges_.row(e))
+                restore_corner(v);
+            for (const int v : given_.triangles.row(f))
+                restore_corner(v);
+        }
+        widen();
+        spread_rings();
+    }
+
+    void widen()
+    {
+        std::vector<char> is_centre(rings_.size(), 0);
+        for (const int v : widened_)
+            is_centre[v] = 1;
+        for (Eigen::Index e = 0; e < edges_.rows(); ++e)
+            if (is_centre[edges_(e, 0)] || is_centre[edges_(e, 1)])
+                rings_[edges_(e, 0)] = rings_[edges_(e, 1)] = 0;
+    }
+
+    // One ring more of edges for each pass.
+    void spread_rings()
+    {
+        for (int pass = 1; pass < k_untangle_blend_rings; ++pass)
+            for (Eigen::Index e = 0; e < edges_.rows(); ++e) {
+                int &a = rings_[edges_(e, 0)], &b = rings_[edges_(e, 1)];
+                a = std::min(a, b + 1);
+                b = std::min(b, a + 1);
+            }
+    }
+
+    const TriangleMesh& given_;
+    const Edges& edges_;
+    const std::vector<Crossing>& tangles_;
+    const Positions& parted_;
+    SelfCrossingSearch search_;
+    std::vector<int> rings_;  // of edges, from the restored cloth
+    std::vector<int> widened_;
 };
 
 }  // namespace
@@ -204,12 +279,9 @@ UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges)
         return { cloth.positions, {} };
     ContourMinimiser minimiser(cut_out_region(tangles, cloth, edges));
     const Region& parted = minimiser.run();
-    TriangleMesh result = cloth;
-    result.positions(parted.vertices, Eigen::all) = parted.mesh.positions;
-    const std::vector<Crossing> left = find_tangles(result, edges);
-    if (!std::includes(tangles.begin(), tangles.end(), left.begin(), left.end()))
-        return { cloth.positions, tangles };
-    return { result.positions, left };
+    Positions positions = cloth.positions;
+    positions(parted.vertices, Eigen::all) = parted.mesh.positions;
+    return PartialResult(cloth, edges, tangles, positions).settle();
 }
 
 }  // namespace garmentfit

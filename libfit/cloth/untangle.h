@@ -17,9 +17,9 @@ struct UntangleResult {
     std::vector<Crossing> left;  ///< pairs that still cross
 };
 
-/// `cloth` (n x 3, metres, equal vertices welded) with its sheets parted. A tangle that does not come apart stays as
-/// given, vertex for vertex, and so does everything that is further than a few edges from a tangle. Cost O(n log n) to
-/// find the tangles, and some hundred times their own size to part them.
+/// `cloth` (n x 3, metres, equal vertices welded) with its sheets parted. Where a part of a tangle does not come apart
+/// without crossings that were not given, the cloth is put back there; everything that is further than a few edges from a
+/// tangle stays as given. Cost O(n log n) to find the tangles, and some hundred times their own size to part them.
 /// @param edges  of the triangles of `cloth`
 UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges);
 UntangleResult untangle(const TriangleMesh& cloth);
