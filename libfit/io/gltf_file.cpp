@@ -10,6 +10,7 @@
 #include "garmentfit/error.h"
 #include "gltf_container.h"
 #include "gltf_model.h"
+#include "gltf_scene.h"
 #include "mesh_content.h"
 #include "turned_normals.h"
 
@@ -29,62 +30,17 @@ struct Block {
     Eigen::Index first_row = 0;
 };
 
-void require_sizes(const FileBytes& file, const tinygltf::Node& node)
-{
-    const auto is
-        = [](const std::vector<double>& values, std::size_t size) { return values.empty() || values.size() == size; };
-    if (!is(node.matrix, 16) || !is(node.translation, 3) || !is(node.rotation, 4) || !is(node.scale, 3))
-        file.fail("node '" + first_line(node.name) + "' has a transform of the wrong length; export the file again");
-}
-
-Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& node)
-{
-    require_sizes(file, node);
-    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-    if (!node.matrix.empty()) {
-        transform.matrix().topRows<3>() = Eigen::Matrix4d::Map(node.matrix.data()).topRows<3>();
-        return transform;
-    }
-    if (!node.translation.empty())
-        transform.translate(Vec3::Map(node.translation.data()));
-    if (!node.rotation.empty())
-        transform.rotate(
-            Eigen::Quaterniond(Eigen::Vector4d::Map(node.rotation.data())).normalized());  // x y z w, as in Eigen
-    if (!node.scale.empty())
-        transform.scale(Vec3::Map(node.scale.data()));
-    return transform;
-}
-
 class SceneReader {
 public:
-    SceneReader(const FileBytes& file, const tinygltf::Model& model) :
-        file_(file), model_(model), seen_(model.nodes.size())
+    SceneReader(const FileBytes& file, const tinygltf::Model& model) : file_(file), model_(model), scene_(file, model)
     {
     }
 
-    /// Nodes in the order of the tree, parents first.
     void read()
     {
-        struct Visit {
-            int node;
-            Eigen::Affine3d world_from_parent;
-        };
-        std::vector<Visit> open;
-        const auto push = [&](const std::vector<int>& nodes, const Eigen::Affine3d& transform) {
-            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-                open.push_back({ *node, transform });
-        };
-        push(roots(), Eigen::Affine3d::Identity());
-        while (!open.empty()) {
-            const Visit visit = open.back();
-            open.pop_back();
-            const tinygltf::Node& node = checked(file_, model_.nodes, visit.node, "node");
-            if (std::exchange(seen_[visit.node], true))
-                file_.fail("node " + std::to_string(visit.node) + " has two parents; export the file again");
-            const Eigen::Affine3d world_from_node = visit.world_from_parent * parent_from_node(file_, node);
-            // the place of a skinned mesh is that of its bones, in whose rest pose it lies as it is stored
-            read_mesh(visit.node, node, node.skin >= 0 ? Eigen::Affine3d::Identity() : world_from_node);
-            push(node.children, world_from_node);
+        for (const GltfSurface& surface : scene_.surfaces()) {
+            const Block& block = block_of(surface);
+            add_faces(*surface.primitive, indices_of(*surface.primitive, block), block);
         }
     }
 
@@ -93,54 +49,20 @@ public:
     Eigen::Index rows() const { return rows_; }
 
 private:
-    std::vector<int> roots() const
-    {
-        if (!model_.scenes.empty())
-            return checked(file_, model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
-        std::vector<bool> is_child(model_.nodes.size());
-        for (const tinygltf::Node& node : model_.nodes)
-            for (const int child : node.children)
-                if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
-                    is_child[child] = true;
-        std::vector<int> nodes;
-        for (std::size_t node = 0; node < is_child.size(); ++node)
-            if (!is_child[node])
-                nodes.push_back(static_cast<int>(node));
-        return nodes;
-    }
-
-    void read_mesh(int index, const tinygltf::Node& node, const Eigen::Affine3d& world_from_local)
-    {
-        if (node.mesh < 0)
-            return;
-        for (const tinygltf::Primitive& primitive : checked(file_, model_.meshes, node.mesh, "mesh").primitives)
-            read_primitive(index, primitive, world_from_local);
-    }
-
-    void read_primitive(int node, const tinygltf::Primitive& primitive, const Eigen::Affine3d& world_from_local)
-    {
-        if (primitive.extensions.count("KHR_draco_mesh_compression"))
-            file_.fail("is packed with KHR_draco_mesh_compression; export it without compression");
-        const auto attribute = primitive.attributes.find("POSITION");
-        const bool is_surface = primitive.mode < 0 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
-        if (attribute == primitive.attributes.end() || !is_surface)
-            return;
-        const Block& block
-            = block_of(node, primitive, vector_column(file_, model_, attribute->second, "POSITION"), world_from_local);
-        add_faces(primitive, indices_of(primitive, block), block);
-    }
-
     /// Primitives may share vertices: each run of them is read once.
-    const Block& block_of(int node, const tinygltf::Primitive& primitive, const Column& positions,
-                          const Eigen::Affine3d& world_from_local)
+    const Block& block_of(const GltfSurface& surface)
     {
+        const auto& [node, shown, positions, adds_vertices] = surface;
+        const tinygltf::Primitive& primitive = *shown;
         std::optional<Column> normals;
         if (const auto attribute = primitive.attributes.find("NORMAL"); attribute != primitive.attributes.end())
             normals = vector_column(file_, model_, attribute->second, "NORMAL");
-        const auto [entry, is_new] = block_at_.try_emplace({ positions.buffer, positions.begin }, blocks.size());
-        if (is_new)
-            add_block({ node, world_from_local, positions, normals, rows_ });
-        Block& block = blocks[entry->second];
+        std::size_t& at = block_at_[{ positions.buffer, positions.begin }];
+        if (adds_vertices) {
+            at = blocks.size();
+            add_block({ node, scene_.world_from_mesh(node), positions, normals, rows_ });
+        }
+        Block& block = blocks[at];
         if (block.node != node)
             file_.fail("nodes " + std::to_string(block.node) + " and " + std::to_string(node)
                        + " show the same mesh; give each its own copy");
@@ -221,7 +143,7 @@ private:
 
     const FileBytes& file_;
     const tinygltf::Model& model_;
-    std::vector<char> seen_;
+    const GltfScene scene_;
     std::map<std::pair<int, std::size_t>, std::size_t> block_at_;  // (buffer, first byte) -> block
     FanBuilder fans_;
     Eigen::Index rows_ = 0;

@@ -2,14 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <optional>
-#include <set>
 
 #include "garmentfit/error.h"
 #include "garmentfit/skinned_gltf.h"
 #include "gltf_model.h"
+#include "gltf_scene.h"
 #include "joint_names.h"
 
 namespace garmentfit {
@@ -24,104 +22,129 @@ struct FileSkin {
     std::vector<std::string> names;
     std::vector<int> parents;  ///< rows of the same; -1 none
     std::vector<Vec3> places;
-    std::vector<std::array<std::pair<int, double>, 4>> hangs;  ///< of each vertex: joint and weight
+    std::vector<std::vector<std::pair<int, double>>> hangs;  ///< of each vertex: joints and weights
 };
 
-double number_at(const tinygltf::Model& model, const Column& column, std::size_t row, int k)
-{
-    const tinygltf::Accessor& accessor = model.accessors[std::size_t(column.accessor)];
-    const auto* at = model.buffers[std::size_t(column.buffer)].data.data() + column.offset(Eigen::Index(row))
-        + std::size_t(k) * std::size_t(tinygltf::GetComponentSizeInBytes(accessor.componentType));
-    const auto read = [&](auto number) {
-        std::memcpy(&number, at, sizeof number);
-        return accessor.normalized ? double(number) / double(std::numeric_limits<decltype(number)>::max())
-                                   : double(number);
-    };
-    switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return read(std::uint8_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return read(std::uint16_t());
-    default: {
-        float number;
-        std::memcpy(&number, at, sizeof number);
-        return number;
-    }
-    }
-}
-
+/// Reads all skins of a file as one: their joints are merged by node. The rows are the vertices of MeshFile.
 class SkinReader {
 public:
-    SkinReader(const FileBytes& file, const tinygltf::Model& model) : file_(file), model_(model) { }
+    SkinReader(const FileBytes& file, const tinygltf::Model& model) :
+        file_(file), model_(model), scene_(file, model), row_of_(model.nodes.size(), -1)
+    {
+    }
 
     FileSkin read()
     {
-        const auto body = std::find_if(model_.nodes.begin(), model_.nodes.end(),
-                                       [](const tinygltf::Node& node) { return node.mesh >= 0 && node.skin >= 0; });
-        if (body == model_.nodes.end())
+        const std::vector<GltfSurface> surfaces = scene_.surfaces();
+        for (const GltfSurface& surface : surfaces)
+            add_joints(surface.node);
+        if (skin_.names.empty())
             file_.fail("has no skinned mesh; give a rigged body");
-        read_joints(checked(file_, model_.skins, body->skin, "skin"));
-        std::set<int> seen;  // primitives may share vertices
-        for (const tinygltf::Primitive& primitive : checked(file_, model_.meshes, body->mesh, "mesh").primitives)
-            if (const auto position = primitive.attributes.find("POSITION");
-                position != primitive.attributes.end() && seen.insert(position->second).second)
-                read_weights(primitive);
+        for (const int node : joints_)
+            skin_.parents.push_back(joint_above(scene_.parent(node)));
+        for (const GltfSurface& surface : surfaces)
+            if (surface.adds_vertices)
+                read_weights(surface);
         return std::move(skin_);
     }
 
 private:
-    void read_joints(const tinygltf::Skin& skin)
+    const tinygltf::Skin* skin_of(int node) const
     {
-        const Column binds = column_of(file_, model_, skin.inverseBindMatrices, "inverseBindMatrices");
-        const tinygltf::Accessor& accessor = model_.accessors[std::size_t(binds.accessor)];
-        if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT
-            || binds.count < skin.joints.size())
-            file_.fail("has no inverse bind matrix for each joint; export the skin with its bind pose");
-        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-            skin_.names.push_back(checked(file_, model_.nodes, skin.joints[j], "node").name);
-            Eigen::Matrix4d bind;
-            for (int k = 0; k < 16; ++k)
-                bind(k % 4, k / 4) = number_at(model_, binds, j, k);
-            skin_.places.push_back(bind.inverse().topRightCorner<3, 1>());
+        const int skin = model_.nodes[std::size_t(node)].skin;
+        return skin < 0 ? nullptr : &checked(file_, model_.skins, skin, "skin");
+    }
+
+    void add_joints(int node)
+    {
+        const tinygltf::Skin* skin = skin_of(node);
+        if (!skin)
+            return;
+        const Eigen::Affine3d world_from_mesh = scene_.world_from_mesh(node);
+        for (std::size_t j = 0; j < skin->joints.size(); ++j) {
+            const int joint = skin->joints[j];
+            const std::string& name = checked(file_, model_.nodes, joint, "node").name;
+            if (row_of_[std::size_t(joint)] >= 0)
+                continue;
+            row_of_[std::size_t(joint)] = int(joints_.size());
+            joints_.push_back(joint);
+            skin_.names.push_back(name);
+            skin_.places.push_back((world_from_mesh * scene_.joint_from_mesh(*skin, j).inverse()).translation());
             if (!skin_.places.back().allFinite())
-                file_.fail("joint '" + skin_.names.back() + "' has no position; export the skin with its bind pose");
+                file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
         }
-        for (const int joint : skin.joints)
-            skin_.parents.push_back(parent_row(skin, joint));
     }
 
-    int parent_row(const tinygltf::Skin& skin, int node) const
+    /// The row of the node, or of the nearest one above it that is a joint; -1 where there is none.
+    int joint_above(int node) const
     {
-        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-            const std::vector<int>& children = model_.nodes[std::size_t(skin.joints[j])].children;
-            if (std::find(children.begin(), children.end(), node) != children.end())
-                return int(j);
-        }
-        return -1;
+        while (node >= 0 && row_of_[std::size_t(node)] < 0)
+            node = scene_.parent(node);
+        return node < 0 ? -1 : row_of_[std::size_t(node)];
     }
 
-    void read_weights(const tinygltf::Primitive& primitive)
+    void read_weights(const GltfSurface& surface)
     {
-        const auto joints = primitive.attributes.find("JOINTS_0"), weights = primitive.attributes.find("WEIGHTS_0");
-        if (joints == primitive.attributes.end() || weights == primitive.attributes.end())
+        if (const tinygltf::Skin* skin = skin_of(surface.node))
+            read_weights(surface, *skin);
+        else
+            hang_on_one_joint(surface);
+    }
+
+    /// Eyes, hair and the like may be moved by a joint without a skin of their own.
+    void hang_on_one_joint(const GltfSurface& surface)
+    {
+        const int joint = joint_above(surface.node);
+        if (joint < 0)
+            file_.fail("node '" + first_line(model_.nodes[std::size_t(surface.node)].name)
+                       + "' shows a mesh that has no skin and hangs on no joint; leave it out, or give it a skin");
+        skin_.hangs.insert(skin_.hangs.end(), surface.positions.count, { { joint, 1.0 } });
+    }
+
+    void read_weights(const GltfSurface& surface, const tinygltf::Skin& skin)
+    {
+        const std::size_t first = skin_.hangs.size();
+        skin_.hangs.resize(first + surface.positions.count);
+        for (int set = 0; read_set(surface, skin, set, first);)
+            ++set;
+    }
+
+    /// Four joints and weights of each vertex; further sets follow where the file has more.
+    bool read_set(const GltfSurface& surface, const tinygltf::Skin& skin, int set, std::size_t first)
+    {
+        const std::string number = std::to_string(set), joints = "JOINTS_" + number, weights = "WEIGHTS_" + number;
+        const auto joint_at = surface.primitive->attributes.find(joints),
+                   weight_at = surface.primitive->attributes.find(weights), end = surface.primitive->attributes.end();
+        if (set > 0 && (joint_at == end || weight_at == end))
+            return false;
+        if (joint_at == end || weight_at == end)
             file_.fail("has vertices without JOINTS_0 and WEIGHTS_0; give a rigged body");
-        const Column joint = column_of(file_, model_, joints->second, "JOINTS_0"),
-                     weight = column_of(file_, model_, weights->second, "WEIGHTS_0");
-        if (model_.accessors[std::size_t(joint.accessor)].type != TINYGLTF_TYPE_VEC4
-            || model_.accessors[std::size_t(weight.accessor)].type != TINYGLTF_TYPE_VEC4 || joint.count != weight.count)
-            file_.fail("has JOINTS_0 and WEIGHTS_0 that are not four numbers a vertex; export the file again");
-        for (std::size_t v = 0; v < joint.count; ++v) {
-            auto& hang = skin_.hangs.emplace_back();
+        const Column joint = column_of(file_, model_, joint_at->second, joints.c_str()),
+                     weight = column_of(file_, model_, weight_at->second, weights.c_str());
+        const auto is_four = [&](const Column& column) {
+            return model_.accessors[std::size_t(column.accessor)].type == TINYGLTF_TYPE_VEC4
+                && column.count == surface.positions.count;
+        };
+        if (!is_four(joint) || !is_four(weight))
+            file_.fail("has " + joints + " and " + weights
+                       + " that are not four numbers a vertex; export the file again");
+        for (std::size_t v = 0; v < joint.count; ++v)
             for (int k = 0; k < 4; ++k) {
-                hang[std::size_t(k)] = { int(number_at(model_, joint, v, k)), number_at(model_, weight, v, k) };
-                if (hang[std::size_t(k)].first >= int(skin_.names.size()))
-                    file_.fail("vertex " + std::to_string(v) + " refers to joint "
-                               + std::to_string(hang[std::size_t(k)].first) + " of "
-                               + std::to_string(skin_.names.size()) + "; export the file again");
+                const double index = number_at(model_, joint, v, k);
+                if (!(index >= 0 && index < double(skin.joints.size())))
+                    file_.fail("vertex " + std::to_string(v) + " refers to joint " + std::to_string(int(index)) + " of "
+                               + std::to_string(skin.joints.size()) + "; export the file again");
+                skin_.hangs[first + v].emplace_back(row_of_[std::size_t(skin.joints[std::size_t(index)])],
+                                                    number_at(model_, weight, v, k));
             }
-        }
+        return true;
     }
 
     const FileBytes& file_;
     const tinygltf::Model& model_;
+    const GltfScene scene_;
+    std::vector<int> row_of_;  // of each node its row among the joints, -1 for others
+    std::vector<int> joints_;  // nodes
     FileSkin skin_;
 };
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/skinned_gltf.h"
 
+#include <cstring>
+#include <functional>
 #include <map>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "fixtures.h"
+#include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 #include "temporary_folder.h"
 
@@ -43,6 +47,145 @@ protected:
         save("rigged.glb", bytes);
     }
 };
+
+using nlohmann::json;
+
+std::uint32_t number_in(const std::string& bytes, std::size_t at)
+{
+    std::uint32_t number;
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return number;
+}
+
+/// A GLB whose JSON is changed; its buffer stays.
+std::string edited(const std::string& glb, const std::function<void(json&)>& edit)
+{
+    const std::size_t size = number_in(glb, 12);
+    json document = json::parse(glb.substr(20, size));
+    edit(document);
+    std::string text = document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::string rest = glb.substr(20 + size);
+    const auto bytes_of = [](std::size_t number) {
+        const auto n = std::uint32_t(number);
+        return std::string(reinterpret_cast<const char*>(&n), sizeof n);
+    };
+    return glb.substr(0, 8) + bytes_of(20 + text.size() + rest.size()) + bytes_of(text.size()) + "JSON" + text + rest;
+}
+
+int node_called(const json& document, const std::string& name)
+{
+    for (std::size_t n = 0; n < document["nodes"].size(); ++n)
+        if (document["nodes"][n].value("name", "") == name)
+            return int(n);
+    ADD_FAILURE() << name;
+    return 0;
+}
+
+/// Body and shoes in one file.
+class SkinnedParts : public SkinnedGltf {
+protected:
+    TriangleMesh shoes = fixtures::sheet(4, 0.05, [](double, double) { return 0; });
+
+    void SetUp() override
+    {
+        SkinnedGltf::SetUp();
+        SkinWeights weights;
+        weights.bones.setConstant(shoes.positions.rows(), 4, lfemur);
+        weights.weights.setZero(shoes.positions.rows(), 4);
+        weights.weights.col(0).setOnes();
+        write_skinned_glb(glb, rig.skeleton, { { "body", person.mesh, rig.weights }, { "shoes", shoes, weights } });
+    }
+
+    Eigen::Index body_rows() const { return person.mesh.positions.rows(); }
+    void edit(const std::function<void(json&)>& change) const { save("rigged.glb", edited(load(glb), change)); }
+};
+
+TEST_F(SkinnedParts, HaveAsManyWeightsAsTheFileHasVertices)
+{
+    const ForeignRig read = read_skinned_gltf(glb);
+    ASSERT_EQ(read.weights.bones.rows(), MeshFile::read(glb).positions().rows());
+    ASSERT_EQ(read.weights.bones.rows(), body_rows() + shoes.positions.rows());
+    EXPECT_EQ(read.weights.bones.topRows(body_rows()).leftCols<2>(), rig.weights.bones.leftCols<2>());
+    EXPECT_TRUE((read.weights.bones.bottomRows(shoes.positions.rows()).col(0).array() == lfemur).all());
+}
+
+TEST_F(SkinnedParts, HangOnTheJointAboveWithoutASkin)
+{
+    edit([](json& document) {
+        json& nodes = document["nodes"];
+        const int shoe = node_called(document, "shoes"), shin = node_called(document, "ltibia");
+        nodes[std::size_t(shoe)].erase("skin");
+        for (json* list : { &document["scenes"][0]["nodes"] })
+            list->erase(std::find(list->begin(), list->end(), json(shoe)));
+        nodes[std::size_t(shin)]["children"].push_back(shoe);
+    });
+    const ForeignRig read = read_skinned_gltf(glb);
+    ASSERT_EQ(read.weights.bones.rows(), MeshFile::read(glb).positions().rows());
+    const auto last = read.weights.bones.bottomRows(shoes.positions.rows());
+    EXPECT_TRUE((last.col(0).array() == ltibia).all()) << last.col(0).transpose();
+}
+
+TEST_F(SkinnedParts, WithoutASkinAndAJointAreRefusedByName)
+{
+    edit([](json& document) { document["nodes"][std::size_t(node_called(document, "shoes"))].erase("skin"); });
+    fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "node 'shoes'");
+}
+
+TEST_F(SkinnedParts, LieWhereTheirJointsAre)
+{
+    edit([](json& document) {
+        const json roots = document["scenes"][0]["nodes"];
+        document["scenes"][0]["nodes"] = { document["nodes"].size() };
+        document["nodes"].push_back(
+            { { "scale", { 2, 2, 2 } }, { "translation", { 0, 0, 3 } }, { "children", roots } });
+    });
+    const ForeignRig read = read_skinned_gltf(glb);
+    const auto moved = [](const Vec3& p) { return Vec3(2 * p + 3 * Vec3::UnitZ()); };
+    for (int b = 0; b < bone_count; ++b)
+        EXPECT_LT((read.skeleton.tail(b) - moved(rig.skeleton.tail(b))).norm(), 1e-5) << bone_name(b);
+    const Positions positions = MeshFile::read(glb).positions();
+    EXPECT_LT((Vec3(positions.row(0)) - moved(person.mesh.positions.row(0))).norm(), 1e-5);
+    EXPECT_LT((Vec3(positions.row(body_rows())) - moved(shoes.positions.row(0))).norm(), 1e-5);
+}
+
+TEST_F(SkinnedParts, AreReadInTheirBindPose)
+{
+    const ForeignRig before = read_skinned_gltf(glb);
+    edit([](json& document) {
+        document["nodes"][std::size_t(node_called(document, "lhumerus"))]["rotation"] = { 0, 0, 0.6, 0.8 };
+    });
+    const ForeignRig posed = read_skinned_gltf(glb);
+    for (int b = 0; b < bone_count; ++b)
+        EXPECT_LT((posed.skeleton.tail(b) - before.skeleton.tail(b)).norm(), 1e-6) << bone_name(b);
+    EXPECT_LT((Vec3(MeshFile::read(glb).positions().row(0)) - Vec3(person.mesh.positions.row(0))).norm(), 1e-6);
+}
+
+TEST_F(SkinnedParts, MayHaveMoreThanFourJointsAVertex)
+{
+    // what stood in the first set comes second; the first set hangs on the first joint, with no weight
+    edit([](json& document) {
+        json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+        const json none = { { "componentType", 5126 },
+                            { "type", "VEC4" },
+                            { "count", document["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()]["count"] },
+                            { "bufferView", document["bufferViews"].size() } };
+        document["bufferViews"].push_back(
+            { { "buffer", document["buffers"].size() }, { "byteLength", 16 * none["count"].get<std::size_t>() } });
+        const std::size_t bytes = 16 * none["count"].get<std::size_t>();
+        std::string zeros((bytes + 2) / 3 * 4, 'A');
+        for (std::size_t k = 0; k < (3 - bytes % 3) % 3; ++k)
+            zeros[zeros.size() - 1 - k] = '=';
+        document["buffers"].push_back(
+            { { "byteLength", bytes }, { "uri", "data:application/octet-stream;base64," + zeros } });
+        attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
+        attributes["JOINTS_1"] = attributes["JOINTS_0"];
+        attributes["WEIGHTS_0"] = document["accessors"].size();
+        document["accessors"].push_back(none);
+    });
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_LT((read.weights.weights.topRows(body_rows()) - rig.weights.weights).cwiseAbs().maxCoeff(), 1e-6);
+}
 
 TEST_F(SkinnedGltf, ComesBackAsItWasWritten)
 {

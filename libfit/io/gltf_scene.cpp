@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gltf_scene.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "garmentfit/error.h"
+
+namespace garmentfit {
+namespace {
+
+void require_sizes(const FileBytes& file, const tinygltf::Node& node)
+{
+    const auto is
+        = [](const std::vector<double>& values, std::size_t size) { return values.empty() || values.size() == size; };
+    if (!is(node.matrix, 16) || !is(node.translation, 3) || !is(node.rotation, 4) || !is(node.scale, 3))
+        file.fail("node '" + first_line(node.name) + "' has a transform of the wrong length; export the file again");
+}
+
+Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& node)
+{
+    require_sizes(file, node);
+    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+    if (!node.matrix.empty()) {
+        transform.matrix().topRows<3>() = Eigen::Matrix4d::Map(node.matrix.data()).topRows<3>();
+        return transform;
+    }
+    if (!node.translation.empty())
+        transform.translate(Vec3::Map(node.translation.data()));
+    if (!node.rotation.empty())
+        transform.rotate(
+            Eigen::Quaterniond(Eigen::Vector4d::Map(node.rotation.data())).normalized());  // x y z w, as in Eigen
+    if (!node.scale.empty())
+        transform.scale(Vec3::Map(node.scale.data()));
+    return transform;
+}
+
+}  // namespace
+
+double number_at(const tinygltf::Model& model, const Column& column, std::size_t row, int k)
+{
+    const tinygltf::Accessor& accessor = model.accessors[std::size_t(column.accessor)];
+    const auto* at = model.buffers[std::size_t(column.buffer)].data.data() + column.offset(Eigen::Index(row))
+        + std::size_t(k) * std::size_t(tinygltf::GetComponentSizeInBytes(accessor.componentType));
+    const auto read = [&](auto number) {
+        std::memcpy(&number, at, sizeof number);
+        return accessor.normalized ? double(number) / double(std::numeric_limits<decltype(number)>::max())
+                                   : double(number);
+    };
+    switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return read(std::uint8_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return read(std::uint16_t());
+    default: {
+        float number;
+        std::memcpy(&number, at, sizeof number);
+        return number;
+    }
+    }
+}
+
+GltfScene::GltfScene(const FileBytes& file, const tinygltf::Model& model) :
+    file_(file), model_(model), parents_(model.nodes.size(), -1),
+    world_from_node_(model.nodes.size(), Eigen::Affine3d::Identity())
+{
+    std::vector<char> is_seen(model.nodes.size(), 0);
+    std::vector<std::pair<int, int>> open;  // node, parent
+    const auto push = [&](const std::vector<int>& children, int parent) {
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            open.emplace_back(*child, parent);
+    };
+    push(roots(), -1);
+    while (!open.empty()) {
+        const auto [index, parent] = open.back();
+        open.pop_back();
+        const tinygltf::Node& node = checked(file, model.nodes, index, "node");
+        if (std::exchange(is_seen[std::size_t(index)], 1))
+            file.fail("node " + std::to_string(index) + " has two parents; export the file again");
+        const Eigen::Affine3d world_from_parent
+            = parent < 0 ? Eigen::Affine3d::Identity() : world_from_node_[std::size_t(parent)];
+        nodes_.push_back(index);
+        parents_[std::size_t(index)] = parent;
+        world_from_node_[std::size_t(index)] = world_from_parent * parent_from_node(file, node);
+        push(node.children, index);
+    }
+}
+
+std::vector<int> GltfScene::roots() const
+{
+    if (!model_.scenes.empty())
+        return checked(file_, model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes)
+        for (const int child : node.children)
+            if (child >= 0 && std::size_t(child) < is_child.size())
+                is_child[std::size_t(child)] = true;
+    std::vector<int> nodes;
+    for (std::size_t node = 0; node < is_child.size(); ++node)
+        if (!is_child[node])
+            nodes.push_back(int(node));
+    return nodes;
+}
+
+Eigen::Affine3d GltfScene::joint_from_mesh(const tinygltf::Skin& skin, std::size_t joint) const
+{
+    Eigen::Affine3d bind = Eigen::Affine3d::Identity();
+    if (skin.inverseBindMatrices < 0)
+        return bind;
+    const Column column = column_of(file_, model_, skin.inverseBindMatrices, "inverseBindMatrices");
+    const tinygltf::Accessor& accessor = model_.accessors[std::size_t(column.accessor)];
+    if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT
+        || column.count < skin.joints.size())
+        file_.fail("has no inverse bind matrix for each joint; export the skin with its bind pose");
+    for (int k = 0; k < 16; ++k)
+        if (k % 4 < 3)
+            bind.matrix()(k % 4, k / 4) = number_at(model_, column, joint, k);
+    return bind;
+}
+
+Eigen::Affine3d GltfScene::world_from_mesh(int node) const
+{
+    const int index = model_.nodes[std::size_t(node)].skin;
+    if (index < 0)
+        return world_from_node(node);
+    const tinygltf::Skin& skin = checked(file_, model_.skins, index, "skin");
+    if (skin.joints.empty())
+        return Eigen::Affine3d::Identity();
+    checked(file_, model_.nodes, skin.joints[0], "node");
+    return world_from_node(skin.joints[0]) * joint_from_mesh(skin, 0);
+}
+
+std::vector<GltfSurface> GltfScene::surfaces() const
+{
+    std::vector<GltfSurface> surfaces;
+    std::set<std::pair<int, std::size_t>> seen;  // (buffer, first byte)
+    for (const int node : nodes_) {
+        const int mesh = model_.nodes[std::size_t(node)].mesh;
+        if (mesh < 0)
+            continue;
+        for (const tinygltf::Primitive& primitive : checked(file_, model_.meshes, mesh, "mesh").primitives) {
+            if (primitive.extensions.count("KHR_draco_mesh_compression"))
+                file_.fail("is packed with KHR_draco_mesh_compression; export it without compression");
+            const auto position = primitive.attributes.find("POSITION");
+            const bool is_surface = primitive.mode < 0 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+            if (position == primitive.attributes.end() || !is_surface)
+                continue;
+            const Column column = vector_column(file_, model_, position->second, "POSITION");
+            surfaces.push_back({ node, &primitive, column, seen.insert({ column.buffer, column.begin }).second });
+        }
+    }
+    return surfaces;
+}
+
+}  // namespace garmentfit
