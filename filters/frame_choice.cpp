@@ -78,13 +78,27 @@ void choose_up(FrameGuess& guess, const Positions& positions, const Triangles& t
     guess.up_confidence = -std::expm1(-std::abs(by_all));
 }
 
+/// As wearer_heights, of a garment of any size: openings are found among those of people's clothes, so it is measured
+/// with its longest side as long as a shirt or a pair of trousers.
+std::vector<double> wearer_heights_of_any_size(Positions metres, const Triangles& triangles)
+{
+    const double longest = (metres.colwise().maxCoeff() - metres.colwise().minCoeff()).maxCoeff();
+    if (!(longest > 0))
+        return {};
+    metres *= k_usual_longest_side / longest;
+    std::vector<double> heights = wearer_heights(make_garment(metres, triangles));
+    for (double& height : heights)
+        height *= longest / k_usual_longest_side;
+    return heights;
+}
+
 /// By the parts of the garment. What is no garment is left alone: its defects are found where it is prepared.
 void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body,
                    double stature)
 {
     std::vector<double> statures;
     try {
-        statures = wearer_heights(make_garment(guess.frame.to_metres(positions), triangles));
+        statures = wearer_heights_of_any_size(guess.frame.to_metres(positions), triangles);
     } catch (const InvalidInput&) {
         return;
     }

@@ -46,6 +46,9 @@ inline constexpr double k_comfortable_pressure = 1960;
 /// from 13 cm of ease at a bust of 92 cm [mccall_ease]
 inline constexpr double k_roomy_ease = 0.14;
 
+/// m. Longest side of a garment whose parts are measured to find its size. unit: of the order of people's clothes
+inline constexpr double k_usual_longest_side = 1;
+
 /// Log of the stature that all parts of a garment have in common, over that of the body: its spread where the garment
 /// has the size of its unit. fitted: 0.12 upwards and 0.19 downwards on 141 pairs of two catalogues; made wider because
 /// those bodies are nearly all adults, and children's clothes are put on them.
@@ -58,7 +61,7 @@ inline constexpr double k_no_unit_density = 0.455;
 struct SizePriors {
     double guessed_unit, other_unit, no_unit;
 };
-inline constexpr SizePriors k_priors_as_body { 0.9, 0.01, 0.05 }, k_priors_otherwise { 0.7, 0.04, 0.1 };
+inline constexpr SizePriors k_priors_as_body { 0.89, 0.014, 0.04 }, k_priors_otherwise { 0.7, 0.04, 0.1 };
 
 /// Log odds per unit of the openings' evidence that a garment is upright along one axis and not along another, beside
 /// those of its box and symmetry (guess_garment_frame). fitted: on one half of 126 garments of three catalogues, turned

@@ -6,24 +6,35 @@
 #include <numeric>
 
 #include "front_shape.h"
+#include "posture_moves.h"
 #include "tuning.h"
 #include "way_up.h"
 
 namespace garmentfit {
 namespace {
 
-// Of the joints at both ends of the covered bones, in tenths of a leg.
-double distance_from_input(const FitEnergy& energy, const Posture& posture, double leg)
+// Of the joints at both ends of the covered bones from those of the input body, shifted, m.
+double mean_distance(const FitEnergy& energy, const Skeleton& fitted, const Vec3& shift)
 {
-    const Skeleton fitted = place_bones(energy.rest(), posture).joints;
     double sum = 0;
     int joints = 0;
     for (int b = 0; b < bone_count; ++b)
         if (energy.metric().covers(b)) {
-            sum += (fitted.head(b) - energy.rest().head(b)).norm() + (fitted.tail(b) - energy.rest().tail(b)).norm();
+            sum += (fitted.head(b) - energy.rest().head(b) - shift).norm()
+                + (fitted.tail(b) - energy.rest().tail(b) - shift).norm();
             joints += 2;
         }
-    return sum / std::max(joints, 1) / (k_tenth * leg);
+    return sum / std::max(joints, 1);
+}
+
+// In tenths of a leg, from the nearest place of the input body.
+double distance_from_input(const WearingContext& context, const Posture& posture, double leg)
+{
+    const Skeleton fitted = place_bones(context.energy.rest(), posture).joints;
+    double least = mean_distance(context.energy, fitted, Vec3::Zero());
+    for (const BodyPlace& place : context.places)
+        least = std::min(least, mean_distance(context.energy, fitted, place.shift));
+    return least / (k_tenth * leg);
 }
 
 struct InsideShares {
@@ -48,7 +59,8 @@ InsideShares shares_inside(const FitEnergy& energy, const Posture& posture)
     return { sum.covered / std::max(covered, 1), sum.uncovered / std::max(uncovered, 1) };
 }
 
-WearEvidence evidence_of(const WearingContext& context, const Posture& posture, bool is_in_place)
+// @param in_place  where the posture is the input pose; null for any other one
+WearEvidence evidence_of(const WearingContext& context, const Posture& posture, const BodyPlace* in_place)
 {
     const FitEnergy& energy = context.energy;
     const Skeleton& rest = energy.rest();
@@ -88,9 +100,9 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[lap_evidence] = is_bottom && !energy.cues().hems.empty() ? held * shape.lap : 0;
     e[bow_evidence] = context.coverage.kind == CoverageKind::top ? held * shape.bow : 0;
     e[bare_evidence] = is_bottom ? 0 : held * shape.bare;
-    e[in_place_evidence] = is_in_place;
-    e[in_place_inside_evidence] = is_in_place ? std::min(context.inside_share, k_max_inside_evidence) / k_tenth : 0;
-    e[near_input_evidence] = std::exp(-distance_from_input(energy, given, leg));
+    e[in_place_evidence] = in_place != nullptr;
+    e[in_place_inside_evidence] = in_place ? std::min(in_place->inside_share, k_max_inside_evidence) / k_tenth : 0;
+    e[near_input_evidence] = std::exp(-distance_from_input(context, given, leg));
     return e;
 }
 
@@ -145,17 +157,17 @@ const std::array<std::string_view, evidence_count>& evidence_names()
 }
 
 std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,
-                                 const std::vector<Posture>& in_place)
+                                 const std::vector<BodyPlace>& in_place)
 {
     std::vector<Wearing> all;
-    const auto add = [&](const Posture& posture, bool is_in_place) {
+    const auto add = [&](const Posture& posture, const BodyPlace* place) {
         const Vec3 front = context.turn.conjugate() * (posture.turn * context.energy.rig().front);
-        all.push_back({ posture, is_in_place, front, 0, evidence_of(context, posture, is_in_place) });
+        all.push_back({ posture, place != nullptr, front, 0, evidence_of(context, posture, place) });
     };
     for (const Posture& posture : postures)
-        add(posture, false);
-    for (const Posture& posture : in_place)
-        add(posture, true);
+        add(posture, nullptr);
+    for (const BodyPlace& place : in_place)
+        add(input_posture(context.energy.rest(), place.shift), &place);
     std::stable_sort(all.begin(), all.end(),
                      [](const Wearing& a, const Wearing& b) { return log_odds(a.evidence) > log_odds(b.evidence); });
     std::vector<Wearing> best;

@@ -60,7 +60,8 @@ enum Evidence {
     lap_evidence,  ///< of trousers
     bow_evidence,  ///< of tops
     bare_evidence,  ///< of tops, dresses and jumpsuits
-    near_input_evidence,  ///< 1 where the covered joints lie where the input body has them, 0 a tenth of a leg away
+    near_input_evidence,  ///< 1 where the covered joints lie where a place of the input body has them, 0 a tenth of a leg
+    ///< away
     // As it lies: 0 unless the posture is the input pose itself
     in_place_evidence,  ///< 1
     in_place_inside_evidence,  ///< share of the garment's vertices inside the body, at most 0.2, as a multiple of 0.1
@@ -76,10 +77,16 @@ const std::array<std::string_view, evidence_count>& evidence_names();
 /// One way in which a garment may be worn.
 struct Wearing {
     Posture posture;  ///< in the garment as it is held upright
-    bool is_in_place = false;  ///< it is the input pose
+    bool is_in_place = false;  ///< it is the input pose, in one of the places where the body may stand
     Vec3 front;  ///< unit, of the body; in the garment as it was given
     int rank = 0;  ///< among those that face alike: 0 for the one with most evidence
     WearEvidence evidence {};
+};
+
+/// Where the input body may stand in the garment's file: where it is, or on the same floor.
+struct BodyPlace {
+    Vec3 shift;  ///< m, of the body
+    double inside_share;  ///< of the garment's vertices in it
 };
 
 /// A garment held in one way, with one coverage.
@@ -89,14 +96,14 @@ struct WearingContext {
     Eigen::Quaterniond turn;  ///< that makes the garment upright
     const std::vector<Opening>& openings;  ///< of the held garment
     double upright = 0, askew = 0;  ///< of its way up
-    double inside_share = 0;  ///< of the garment's vertices in the input body
+    const std::vector<BodyPlace>& places;
 };
 
 /// The best wearings of each facing among the postures, at most three, best evidence first. Facings less than 60
 /// degrees apart are one.
-/// @param in_place  the input pose, or none
+/// @param in_place  those where the garment lies round the body: the input pose there is a posture, too
 std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,
-                                 const std::vector<Posture>& in_place);
+                                 const std::vector<BodyPlace>& in_place);
 
 /// But for a constant that all hypotheses of a garment have in common.
 double log_odds(const WearEvidence& evidence);

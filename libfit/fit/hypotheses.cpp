@@ -52,13 +52,14 @@ std::vector<StartHypothesis> facings(const Attempt& attempt, const FitOptions& o
 // A garment as it was given.
 struct Garment {
     HeldGarment held;
-    std::optional<double> inside_share;  // of its vertices in the body, where the body's surface is known
+    std::vector<BodyPlace> places;  // none where the body's surface is not known
 };
 
 // One coverage of a held garment, before and after the ascent of its postures.
 struct Search {
     std::shared_ptr<const Attempt> attempt;
-    std::vector<Posture> rough, in_place;  // the latter: the input pose, where the garment lies round the body
+    std::vector<Posture> rough;
+    std::vector<BodyPlace> in_place;  // where the garment lies round the body
     std::vector<Wearing> wearings;
 
     double best_log_odds() const { return wearings.empty() ? FitEnergy::k_any : log_odds(wearings[0].evidence); }
@@ -74,7 +75,7 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
                                    garment.openings,
                                    garment.upright,
                                    garment.askew,
-                                   given.inside_share.value_or(0) };
+                                   given.places };
     std::vector<Wearing> wearings = garmentfit::wearings_of(context, postures, search.in_place);
     std::erase_if(wearings, [&](const Wearing& wearing) {
         return (options.as_placed && !wearing.is_in_place)
@@ -83,14 +84,19 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
     return wearings;
 }
 
+bool lies_round_body(const Attempt& attempt, const BodyPlace& place, const FitOptions& options)
+{
+    const Posture posture = input_posture(attempt.energy().rest(), place.shift);
+    return (options.as_placed || place.inside_share <= k_most_inside_body) && attempt.garment().turn.w() == 1
+        && !bones_inside(attempt.energy(), posture, k_partly_inside).empty();
+}
+
 Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garment& given, const FitOptions& options)
 {
     Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {} };
-    const Posture input = input_posture(attempt->energy().rest());
-    const bool lies_round_body = given.inside_share && (options.as_placed || *given.inside_share <= k_most_inside_body);
-    if (lies_round_body && attempt->garment().turn.w() == 1
-        && !bones_inside(attempt->energy(), input, k_partly_inside).empty())
-        search.in_place.push_back(input);
+    for (const BodyPlace& place : given.places)
+        if (lies_round_body(*attempt, place, options))
+            search.in_place.push_back(place);
     search.wearings = wearings_of(search, search.rough, given, options);
     return search;
 }
@@ -116,7 +122,10 @@ void search_closely(std::vector<Search>& searches, const Garment& given, const F
         Search& search = searches[i];
         if (search.best_log_odds() < best - k_hopeless)
             continue;
-        const auto ascended = ascend_starts(search.attempt->energy(), search.rough, search.in_place);
+        std::vector<Posture> in_place;
+        for (const BodyPlace& place : search.in_place)
+            in_place.push_back(input_posture(search.attempt->energy().rest(), place.shift));
+        const auto ascended = ascend_starts(search.attempt->energy(), search.rough, in_place);
         search.wearings = wearings_of(search, ascended, given, options);
     }
 }
@@ -184,24 +193,40 @@ void sort_by_probability(std::vector<Hypothesis>& hypotheses)
 }
 
 // Of some vertices, evenly spread over the list.
-double inside_share(const TriangleMesh& garment, const TriangleMesh& body)
+double inside_share(const Positions& garment, const WindingNumber& body, const Vec3& shift)
 {
-    const WindingNumber winding(body);
-    const Eigen::Index step = std::max<Eigen::Index>(1, garment.positions.rows() / k_vertices_looked_at);
+    const Eigen::Index step = std::max<Eigen::Index>(1, garment.rows() / k_vertices_looked_at);
     int inside = 0, count = 0;
-    for (Eigen::Index v = 0; v < garment.positions.rows(); v += step, ++count)
-        inside += winding(garment.positions.row(v)) > 0.5;
+    for (Eigen::Index v = 0; v < garment.rows(); v += step, ++count)
+        inside += body(garment.row(v) - shift.transpose()) > 0.5;
     return double(inside) / std::max(count, 1);
 }
 
-Garment measure(const TriangleMesh& outward, const TriangleMesh& body)
+// Files of avatars and their clothes have the floor or the pelvis at the origin: where body and garment do not come
+// from one file, one may have this and the other one that.
+std::vector<Vec3> body_shifts(const Rig& rig, const Positions& body)
+{
+    std::vector<Vec3> shifts { Vec3::Zero() };
+    const double soles = body.col(1).minCoeff(), pelvis = rig.skeleton.root.y(),
+                 least = k_least_shift * (body.col(1).maxCoeff() - soles);
+    for (const double height : { soles, pelvis })
+        if (std::abs(height) > least)
+            shifts.push_back({ 0, -height, 0 });
+    return shifts;
+}
+
+Garment measure(const Rig& rig, const TriangleMesh& body, const TriangleMesh& outward, const FitOptions& options)
 {
     Garment given;
     given.held.turn = Eigen::Quaterniond::Identity();
     given.held.outward = outward;
     given.held.openings = openings_of(outward);
-    if (body.positions.rows() > 0)
-        given.inside_share = inside_share(outward, body);
+    if (body.positions.rows() == 0)
+        return given;
+    const WindingNumber winding(body);
+    for (const Vec3& shift : body_shifts(rig, body.positions))
+        if (shift.isZero() || !options.as_placed)
+            given.places.push_back({ shift, inside_share(outward.positions, winding, shift) });
     return given;
 }
 
@@ -246,7 +271,7 @@ std::vector<Bone> bones_inside(const FitEnergy& energy, const Posture& posture, 
 std::vector<Hypothesis> find_hypotheses(const Rig& rig, const TriangleMesh& body, const TriangleMesh& outward,
                                         const FitOptions& options, const Progress& progress)
 {
-    const Garment given = measure(outward, body);
+    const Garment given = measure(rig, body, outward, options);
     std::vector<WayUp> rest = ways_up(outward, given.held.openings);
     const std::vector<WayUp> likely = likely_ways(rest, options);
     std::vector<Hypothesis> all = search(rig, given, likely, options, progress.part(0, 0.5));

@@ -33,9 +33,9 @@ Posture comfort_posture(const FitEnergy& energy, const Vec3& root, const Eigen::
     return posture;
 }
 
-Posture input_posture(const Skeleton& rest)
+Posture input_posture(const Skeleton& rest, const Vec3& shift)
 {
-    Posture posture { rest.root, Eigen::Quaterniond::Identity(), {} };
+    Posture posture { rest.root + shift, Eigen::Quaterniond::Identity(), {} };
     for (int b = 0; b < bone_count; ++b)
         posture.directions[b] = rest.direction(b);
     return posture;

@@ -14,7 +14,7 @@ namespace garmentfit {
 Posture comfort_posture(const FitEnergy& energy, const Vec3& root, const Eigen::Quaterniond& turn);
 
 /// The body as it was given.
-Posture input_posture(const Skeleton& rest);
+Posture input_posture(const Skeleton& rest, const Vec3& shift = Vec3::Zero());
 
 /// The best places of the root, where the trunk has most clearance in this posture. The posture's own root does not
 /// count.

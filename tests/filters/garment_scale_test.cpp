@@ -48,6 +48,15 @@ TEST(GarmentScale, AGarmentWithAUnitKeepsItsSize)
     }
 }
 
+// A body in decimetres, a garment in metres: read in decimetres, no opening is as large as a body's.
+TEST(GarmentScale, AGarmentOfAnotherUnitThanTheBodyIsRead)
+{
+    for (const double body : { 0.1, 0.01, 0.001 }) {
+        const FrameGuess guess = garment_frame(shirt().positions, shirt().triangles, { body }, {}, body_stature());
+        EXPECT_NEAR(guess.frame.metres_per_unit, 1, 0.25) << body << ": " << guess.why;
+    }
+}
+
 TEST(GarmentScale, ClothesOfOtherPeopleKeepTheirSize)
 {
     for (const double size : { 0.7, 0.85, 1.15, 1.3 })
@@ -56,7 +65,7 @@ TEST(GarmentScale, ClothesOfOtherPeopleKeepTheirSize)
 
 TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
 {
-    for (const double size : { 1.9, 2.1, 2.6, 17.0, 19.0 }) {
+    for (const double size : { 1.9, 2.1, 2.6, 17.0, 19.0, 1e-4, 1e5 }) {
         const FrameGuess guess = guess_of(size);
         EXPECT_NEAR(size * guess.frame.metres_per_unit, 1, 0.25) << size << ": " << guess.why;
         EXPECT_GT(guess.scale_probability, 0.5);

@@ -333,6 +333,39 @@ TEST(FitSkeleton, AGarmentThatLiesRoundTheBodyIsWornThere)
     EXPECT_GT(result.front_probability, 0.9);
 }
 
+Person moved_up(Person person, double height)
+{
+    const Vec3 shift(0, height, 0);
+    person.mesh.positions.rowwise() += shift.transpose();
+    person.skeleton.root += shift;
+    for (Vec3& tail : person.skeleton.tails)
+        tail += shift;
+    for (Vec3& tip : person.skeleton.tips)
+        tip += shift;
+    return person;
+}
+
+// Avatars and clothes have the floor or the pelvis at the origin: two files need not agree.
+TEST(FitSkeleton, AGarmentOfAFileWithAnotherFloorIsWornThere)
+{
+    const PersonOptions options { .arm_angle = 45, .elbow_angle = 20 };
+    const Person on_floor = capsule_person(options);
+    const double pelvis = on_floor.skeleton.root.y();
+    ASSERT_GT(pelvis, 0.5);
+    for (const double up : { 0.0, -pelvis }) {
+        const Person person = moved_up(on_floor, up);
+        const Rig rig = simple_rig(person);
+        GarmentMesh garment = shirt(options, 1.9, 0.03);
+        const double garment_up = up == 0 ? -pelvis : 0;
+        garment.positions.col(1).array() += garment_up;
+        const Skeleton worn = pose_skeleton(rig.skeleton, fit_skeleton(rig, person.mesh, garment).pose);
+        EXPECT_LT(largest_difference(worn, moved_up(person, garment_up - up).skeleton), 0.02) << up;  // m, of the soles
+        FitOptions as_placed;
+        as_placed.as_placed = true;
+        expect_invalid([&] { fit_skeleton(rig, person.mesh, garment, as_placed); }, "place");
+    }
+}
+
 TEST(FitSkeleton, AsPlacedRefusesAGarmentThatLiesElsewhere)
 {
     const PersonOptions options { .arm_angle = 45 };
