@@ -303,6 +303,14 @@ private:
 
 }  // namespace
 
+bool has_skin(const std::filesystem::path& path)
+{
+    const FileBytes file = read_file(path);
+    const tinygltf::Model model = load_model(file, read_gltf_container(file), path.parent_path());
+    return std::any_of(model.nodes.begin(), model.nodes.end(),
+                       [](const tinygltf::Node& node) { return node.mesh >= 0 && node.skin >= 0; });
+}
+
 ForeignRig read_skinned_gltf(const std::filesystem::path& path)
 {
     const FileBytes file = read_file(path);

@@ -8,6 +8,8 @@
 
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
+#include "garmentfit/rig_body.h"
+#include "nearest.h"
 #include "surface_measures.h"
 #include "tuning.h"
 #include "winding_number.h"
@@ -73,7 +75,41 @@ void check_proportions(const Skeleton& s)
     check_proportion("collarbone to leg", collarbone / leg, k_collarbone_to_leg);
 }
 
+// Of the body's height: a joint of a skeleton by hand may lie just outside of the skin.
+double distance_from_body(const BodyMesh& body, const TriangleTree& skin, const Vec3& joint, double height)
+{
+    return winding_number(body.closed, joint) > 0.5 ? 0 : skin.distance(joint) / height;
+}
+
 }  // namespace
+
+void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
+{
+    const auto refuse = [](const std::string& what) {
+        throw InvalidInput(ErrorCode::rig_mismatch, what + "; give the skeleton of this body in its bind pose");
+    };
+    const Positions& skin = body.surface.positions;
+    const double height = (skin.colwise().maxCoeff() - skin.colwise().minCoeff()).maxCoeff();
+    const TriangleTree tree(body.surface);
+    for (const int bone : { lfemur, ltibia, lhumerus, lradius }) {
+        const double l = skeleton.length(bone), r = skeleton.length(mirror_of(bone));
+        if (!(std::min(l, r) > k_shortest_own_bone * height))
+            refuse(std::string(bone_name(bone)) + " or " + std::string(bone_name(mirror_of(bone)))
+                   + " has hardly any length");
+        if (std::abs(l - r) > k_side_tolerance * std::max(l, r))
+            refuse(std::string(bone_name(bone)) + " is " + fixed_text(l, 2) + " m long and "
+                   + std::string(bone_name(mirror_of(bone))) + " " + fixed_text(r, 2) + " m");
+    }
+    const Vec3 hips = skeleton.tail(lhipjoint) - skeleton.tail(rhipjoint),
+               shoulders = skeleton.tail(lclavicle) - skeleton.tail(rclavicle);
+    if (!(hips.dot(shoulders) > 0))
+        refuse("the left hip and the left shoulder lie on different sides");
+    for (int bone = 0; bone < bone_count; ++bone)
+        if (const double off = distance_from_body(body, tree, skeleton.tail(bone), height);
+            !(off < k_farthest_own_joint))
+            refuse("the end of " + std::string(bone_name(bone)) + " lies " + fixed_text(off * height, 2)
+                   + " m outside of the body");
+}
 
 void check_shape(const TriangleMesh& closed)
 {

@@ -188,6 +188,10 @@ inline constexpr double k_most_compact = 0.3;
 /// fitted: on the bodies. Relative difference between a left and a right length; correct rigs have less than 0.05.
 inline constexpr double k_side_tolerance = 0.2;
 
+/// Shares of the body's height: how far outside of the skin a joint of a skeleton by another program may lie, and the
+/// shortest limb bone of one. fitted: guess; the joints of a wrong map lie tenths off
+inline constexpr double k_farthest_own_joint = 0.05, k_shortest_own_bone = 0.02;
+
 /// Interval of a ratio of lengths.
 struct Proportion {
     double least, most;

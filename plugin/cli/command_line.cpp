@@ -98,6 +98,8 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
     command.add_option(
         "--joints", call.joints,
         "File with the places of some or all joints, as JSON (docs/rig.md), where the program finds wrong ones");
+    command.add_flag("--ignore-skin", call.ignores_skin,
+                     "Find the skeleton by the body's shape, also where the body is a skinned glTF or GLB");
     if (!filter.has(Stage::fit))
         return;
     command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out (see --layer-order)")->required();

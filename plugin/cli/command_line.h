@@ -31,6 +31,7 @@ struct Call {
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
     bool reconstruct = false;  ///< the body may be a point cloud
+    bool ignores_skin = false;  ///< the skeleton is found by the body's shape, also where its file has one
     bool quiet = false, json = false;
 
     /// What was said about one of the garments.

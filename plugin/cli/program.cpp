@@ -43,6 +43,9 @@ void read_rig_hints(Call& call, Session& session)
         call.parameters.rig.joints = read_joints(call.joints, frame);
     if (!call.rig.empty() && !read_rig(session, call.rig))
         call.parameters.rig.joints = read_joints(call.rig, frame);
+    if (call.rig.empty() && call.joints.empty() && !call.parameters.rig.front && !call.parameters.rig.swap_sides
+        && !call.ignores_skin && !call.reconstruct)
+        read_own_skeleton(session);
 }
 
 Session read(Call& call)
@@ -73,6 +76,8 @@ std::vector<std::string_view> filters_for(const Call& call, const Session& sessi
         return { "rig", "fit" };
     if (call.filter->name == "dress" && session.scene.rig)
         return { "fit", "drape", "recover" };
+    if (call.filter->name == "rig" && session.scene.rig)
+        return {};
     return { call.filter->name };
 }
 

@@ -57,6 +57,7 @@ Json body_of(const Session& session)
     json.update(guess_of(body.frame));
     json["height"] = height_of(body.file.positions(), body.frame.frame);
     if (const auto& rig = session.scene.rig) {
+        json["skeleton"] = session.skeleton;
         json["front"] = vector_of(body.frame.frame.rotation().transpose() * rig->front);
         json["front_confidence"] = rig->side_confidence;
     }

@@ -10,6 +10,7 @@
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/snapshot.h"
 #include "garmentfit/reconstruct.h"
+#include "garmentfit/rig_body.h"
 #include "garmentfit/skinned_gltf.h"
 #include "garmentfit/stopwatch.h"
 
@@ -35,7 +36,7 @@ void make_scene_body(Session& session)
     put_body(session.scene, session.body.frame.frame, session.body.file.positions(), session.body.triangles);
     if (session.scene.body->repaired)
         session.warnings.push_back(session.body.path.filename().string()
-                                   + " is not one closed surface; the skeleton is found on a repaired copy");
+                                   + " is not one closed surface; a repaired copy is used where one is needed");
 }
 
 /// Dressed garments are written beside body.ply and the other results.
@@ -82,7 +83,7 @@ Frame frame_on_body(const Session& session, const fs::path& glb)
                            + " do; give the rig of this very mesh in its bind pose");
 }
 
-void read_skinned(Session& session, const fs::path& glb)
+Rig read_skinned(const Session& session, const fs::path& glb)
 {
     const Frame frame = frame_on_body(session, glb);
     const ForeignRig foreign = read_skinned_gltf(glb);
@@ -94,7 +95,7 @@ void read_skinned(Session& session, const fs::path& glb)
     rig.up = (rig.skeleton.tail(thorax) - rig.skeleton.root).normalized();
     rig.front = (rig.skeleton.tail(lhipjoint) - rig.skeleton.tail(rhipjoint)).cross(rig.up).normalized();
     rig.side_confidence = 1;
-    session.scene.rig = rig_on(std::move(rig), session.scene.body->surface.positions, glb.string());
+    return rig_on(std::move(rig), session.scene.body->surface.positions, glb.string());
 }
 
 /// Body, rig and fits as `fit` and `drape` write them; the garments as given are in `rest`.
@@ -170,7 +171,8 @@ bool read_rig(Session& session, const fs::path& rig)
 {
     const Stopwatch watch(session.read_seconds);
     if (rig.extension() != ".json") {
-        read_skinned(session, rig);
+        session.scene.rig = read_skinned(session, rig);
+        session.skeleton = "given";
         return true;
     }
     if (!fs::exists(rig.parent_path() / "rigged.ply") && !read_rig_file(rig).has_weights())
@@ -181,7 +183,25 @@ bool read_rig(Session& session, const fs::path& rig)
                            rig.string() + ": other units or axes than those of " + session.body.path.string()
                                + "; give the same --unit, --up and --height as to garmentfit rig");
     session.scene.rig = rig_on(contents.rig, session.scene.body->surface.positions, rig.string());
+    session.skeleton = "given";
     return true;
+}
+
+void read_own_skeleton(Session& session)
+{
+    const Stopwatch watch(session.read_seconds);
+    const std::string& format = session.body.file.format();
+    if ((format != "glb" && format != "gltf") || !has_skin(session.body.path))
+        return;
+    try {
+        const Rig rig = read_skinned(session, session.body.path);
+        check_skeleton(*session.scene.body, rig.skeleton);
+        session.scene.rig = rig;
+        session.skeleton = "file";
+    } catch (const InvalidInput& error) {
+        session.warnings.push_back("the skeleton in the body's file is not used, the shape decides: "
+                                   + std::string(error.what()));
+    }
 }
 
 void read_fitted(Session& session, const fs::path& folder)

@@ -35,6 +35,7 @@ struct Session {
     BodyFile body;
     std::vector<GarmentFile> garments;  ///< those of scene.garments
     Scene scene;
+    std::string skeleton = "shape";  ///< where it comes from: "shape", "file" (of the body), "given"
     std::vector<std::string> warnings;
     double read_seconds = 0, write_seconds = 0;
 
@@ -48,6 +49,9 @@ void add_garment(Session& session, const std::filesystem::path& path, GarmentTyp
 /// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.
 /// @return false where the file has joints only, and the weights are still to be found
 bool read_rig(Session& session, const std::filesystem::path& rig);
+/// Takes the skeleton and the weights of the body's own file, where that is a skinned glTF whose joints have known names
+/// and lie in the body; else the shape decides, with a warning where there is a skin.
+void read_own_skeleton(Session& session);
 /// All that `fit` wrote, for draping.
 void read_fitted(Session& session, const std::filesystem::path& folder);
 /// All that `drape` wrote, for recovering the pose.

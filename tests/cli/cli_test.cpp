@@ -453,6 +453,35 @@ TEST_F(CommandLine, TakesTheUsersRigFromRigJsonOrFromASkinnedGlb)
     }
 }
 
+TEST_F(CommandLine, TakesTheSkeletonOfASkinnedBodyUnlessItIsWrongOrIgnored)
+{
+    ASSERT_EQ(run({ "rig", k_body, "-o", folder / "rigged" }).code, 0);
+    const fs::path own = folder / "rigged/rigged.glb";
+    const auto rig = [&](const Arguments& more, const std::string& name) {
+        Arguments call { "rig" };
+        call.insert(call.end(), more.begin(), more.end());
+        call.insert(call.end(), { "-o", (folder / name).string() });
+        const Ended ended = run(call);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return nlohmann::json::parse(read_text(folder / name / "report.json"));
+    };
+    EXPECT_EQ(rig({ own.string() }, "own")["body"]["skeleton"], "file");
+    const auto given = joints_in(folder / "rigged/rig.json"), taken = joints_in(folder / "own/rig.json");
+    for (const auto& [name, p] : given)
+        EXPECT_LT((taken.at(name) - p).norm(), 1e-5) << name;  // a GLB has floats
+    EXPECT_EQ(rig({ own.string(), "--ignore-skin" }, "ignored")["body"]["skeleton"], "shape");
+
+    std::string bytes = read_text(own);  // hips exchanged
+    const std::size_t left = bytes.find("\"lfemur\""), right = bytes.find("\"rfemur\"");
+    ASSERT_TRUE(left != std::string::npos && right != std::string::npos);
+    bytes[left + 1] = 'r';
+    bytes[right + 1] = 'l';
+    std::ofstream(folder / "exchanged.glb", std::ios::binary) << bytes;
+    const auto exchanged = rig({ (folder / "exchanged.glb").string() }, "exchanged");
+    EXPECT_EQ(exchanged["body"]["skeleton"], "shape");
+    EXPECT_NE(exchanged["warnings"].dump().find("different sides"), std::string::npos) << exchanged["warnings"];
+}
+
 /// Triangles of a size in metres, here and there.
 std::string scattered_obj(int faces, double size)
 {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "garmentfit/rig_body.h"
 
 namespace {
 
@@ -48,6 +49,42 @@ TEST(RigValidation, ABallIsRefused)
     const TriangleMesh ball = fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.5; }, Vec3::Constant(-0.7),
                                                    Vec3::Constant(0.7), 0.1);
     expect_invalid([&] { check_shape(ball); }, "isoperimetric quotient");
+}
+
+// A skeleton by another program
+
+BodyMesh body_of(const Person& person) { return make_body(person.mesh.positions, person.mesh.triangles); }
+
+TEST(RigValidation, ASkeletonMayHaveACartoonsProportions)
+{
+    const Person person = capsule_person();
+    EXPECT_NO_THROW(check_skeleton(body_of(person), person.skeleton));
+    Person chibi = person;
+    const auto shorten = [](double y) { return y > 0.93 ? y : 0.93 + 0.4 * (y - 0.93); };
+    for (Eigen::Index v = 0; v < chibi.mesh.positions.rows(); ++v)
+        if (std::abs(chibi.mesh.positions(v, 0)) < 0.25)
+            chibi.mesh.positions(v, 1) = shorten(chibi.mesh.positions(v, 1));
+    for (const int bone : { lfemur, ltibia, rfemur, rtibia })
+        chibi.skeleton.tails[bone].y() = shorten(chibi.skeleton.tails[bone].y());
+    EXPECT_NO_THROW(check_skeleton(body_of(chibi), chibi.skeleton));
+}
+
+TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
+{
+    const Person person = capsule_person();
+    const BodyMesh body = body_of(person);
+    Person aside = person;
+    for (Vec3& tail : aside.skeleton.tails)
+        tail.z() += 0.6;
+    expect_invalid([&] { check_skeleton(body, aside.skeleton); }, "outside of the body");
+    Person crossed = person;
+    std::swap(crossed.skeleton.tails[lhipjoint], crossed.skeleton.tails[rhipjoint]);
+    std::swap(crossed.skeleton.tails[lfemur], crossed.skeleton.tails[rfemur]);
+    std::swap(crossed.skeleton.tails[ltibia], crossed.skeleton.tails[rtibia]);
+    expect_invalid([&] { check_skeleton(body, crossed.skeleton); }, "different sides");
+    Person folded = person;
+    folded.skeleton.tails[lradius] = folded.skeleton.tails[lhumerus];
+    expect_invalid([&] { check_skeleton(body, folded.skeleton); }, "hardly any length");
 }
 
 }  // namespace

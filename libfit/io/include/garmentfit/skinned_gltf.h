@@ -37,7 +37,11 @@ struct ForeignRig {
     SkinWeights weights;
 };
 
-/// @throws InvalidInput: not glTF, no skin, joints that a human needs have no known names.
+/// Whether a glTF or GLB shows a mesh with a skin. @throws InvalidInput: missing, not glTF.
+GARMENTFIT_API bool has_skin(const std::filesystem::path& path);
+
+/// All meshes of the scene are one body: joints of several skins are merged, and a mesh without a skin hangs on the
+/// joint above it. @throws InvalidInput: not glTF, no skin, joints that a human needs have no known names.
 GARMENTFIT_API ForeignRig read_skinned_gltf(const std::filesystem::path& path);
 
 }  // namespace garmentfit
