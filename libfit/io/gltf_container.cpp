@@ -14,7 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 // literature: glTF 2.0, sec. 4.4: "JSON", "BIN\0"
-constexpr std::uint32_t k_json_type = 0x4E4F534A, k_binary_type = 0x004E4942;
+constexpr std::uint32_t k_json_type = 0x4E4F534A;
 constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;  // literature: glTF 2.0, sec. 4.4
 constexpr int k_deepest_json = 100;  // unit: files of exporters stay below 20, and the parser recurses on the stack
 

@@ -14,6 +14,9 @@
 
 namespace garmentfit {
 
+/// Type of the chunk of a GLB that holds its buffer: "BIN".
+inline constexpr std::uint32_t k_binary_type = 0x004E4942;
+
 struct GltfChunk {
     std::uint32_t type = 0;
     std::string bytes;

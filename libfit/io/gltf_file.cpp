@@ -11,6 +11,7 @@
 #include "gltf_container.h"
 #include "gltf_model.h"
 #include "gltf_scene.h"
+#include "gltf_unpack.h"
 #include "mesh_content.h"
 #include "turned_normals.h"
 
@@ -265,7 +266,7 @@ void read_values(const FileBytes& file, GltfContent& content, Eigen::Index rows)
 ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
 {
     auto content = std::make_shared<GltfContent>();
-    content->container = read_gltf_container(file);
+    content->container = read_plain_gltf(file, folder);
     content->format = content->container.is_binary ? "glb" : "gltf";
     try {
         tinygltf::Model model = load_model(file, content->container, folder);

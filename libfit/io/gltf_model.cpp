@@ -26,10 +26,6 @@ void require_readable(const FileBytes& file, const ordered_json& json)
     const std::string version = json.value("/asset/version"_json_pointer, std::string());
     if (!version.starts_with("2"))
         file.fail("is glTF version '" + version.substr(0, 10) + "'; export it as version 2");
-    for (const ordered_json& extension : json.value("extensionsRequired", ordered_json::array()))
-        for (const char* packed : { "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization" })
-            if (extension == packed)
-                file.fail("is packed with " + std::string(packed) + "; export it without compression or quantization");
 }
 
 bool read_beside(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void*)
@@ -84,11 +80,7 @@ Column column_of(const FileBytes& file, const tinygltf::Model& model, int index,
 {
     const tinygltf::Accessor& accessor = checked(file, model.accessors, index, "accessor");
     const std::string name = std::string(what) + " (accessor " + std::to_string(index) + ")";
-    if (accessor.sparse.isSparse)
-        file.fail(name + " is sparse; export it as plain data");
     const tinygltf::BufferView& view = checked(file, model.bufferViews, accessor.bufferView, "bufferView");
-    if (view.extensions.count("EXT_meshopt_compression"))
-        file.fail(name + " is packed with EXT_meshopt_compression; export it without compression");
     const tinygltf::Buffer& buffer = checked(file, model.buffers, view.buffer, "buffer");
     const int component = tinygltf::GetComponentSizeInBytes(accessor.componentType);
     const int components = tinygltf::GetNumComponentsInType(accessor.type);

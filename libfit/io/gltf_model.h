@@ -38,7 +38,7 @@ struct Column {
     auto place() const { return std::tie(buffer, begin, stride, count); }
 };
 
-/// @throws InvalidInput: sparse, packed, or beyond its buffer.
+/// @throws InvalidInput: no such accessor, or beyond its buffer.
 Column column_of(const FileBytes& file, const tinygltf::Model& model, int index, const char* what);
 /// The same, and made of three floats.
 Column vector_column(const FileBytes& file, const tinygltf::Model& model, int index, const char* what);

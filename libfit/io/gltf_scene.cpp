@@ -140,8 +140,6 @@ std::vector<GltfSurface> GltfScene::surfaces() const
         if (mesh < 0)
             continue;
         for (const tinygltf::Primitive& primitive : checked(file_, model_.meshes, mesh, "mesh").primitives) {
-            if (primitive.extensions.count("KHR_draco_mesh_compression"))
-                file_.fail("is packed with KHR_draco_mesh_compression; export it without compression");
             const auto position = primitive.attributes.find("POSITION");
             const bool is_surface = primitive.mode < 0 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
             if (position == primitive.attributes.end() || !is_surface)

@@ -8,6 +8,7 @@
 #include "garmentfit/skinned_gltf.h"
 #include "gltf_model.h"
 #include "gltf_scene.h"
+#include "gltf_unpack.h"
 #include "joint_names.h"
 
 namespace garmentfit {
@@ -306,7 +307,7 @@ private:
 bool has_skin(const std::filesystem::path& path)
 {
     const FileBytes file = read_file(path);
-    const tinygltf::Model model = load_model(file, read_gltf_container(file), path.parent_path());
+    const tinygltf::Model model = load_model(file, read_plain_gltf(file, path.parent_path()), path.parent_path());
     return std::any_of(model.nodes.begin(), model.nodes.end(),
                        [](const tinygltf::Node& node) { return node.mesh >= 0 && node.skin >= 0; });
 }
@@ -314,7 +315,7 @@ bool has_skin(const std::filesystem::path& path)
 ForeignRig read_skinned_gltf(const std::filesystem::path& path)
 {
     const FileBytes file = read_file(path);
-    const tinygltf::Model model = load_model(file, read_gltf_container(file), path.parent_path());
+    const tinygltf::Model model = load_model(file, read_plain_gltf(file, path.parent_path()), path.parent_path());
     const FileSkin skin = SkinReader(file, model).read();
     return Translation(file, skin).rig();
 }

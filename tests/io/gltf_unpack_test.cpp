@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gltf_unpack.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+
+#include "fixtures.h"
+#include "garmentfit/io.h"
+#include "mesh_file_samples.h"
+#include "temporary_folder.h"
+
+namespace {
+
+using namespace garmentfit;
+using fixtures::expect_invalid;
+using nlohmann::ordered_json;
+
+constexpr std::size_t k_vertices = 4, k_stride = 24, k_indices = 6;
+
+/// The sample of mesh_file_samples.h, packed in several ways.
+class PackedGltf : public fixtures::TemporaryFolder {
+protected:
+    ordered_json json = ordered_json::parse(samples::gltf_json(""));
+    const std::string plain = samples::gltf_buffer();
+
+    void SetUp() override
+    {
+        TemporaryFolder::SetUp();
+        json["buffers"] = ordered_json::array();
+    }
+
+    int add_buffer(const std::string& bytes)
+    {
+        json["buffers"].push_back(
+            { { "byteLength", bytes.size() }, { "uri", data_uri("application/octet-stream", bytes) } });
+        return int(json["buffers"].size()) - 1;
+    }
+
+    int add_view(const std::string& bytes)
+    {
+        json["bufferViews"].push_back({ { "buffer", add_buffer(bytes) }, { "byteLength", bytes.size() } });
+        return int(json["bufferViews"].size()) - 1;
+    }
+
+    void require(const char* extension)
+    {
+        json["extensionsUsed"].push_back(extension);
+        json["extensionsRequired"].push_back(extension);
+    }
+
+    MeshFile read() { return MeshFile::read(save("packed.gltf", json.dump())); }
+    MeshFile whole() { return MeshFile::read(save("plain.glb", samples::glb())); }
+
+    void expect_as_whole(const MeshFile& packed, double tolerance)
+    {
+        const MeshFile expected = whole();
+        ASSERT_EQ(packed.positions().rows(), expected.positions().rows());
+        EXPECT_LE((packed.positions() - expected.positions()).cwiseAbs().maxCoeff(), tolerance);
+        EXPECT_EQ(packed.triangles(), expected.triangles());
+    }
+
+    void expect_written_in_plain(const MeshFile& packed)
+    {
+        Positions moved = packed.positions();
+        moved.col(1).array() += 0.25;
+        packed.write(folder / "out.gltf", moved);
+        const ordered_json written = ordered_json::parse(load(folder / "out.gltf"));
+        EXPECT_FALSE(written.contains("extensionsRequired")) << written.dump();
+        EXPECT_EQ(written["materials"][0]["name"], "linen");
+        const MeshFile again = MeshFile::read(folder / "out.gltf");
+        EXPECT_LT((again.positions() - moved).cwiseAbs().maxCoeff(), 1e-6);
+        EXPECT_EQ(again.triangles(), packed.triangles());
+    }
+
+    void pack_with_meshopt()
+    {
+        require("EXT_meshopt_compression");
+        std::string vertices(meshopt_encodeVertexBufferBound(k_vertices, k_stride), '\0');
+        vertices.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(vertices.data()), vertices.size(),
+                                                   plain.data(), k_vertices, k_stride));
+        std::vector<unsigned> numbers(k_indices);
+        for (std::size_t i = 0; i < k_indices; ++i) {
+            std::uint16_t number;
+            std::memcpy(&number, plain.data() + k_vertices * k_stride + i * sizeof number, sizeof number);
+            numbers[i] = number;
+        }
+        std::string indices(meshopt_encodeIndexSequenceBound(k_indices, k_vertices), '\0');
+        indices.resize(meshopt_encodeIndexSequence(reinterpret_cast<unsigned char*>(indices.data()), indices.size(),
+                                                   numbers.data(), numbers.size()));
+        json["buffers"].push_back({ { "byteLength", plain.size() },
+                                    { "extensions", { { "EXT_meshopt_compression", { { "fallback", true } } } } } });
+        compress(0, vertices, "ATTRIBUTES", k_stride, k_vertices);
+        compress(1, indices, "INDICES", 2, k_indices);
+    }
+
+    void compress(std::size_t view, const std::string& bytes, const char* mode, std::size_t stride, std::size_t count)
+    {
+        json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"] = { { "buffer", add_buffer(bytes) },
+                                                                               { "byteLength", bytes.size() },
+                                                                               { "byteStride", stride },
+                                                                               { "mode", mode },
+                                                                               { "count", count } };
+    }
+
+    /// A square of two triangles.
+    std::string draco_square() const
+    {
+        draco::TriangleSoupMeshBuilder builder;
+        builder.Start(2);
+        const int positions = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+        const std::array<std::array<float, 3>, 4> p { { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } } };
+        builder.SetAttributeValuesForFace(positions, draco::FaceIndex(0), p[0].data(), p[1].data(), p[2].data());
+        builder.SetAttributeValuesForFace(positions, draco::FaceIndex(1), p[0].data(), p[2].data(), p[3].data());
+        const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
+        draco::Encoder encoder;
+        encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+        draco::EncoderBuffer buffer;
+        EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+        return { buffer.data(), buffer.size() };
+    }
+
+    void pack_with_draco(const std::string& bytes)
+    {
+        require("KHR_draco_mesh_compression");
+        json["bufferViews"] = ordered_json::array();
+        json["accessors"] = { { { "componentType", 5126 }, { "count", 4 }, { "type", "VEC3" } },
+                              { { "componentType", 5123 }, { "count", 6 }, { "type", "SCALAR" } } };
+        json["meshes"][0]["primitives"] = ordered_json::array(
+            { { { "attributes", { { "POSITION", 0 } } },
+                { "indices", 1 },
+                { "extensions",
+                  { { "KHR_draco_mesh_compression",
+                      { { "bufferView", add_view(bytes) }, { "attributes", { { "POSITION", 0 } } } } } } } } });
+    }
+};
+
+TEST_F(PackedGltf, IsReadAndWrittenWhereMeshoptPackedIt)
+{
+    pack_with_meshopt();
+    const MeshFile packed = read();
+    expect_as_whole(packed, 0);
+    expect_written_in_plain(packed);
+}
+
+TEST_F(PackedGltf, IsReadWherePositionsAreIntegers)
+{
+    require("KHR_mesh_quantization");
+    add_buffer(plain);
+    const MeshFile expected = whole();
+    std::string bytes;
+    for (std::size_t v = 0; v < k_vertices; ++v)
+        for (std::size_t k = 0; k < 4; ++k) {  // three numbers, and two bytes up to a multiple of four
+            float value = 0;
+            if (k < 3)
+                std::memcpy(&value, plain.data() + v * k_stride + k * sizeof value, sizeof value);
+            const auto integer = std::int16_t(std::lround(value * 32767));
+            bytes.append(reinterpret_cast<const char*>(&integer), sizeof integer);
+        }
+    const int view = add_view(bytes);
+    json["bufferViews"][std::size_t(view)]["byteStride"] = 8;
+    json["accessors"][0]
+        = { { "bufferView", view }, { "componentType", 5122 }, { "normalized", true },        { "count", 4 },
+            { "type", "VEC3" },     { "min", { 0, 0, 0 } },    { "max", { 32767, 32767, 0 } } };
+    const MeshFile packed = read();
+    expect_as_whole(packed, 1e-4);
+    expect_written_in_plain(packed);
+}
+
+TEST_F(PackedGltf, IsReadWhereAFewPositionsReplaceOthers)
+{
+    add_buffer(plain);
+    const std::array<float, 3> place { 0.5F, 2, 3 };
+    const std::array<std::uint16_t, 2> row { 2, 0 };
+    const std::string values(reinterpret_cast<const char*>(place.data()), sizeof place),
+        rows(reinterpret_cast<const char*>(row.data()), sizeof row);
+    json["accessors"][0]["sparse"] = { { "count", 1 },
+                                       { "indices", { { "bufferView", add_view(rows) }, { "componentType", 5123 } } },
+                                       { "values", { { "bufferView", add_view(values) } } } };
+    const Positions read_back = read().positions(), before = whole().positions();
+    EXPECT_EQ(read_back.row(0), before.row(0));
+    EXPECT_LT((Vec3(read_back.row(2)) - Vec3(1 + 2 * 0.5, 4, 6)).norm(), 1e-6);  // the node's scale and place
+}
+
+TEST_F(PackedGltf, IsReadAndWrittenWhereDracoPackedIt)
+{
+    pack_with_draco(draco_square());
+    const MeshFile packed = read();
+    ASSERT_EQ(packed.positions().rows(), 4);
+    ASSERT_EQ(packed.triangles().rows(), 2);
+    double area = 0;
+    for (const auto& t : packed.triangles().rowwise())
+        area += 0.5
+            * Vec3(packed.positions().row(t[1]) - packed.positions().row(t[0]))
+                  .cross(Vec3(packed.positions().row(t[2]) - packed.positions().row(t[0])))
+                  .z();
+    EXPECT_NEAR(area, 4, 1e-3);
+    expect_written_in_plain(packed);
+}
+
+TEST_F(PackedGltf, IsRefusedInWordsWhereItIsMangled)
+{
+    const auto expect = [&](const char* words, const std::function<void()>& mangle) {
+        const ordered_json before = json;
+        mangle();
+        expect_invalid([&] { read(); }, words);
+        json = before;
+    };
+    expect("cannot be decoded", [&] { pack_with_draco(draco_square().substr(0, 20)); });
+    expect("no attribute", [&] {
+        pack_with_draco(draco_square());
+        json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"] = 7;
+    });
+    pack_with_meshopt();
+    const auto packed
+        = [&]() -> ordered_json& { return json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]; };
+    expect("cannot be decoded", [&] { packed()["byteLength"] = 9; });
+    expect("beyond buffer", [&] { packed()["byteLength"] = 9999; });
+    expect("2 GB", [&] { packed()["count"] = 4000000000u; });
+    expect("mangled", [&] { packed().erase("count"); });
+    expect("filter", [&] { packed()["filter"] = "QUATERNION"; });
+}
+
+}  // namespace
