@@ -79,8 +79,9 @@ Positions unit_normals(const TriangleMesh& surface)
     return normals;
 }
 
-tinygltf::Primitive primitive_of(const TriangleMesh& surface, const SkinWeights& weights, GlbModel& glb)
+tinygltf::Primitive primitive_of(const SkinnedMesh& mesh, GlbModel& glb)
 {
+    const auto& [name, surface, weights, covered] = mesh;
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     const int positions = glb.add<float>(surface.positions, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -92,6 +93,10 @@ tinygltf::Primitive primitive_of(const TriangleMesh& surface, const SkinWeights&
     primitive.attributes["JOINTS_0"] = glb.add<std::uint8_t>(used, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.attributes["WEIGHTS_0"]
         = glb.add<float>(weights.weights, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
+    if (!covered.empty()) {
+        const auto mask = Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(covered.data(), covered.size());
+        primitive.attributes["_COVERED"] = glb.add<float>(mask, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ARRAY_BUFFER);
+    }
     primitive.indices
         = glb.add<std::uint32_t>(surface.triangles, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     return primitive;
@@ -113,7 +118,7 @@ void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skelet
     for (const SkinnedMesh& skinned : meshes) {
         tinygltf::Mesh mesh;
         mesh.name = skinned.name;
-        mesh.primitives.push_back(primitive_of(skinned.surface, skinned.weights, glb));
+        mesh.primitives.push_back(primitive_of(skinned, glb));
         glb.model.scenes[0].nodes.push_back(int(glb.model.meshes.size()));
         glb.model.meshes.push_back(mesh);
     }

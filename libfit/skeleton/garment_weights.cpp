@@ -95,14 +95,15 @@ struct Sides {
 std::vector<char> find_matches(const std::vector<Foot>& feet, DisjointSets& pieces, double reach, double least_cosine)
 {
     std::vector<Sides> sides(feet.size());
-    const auto is_near
-        = [&](const Foot& foot) { return foot.distance < reach && std::abs(foot.cosine) > least_cosine; };
+    const auto is_near = [&](const Foot& foot, double distance) {
+        return foot.distance < distance && std::abs(foot.cosine) > least_cosine;
+    };
     for (int v = 0; v < int(feet.size()); ++v)
-        if (is_near(feet[v]))
+        if (is_near(feet[v], k_wide_reach * reach))
             ++(feet[v].cosine > 0 ? sides[pieces.root(v)].inside : sides[pieces.root(v)].outside);
     std::vector<char> matches(feet.size());
     for (int v = 0; v < int(feet.size()); ++v)
-        matches[v] = is_near(feet[v]) && sides[pieces.root(v)].fits(feet[v].cosine);
+        matches[v] = is_near(feet[v], reach) && sides[pieces.root(v)].fits(feet[v].cosine);
     return matches;
 }
 
@@ -240,7 +241,7 @@ JointWeights garment_weights(const TriangleMesh& body, const JointWeights& body_
     anchor_the_rest(feet, ties, pieces, is_known);
 
     Eigen::MatrixXd weights = weights_at(feet, is_known, body, body_weights);
-    inpaint(cloth, ties, is_known, reach, weights);
+    inpaint(cloth, ties, is_known, k_wide_reach * reach, weights);
     return spread(weights, weld, options.joints_per_vertex);
 }
 

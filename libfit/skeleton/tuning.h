@@ -39,8 +39,22 @@ inline constexpr int k_neighbours = 4;
 /// fitted: guess. Share of the vertices of a piece of cloth whose normals are opposite to those of the skin next to
 /// them: above it, the piece has two sheets.
 inline constexpr double k_second_sheet = 0.25;
+/// fitted: guess. Times the reach. Skin this far away shows which side of cloth is inside: loose cloth may be within
+/// reach of other limbs only, which it faces with its outside. And weights are smooth over this length (skin_inpainting.h).
+inline constexpr double k_wide_reach = 2.5;
 /// fitted: guess. A joint with less weight moves cloth by less than contact keeps it off the skin.
 inline constexpr double k_least_weight = 1e-3;
+
+// ---- covered skin (covered_skin.cpp) ------------------------------------------------------------------------------
+
+/// fitted: guess. Lines of sight over the whole sphere; 64 leave a cone of about 15 degrees around each.
+inline constexpr int k_lines_of_sight = 64;
+/// fitted: guess. Skin that is seen at a lower angle than this is nearly behind other skin: sine of 6 degrees.
+inline constexpr double k_least_sight_cosine = 0.1;
+/// fitted: guess. Share of a limb's radius. Skinning pushes skin this far through the cloth over it.
+inline constexpr double k_depth_under_skin = 0.5;
+/// fitted: guess. Share of the diagonal of the body: 2 cm of an adult.
+inline constexpr double k_margin_of_sight = 0.01;
 
 // ---- skin of hands and feet (extremity_skin.h) --------------------------------------------------------------------
 

@@ -174,6 +174,12 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
                 return std::filesystem::path(path).extension() == ".glb" ? ""
                                                                          : path + ": give a name that ends in .glb";
             });
+    if (recovers(filter))
+        command
+            .add_flag("--hide-covered-skin", call.hide_covered_skin,
+                      "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
+                      "movement, so that they cannot pass through posed cloth")
+            ->needs("--outfit");
     command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
         ->check(CLI::Range(0, 1024))
         ->default_str("0");

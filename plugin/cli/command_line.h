@@ -17,6 +17,7 @@ struct Call {
     const Filter* filter = nullptr;
     std::filesystem::path body, from, rig, joints, out;  ///< `from`: the folder that drape and recover continue
     std::filesystem::path outfit;  ///< where body and clothes go as one skinned file; empty: nowhere
+    bool hide_covered_skin = false;  ///< of that file
     std::vector<std::filesystem::path> garments;
     std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
     FrameChoice body_frame, garment_frame;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "garmentfit/animated_gltf.h"
+#include "garmentfit/covered_skin.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/warnings.h"
@@ -180,6 +181,18 @@ void write_fitted_body(const Session& session, const fs::path& folder)
               { "garmentfit: the body in the pose fitted to " + session.garments[outer].name() });
 }
 
+/// The mask of what the clothes cover, and the body without it.
+void hide_covered(SkinnedMesh& body, const Rig& rig, const std::vector<SkinnedMesh>& meshes)
+{
+    std::vector<SkinnedCloth> clothes;
+    for (std::size_t i = 1; i < meshes.size(); ++i)
+        clothes.push_back({ meshes[i].surface, meshes[i].weights });
+    body.covered = find_covered_skin(body.surface, rig, clothes);
+    const Triangles shown = uncovered_faces(body.surface.triangles, body.covered);
+    if (shown.rows() > 0)  // a mesh without faces is no mesh in glTF
+        body.surface.triangles = shown;
+}
+
 // ---- what earlier runs wrote ---------------------------------------------------------------------------------------
 
 bool is_result(const fs::path& folder)
@@ -260,7 +273,7 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_last_state(session, *scene.draped, folder);
 }
 
-void write_outfit(const Session& session, const fs::path& path)
+void write_outfit(const Session& session, const fs::path& path, bool hide_covered_skin)
 {
     const Scene& scene = session.scene;
     const Dressing& dressing = *scene.recovered;
@@ -273,6 +286,8 @@ void write_outfit(const Session& session, const fs::path& path)
                            { worn, garment.triangles },
                            garment_weights(body, scene.rig->weights, garment, worn) });
     }
+    if (hide_covered_skin)
+        hide_covered(meshes[0], *scene.rig, meshes);
     if (path.has_parent_path())
         fs::create_directories(path.parent_path());
     write_skinned_glb(path, scene.rig->skeleton, meshes);

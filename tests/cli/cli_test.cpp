@@ -352,6 +352,9 @@ TEST_F(CommandLine, WritesNoOutfitOfAGarmentThatIsTooSmallAndNoneOfAnotherFormat
     const Ended wrong = run({ "dress", k_body, k_skirt, "--outfit", folder / "outfit.fbx", "-o", folder / "result" });
     EXPECT_EQ(wrong.code, 2);
     EXPECT_NE(wrong.err.find(".glb"), std::string::npos) << wrong.err;
+    const Ended alone = run({ "dress", k_body, k_skirt, "--hide-covered-skin", "-o", folder / "result" });
+    EXPECT_EQ(alone.code, 2);
+    EXPECT_NE(alone.err.find("--outfit"), std::string::npos) << alone.err;
     const Ended small = run({ "dress", k_body, k_skirt, "--type", "skirt", "--garment-scale", "0.5", "--outfit",
                               folder / "outfit.glb", "-o", folder / "result" });
     EXPECT_NE(small.code, 0);
@@ -571,9 +574,15 @@ TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_EQ(report.at("garments").at(0).at("file"), "coat.ply");
     EXPECT_EQ(report.at("garments").at(0).at("layer"), 1);
-    const Ended back
-        = run({ "recover", draped, "--recovery-settling-steps", "2", "--quality", "draft", "-o", folder / "dressed" });
-    EXPECT_EQ(back.code, 0) << back.err;
+    const Ended back = run({ "recover", draped, "--recovery-settling-steps", "2", "--quality", "draft", "--outfit",
+                             folder / "outfit.glb", "--hide-covered-skin", "-o", folder / "dressed" });
+    ASSERT_EQ(back.code, 0) << back.err;
+    EXPECT_NE(read_text(folder / "outfit.glb").find("_COVERED"), std::string::npos);
+    const auto whole = garmentfit::MeshFile::read(folder / "dressed" / "body.ply");
+    const auto outfit = garmentfit::MeshFile::read(folder / "outfit.glb");
+    const Eigen::Index of_body = (outfit.triangles().rowwise().maxCoeff().array() < whole.positions().rows()).count();
+    EXPECT_LT(of_body, whole.triangles().rows()) << "skin under the coat is left out";
+    EXPECT_GT(of_body, whole.triangles().rows() / 2);
 
     fs::remove(draped / "coat.ply");  // as where it is too small
     const Ended without = run({ "recover", draped, "-o", folder / "without" });

@@ -13,6 +13,7 @@ using namespace garmentfit::fixtures;
 
 constexpr int k_around = 48, k_rows = 40;
 constexpr double k_length = 0.8;
+const GarmentWeightOptions k_half_body { .reach = 0.05 };  // the bodies here are legs only
 
 /// An open upright tube, its normals outwards.
 TriangleMesh tube(double x, double radius, int around = k_around)
@@ -96,7 +97,7 @@ TEST(GarmentWeights, ATrouserLegNextToTheOtherLegKeepsItsOwn)
     const GarmentMesh trouser = garment_of(tube(-0.105, 0.118));  // its inner side is next to the left thigh
     const SkinWeights nearest = weights_of_nearest(trouser.positions, legs.skin.positions, legs.weights);
     ASSERT_GT(largest_weight(nearest, lfemur), 0.9);  // what is to be avoided
-    const SkinWeights weights = garment_weights(legs.skin, legs.weights, trouser, trouser.positions);
+    const SkinWeights weights = garment_weights(legs.skin, legs.weights, trouser, trouser.positions, k_half_body);
     expect_rows_of_weights(weights);
     EXPECT_LT(largest_weight(weights, lfemur), 0.01);
 }
@@ -105,7 +106,8 @@ TEST(GarmentWeights, TheOrientationOfFacesDoesNotMatter)
 {
     const Legs legs;
     const GarmentMesh trouser = garment_of(turned_over(tube(-0.105, 0.118)));
-    EXPECT_LT(largest_weight(garment_weights(legs.skin, legs.weights, trouser, trouser.positions), lfemur), 0.01);
+    EXPECT_LT(largest_weight(garment_weights(legs.skin, legs.weights, trouser, trouser.positions, k_half_body), lfemur),
+              0.01);
 }
 
 TEST(GarmentWeights, CloseClothHasTheWeightsOfTheSkin)
@@ -113,7 +115,7 @@ TEST(GarmentWeights, CloseClothHasTheWeightsOfTheSkin)
     const TriangleMesh skin = tube(0, 0.09);
     const SkinWeights on_skin = graded(skin.positions);
     const GarmentMesh sleeve = garment_of(tube(0, 0.1, 31));
-    const SkinWeights weights = garment_weights(skin, on_skin, sleeve, sleeve.positions);
+    const SkinWeights weights = garment_weights(skin, on_skin, sleeve, sleeve.positions, k_half_body);
     expect_rows_of_weights(weights);
     for (Eigen::Index v = 0; v < sleeve.positions.rows(); ++v)
         EXPECT_NEAR(weight_of(weights, v, ltibia), sleeve.positions(v, 1) / k_length, 0.002) << v;
@@ -129,7 +131,7 @@ TEST(GarmentWeights, ClothFarFromSkinContinuesTheClothAround)
         bell.positions(v, 0) *= wide;
         bell.positions(v, 2) *= wide;
     }
-    const SkinWeights weights = garment_weights(skin, on_skin, garment_of(bell), bell.positions);
+    const SkinWeights weights = garment_weights(skin, on_skin, garment_of(bell), bell.positions, k_half_body);
     expect_rows_of_weights(weights);
     for (Eigen::Index v = k_around; v < bell.positions.rows(); ++v) {
         EXPECT_NEAR(weight_of(weights, v, ltibia), bell.positions(v, 1) / k_length, 0.15) << v;
@@ -147,8 +149,8 @@ TEST(GarmentWeights, VerticesAtOnePlaceHaveTheSameWeights)
             cut.triangles(f, k) = int(3 * f + k);
         }
     const SkinWeights on_skin = graded(skin.positions);
-    const SkinWeights whole = garment_weights(skin, on_skin, garment_of(cloth), cloth.positions);
-    const SkinWeights weights = garment_weights(skin, on_skin, cut, cut.positions);
+    const SkinWeights whole = garment_weights(skin, on_skin, garment_of(cloth), cloth.positions, k_half_body);
+    const SkinWeights weights = garment_weights(skin, on_skin, cut, cut.positions, k_half_body);
     for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(weight_of(weights, 3 * f + k, ltibia), weight_of(whole, cloth.triangles(f, k), ltibia), 1e-9);
@@ -170,7 +172,7 @@ TEST(GarmentWeights, APatchFollowsTheClothThatItLiesOn)
     for (auto row : patch.positions.rowwise())
         row[0] = -0.105 + std::sqrt(0.113 * 0.113 - row[2] * row[2]);
     const GarmentMesh both = garment_of(joined(trouser, patch));
-    const SkinWeights weights = garment_weights(legs.skin, legs.weights, both, both.positions);
+    const SkinWeights weights = garment_weights(legs.skin, legs.weights, both, both.positions, k_half_body);
     expect_rows_of_weights(weights);
     EXPECT_LT(largest_weight(weights, lfemur), 0.01);
 }
@@ -179,7 +181,7 @@ TEST(GarmentWeights, ClothWithoutAnyMatchFollowsTheNearestSkin)
 {
     const Legs legs;
     const GarmentMesh far = garment_of(flat(4, 0.02, { 1.5, 0.4, 0 }));
-    const SkinWeights weights = garment_weights(legs.skin, legs.weights, far, far.positions);
+    const SkinWeights weights = garment_weights(legs.skin, legs.weights, far, far.positions, k_half_body);
     for (Eigen::Index v = 0; v < far.positions.rows(); ++v)
         EXPECT_NEAR(weight_of(weights, v, lfemur), 1, 1e-9);
 }
@@ -212,8 +214,9 @@ TEST(GarmentWeights, RefusesWhatDoesNotGoTogether)
     expect_invalid([&] { garment_weights(legs.skin, legs.weights, trouser, fewer); }, "5 vertices");
     SkinWeights halved = legs.weights;
     halved.weights *= 0.5;
-    expect_invalid([&] { garment_weights(legs.skin, halved, trouser, trouser.positions); }, "vertex 0");
-    expect_invalid([&] { garment_weights(tube(0, 1, 5), legs.weights, trouser, trouser.positions); }, "rows");
+    expect_invalid([&] { garment_weights(legs.skin, halved, trouser, trouser.positions, k_half_body); }, "vertex 0");
+    expect_invalid([&] { garment_weights(tube(0, 1, 5), legs.weights, trouser, trouser.positions, k_half_body); },
+                   "rows");
     expect_invalid(
         [&] { garment_weights(legs.skin, legs.weights, trouser, trouser.positions, { .joints_per_vertex = 9 }); }, "8");
 }

@@ -17,6 +17,7 @@ struct SkinnedMesh {
     std::string name;
     TriangleMesh surface;  ///< metres, +y up
     SkinWeights weights;  ///< a row for each vertex
+    std::vector<char> covered {};  ///< of each vertex, whether clothes cover it: attribute _COVERED, 1 or 0. Or empty
 };
 
 /// Writes body and clothes as one GLB: a mesh each, with its own vertices in their order, and one skin for all of them.

@@ -23,10 +23,12 @@ namespace garmentfit {
 using JointWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct GarmentWeightOptions {
-    /// Share of the diagonal of the body's box: skin further away gives no weights. literature: the method's 5 %, which
-    /// is of the garment's box there. The body's makes shorts and coats alike.
-    double reach = 0.05;
-    double largest_angle = 30;  ///< degrees between the normals of skin and cloth; literature: as the method
+    /// Share of the diagonal of the body's box: skin further away gives no weights. The method has 5 % of the garment's
+    /// box. The body's makes shorts and coats alike.
+    double reach = 0.02;
+    /// Degrees between the normals of skin and cloth. The method has 30, but folds of draped cloth turn further away
+    /// from the skin that they lie on.
+    double largest_angle = 60;  // fitted: guess, on the pairs of docs/outfits.md, as `reach`
     int joints_per_vertex = 4;  ///< at most; 1..8
 };
 

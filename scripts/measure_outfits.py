@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures dressed folders by the benchmark posed_outfits, prints a table in Markdown. Run by scripts/measure-outfits."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+HEAD = """| outfit | nearest point | weights of clothes | nearest point, covered skin hidden | both | share | faces hidden |
+| --- | ---: | ---: | ---: | ---: | ---: | ---: |"""
+
+
+def measure(program: str, folder: Path) -> list:
+    """One result for each garment that the folder holds dressed."""
+    report = json.loads((folder / "report.json").read_text())
+    if not report["certified"]:
+        sys.exit(f"{folder}: not certified; give folders of outfits that could be worn")
+    names = [garment["file"] for garment in report["garments"]]
+    return [json.loads(subprocess.run([program, folder / "body.ply", folder / "rest" / name, folder / name],
+                                      check=True, capture_output=True, text=True).stdout) for name in names]
+
+
+def row(name: str, results: list) -> tuple:
+    """Crossings of all garments and poses: nearest, ours, each with the whole body and with what is shown."""
+    total = [sum(result[rival][k] for result in results) for k in (0, 1) for rival in ("nearest", "ours")]
+    hidden = sum(1 - result["shown_faces"] / result["faces"] for result in results) / len(results)
+    return name, *total, hidden
+
+
+def line(name: str, nearest: int, ours: int, nearest_shown: int, ours_shown: int, hidden: float) -> str:
+    share = f"{ours_shown / nearest:.2f}" if nearest else "-"
+    return f"| {name} | {nearest} | {ours} | {nearest_shown} | {ours_shown} | {share} | {hidden:.0%} |"
+
+
+def main(program: str, *outfits: str) -> None:
+    rows = []
+    print(HEAD)
+    for outfit in outfits:
+        name, _, folder = outfit.partition("=")
+        rows.append(row(name, measure(program, Path(folder))))
+        print(line(*rows[-1]), flush=True)
+    sums = [sum(column) for column in list(zip(*rows))[1:]]
+    print(line("all", *sums[:-1], sums[-1] / len(rows)))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Poses a dressed body and counts what passes through: `posed_outfits BODY GARMENT WORN [FOLDER]`, in metres. WORN is
+// the dressed garment of `garmentfit dress`. Prints one line of JSON; with FOLDER, writes body and garment in each pose.
+// Weights of the garment: ours, against those of the nearest point of the skin. Counts are pairs: [whole body, body
+// without covered skin]. scripts/measure-outfits makes the table.
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "barycentric.h"
+#include "garmentfit/certificate.h"
+#include "garmentfit/covered_skin.h"
+#include "garmentfit/garment_weights.h"
+#include "garmentfit/io.h"
+#include "garmentfit/rig_body.h"
+#include "keyframes.h"
+#include "nearest.h"
+#include "skin_weights.h"
+
+namespace {
+
+using namespace garmentfit;
+using Json = nlohmann::ordered_json;
+
+/// What other programs do: the weights of the nearest point of the skin.
+SkinWeights nearest_point_weights(const TriangleMesh& body, const SkinWeights& weights, const Positions& worn)
+{
+    const TriangleTree tree(body);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(worn.rows(), bone_count);
+    for (Eigen::Index v = 0; v < worn.rows(); ++v) {
+        const auto nearest = tree.nearest_triangle(worn.row(v));
+        const Eigen::RowVector3i corners = body.triangles.row(nearest->triangle);
+        const auto corner = [&](int k) { return Vec3(body.positions.row(corners[k])); };
+        const auto shares = barycentric(nearest->point, corner(0), corner(1), corner(2));
+        for (int k = 0; k < 3; ++k)
+            for (int slot = 0; slot < 4; ++slot)
+                dense(v, weights.bones(corners[k], slot)) += shares[k] * weights.weights(corners[k], slot);
+    }
+    return strongest_four(dense);
+}
+
+struct Outfit {
+    TriangleMesh body;
+    Rig rig;
+    GarmentMesh garment;  // as given
+    Positions worn;
+};
+
+Outfit read_outfit(char** arguments)
+{
+    const MeshFile body = MeshFile::read(arguments[1]), garment = MeshFile::read(arguments[2]),
+                   worn = MeshFile::read(arguments[3]);
+    return { { body.positions(), body.triangles() },
+             rig_body(make_body(body.positions(), body.triangles())),
+             make_garment(garment.positions(), garment.triangles()),
+             worn.positions() };
+}
+
+void write_pose(const std::filesystem::path& folder, const std::string& name, const TriangleMesh& mesh)
+{
+    std::filesystem::create_directories(folder);
+    write_ply(folder / (name + ".ply"), mesh.positions, mesh.triangles);
+}
+
+/// The skin with its covered faces, and without them.
+struct Skin {
+    Triangles all, shown;
+};
+
+/// One way of giving weights to the garment, and what passes through it in all poses so far.
+struct Rival {
+    const char* name;
+    SkinWeights weights;
+    int all = 0, shown = 0;
+
+    Json count(const TriangleMesh& cloth, const Positions& body, const Skin& skin)
+    {
+        const int through_all = crossing_count({ body, skin.all }, cloth);
+        const int through_shown = crossing_count({ body, skin.shown }, cloth);
+        all += through_all;
+        shown += through_shown;
+        return { through_all, through_shown };
+    }
+};
+
+Json measure(const Outfit& outfit, const std::filesystem::path& folder)
+{
+    const Triangles& cloth = outfit.garment.triangles;
+    Rival rivals[] { { "ours", garment_weights(outfit.body, outfit.rig.weights, outfit.garment, outfit.worn) },
+                     { "nearest", nearest_point_weights(outfit.body, outfit.rig.weights, outfit.worn) } };
+    const auto is_covered
+        = find_covered_skin(outfit.body, outfit.rig, { { { outfit.worn, cloth }, rivals[0].weights } });
+    const Skin skin { outfit.body.triangles, uncovered_faces(outfit.body.triangles, is_covered) };
+    Json poses = Json::array();
+    for (const Keyframe& key : keyframes_of(outfit.rig)) {
+        const BoneTransforms transforms = bone_transforms(outfit.rig.skeleton, key.pose);
+        const Positions body = blend_linearly(outfit.body.positions, outfit.rig.weights, transforms);
+        Json pose { { "pose", key.name } };
+        for (Rival& rival : rivals) {
+            const TriangleMesh posed { blend_linearly(outfit.worn, rival.weights, transforms), cloth };
+            pose[rival.name] = rival.count(posed, body, skin);
+            if (!folder.empty())
+                write_pose(folder, key.name + " " + rival.name, posed);
+        }
+        if (!folder.empty()) {
+            write_pose(folder, key.name + " body", { body, skin.all });
+            write_pose(folder, key.name + " shown", { body, skin.shown });
+        }
+        poses.push_back(pose);
+    }
+    Json result { { "faces", skin.all.rows() }, { "shown_faces", skin.shown.rows() } };
+    for (const Rival& rival : rivals)
+        result[rival.name] = { rival.all, rival.shown };
+    result["poses"] = poses;
+    return result;
+}
+
+}  // namespace
+
+int main(int count, char** arguments)
+try {
+    if (count != 4 && count != 5) {
+        std::cerr << "usage: posed_outfits BODY GARMENT WORN [FOLDER]\n";
+        return 2;
+    }
+    std::cout << measure(read_outfit(arguments), count == 5 ? arguments[4] : "").dump() << "\n";
+} catch (const std::exception& error) {
+    std::cerr << "posed_outfits: " << error.what() << "\n";
+    return 2;
+}

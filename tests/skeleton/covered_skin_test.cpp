@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/covered_skin.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+
+namespace {
+
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
+
+SkinWeights rigid(Eigen::Index rows, Bone bone)
+{
+    SkinWeights weights;
+    weights.bones.setConstant(rows, 4, bone);
+    weights.weights.setZero(rows, 4);
+    weights.weights.col(0).setOnes();
+    return weights;
+}
+
+/// A body that moves as a whole, so that its clothes cover in all poses what they cover at rest.
+struct Clothed {
+    Person person = capsule_person();
+    Rig rig = simple_rig(person);
+
+    Clothed() { rig.weights = rigid(person.mesh.positions.rows(), thorax); }
+
+    /// A garment round all skin with `keep`.
+    SkinnedCloth cloth(const std::function<bool(const Vec3&)>& keep) const
+    {
+        const TriangleMesh mesh = garment_round(person.skeleton, 0.025, keep);
+        return { mesh, rigid(mesh.positions.rows(), thorax) };
+    }
+    Vec3 place(std::size_t v) const { return person.mesh.positions.row(Eigen::Index(v)); }
+};
+
+bool is_shirt(const Vec3& p) { return p.y() > 0.6 && p.y() < 1.5; }
+
+TEST(CoveredSkin, IsUnderClothAwayFromItsBorders)
+{
+    const Clothed clothed;
+    const std::vector<char> is_covered
+        = find_covered_skin(clothed.person.mesh, clothed.rig, { clothed.cloth(is_shirt) });
+    ASSERT_EQ(Eigen::Index(is_covered.size()), clothed.person.mesh.positions.rows());
+    int covered = 0, at_the_belly = 0, belly = 0;
+    for (std::size_t v = 0; v < is_covered.size(); ++v) {
+        covered += is_covered[v];
+        EXPECT_FALSE(is_covered[v] && !is_shirt(clothed.place(v))) << clothed.place(v).transpose();
+        if (std::abs(clothed.place(v).y() - 1.05) < 0.05 && std::abs(clothed.place(v).x()) < 0.2) {
+            ++belly;
+            at_the_belly += is_covered[v];
+        }
+    }
+    EXPECT_GT(covered, 100);
+    EXPECT_GT(at_the_belly, 0.9 * belly);
+}
+
+TEST(CoveredSkin, IsNoneWithoutClothOrUnderOpenCloth)
+{
+    const Clothed clothed;
+    const auto count = [&](const std::vector<SkinnedCloth>& clothes) {
+        const auto is_covered = find_covered_skin(clothed.person.mesh, clothed.rig, clothes);
+        return std::count(is_covered.begin(), is_covered.end(), 1);
+    };
+    EXPECT_EQ(count({}), 0) << "skin that only skin hides stays";
+    EXPECT_EQ(count({ clothed.cloth([](const Vec3& p) { return p.y() > 1.1 && p.y() < 1.16; }) }), 0) << "a belt";
+}
+
+TEST(CoveredSkin, IsSeenWhereAPoseOpensTheCloth)
+{
+    const Clothed clothed;
+    SkinnedCloth shirt = clothed.cloth(is_shirt);
+    const auto count = [&] {
+        const auto is_covered = find_covered_skin(clothed.person.mesh, clothed.rig, { shirt });
+        return std::count(is_covered.begin(), is_covered.end(), 1);
+    };
+    const auto worn = count();
+    shirt.weights.bones.setConstant(lradius);  // all of it follows the left forearm, and leaves the trunk
+    EXPECT_LT(count(), worn / 10);
+}
+
+TEST(CoveredSkin, LeavesOutFacesOfWhichAllCornersAreCovered)
+{
+    Triangles triangles(3, 3);
+    triangles << 0, 1, 2, 1, 2, 3, 2, 3, 4;
+    const Triangles shown = uncovered_faces(triangles, { 0, 1, 1, 1, 1 });
+    ASSERT_EQ(shown.rows(), 1);
+    EXPECT_EQ(shown(0, 0), 0);
+    EXPECT_EQ(uncovered_faces(triangles, { 0, 0, 0, 0, 0 }), triangles);
+}
+
+TEST(CoveredSkin, RefusesWeightsOfOtherMeshes)
+{
+    const Clothed clothed;
+    SkinnedCloth shirt = clothed.cloth(is_shirt);
+    shirt.weights.weights.conservativeResize(3, 4);
+    expect_invalid([&] { find_covered_skin(clothed.person.mesh, clothed.rig, { shirt }); }, "a garment");
+}
+
+}  // namespace
