@@ -14,7 +14,7 @@ GlbModel::GlbModel()
     model.scenes.emplace_back();
 }
 
-int GlbModel::add_bytes(const void* bytes, std::size_t size, int component, std::size_t count, int type, int target)
+int GlbModel::add_view(const void* bytes, std::size_t size, int target)
 {
     std::vector<unsigned char>& data = model.buffers[0].data;
     tinygltf::BufferView view;
@@ -25,14 +25,19 @@ int GlbModel::add_bytes(const void* bytes, std::size_t size, int component, std:
     const auto* first = static_cast<const unsigned char*>(bytes);
     data.insert(data.end(), first, first + size);
     data.resize((data.size() + 3) / 4 * 4);  // the format wants accessors to begin at a multiple of their component
+    model.bufferViews.push_back(view);
+    return int(model.bufferViews.size()) - 1;
+}
+
+int GlbModel::add_bytes(const void* bytes, std::size_t size, int component, std::size_t count, int type, int target)
+{
     tinygltf::Accessor accessor;
-    accessor.bufferView = int(model.bufferViews.size());
+    accessor.bufferView = add_view(bytes, size, target);
     accessor.componentType = component;
     accessor.count = count;
     accessor.type = type;
-    model.bufferViews.push_back(view);
     model.accessors.push_back(accessor);
-    return accessor.bufferView;
+    return int(model.accessors.size()) - 1;
 }
 
 std::string GlbModel::file() const

@@ -41,6 +41,9 @@ public:
         model.accessors[accessor].maxValues.assign(most.begin(), most.end());
     }
 
+    /// Appends bytes of any kind. @return the buffer view's index
+    int add_view(const void* bytes, std::size_t size, int target = 0);
+
     /// The bytes of the GLB file.
     std::string file() const;
 

@@ -9,6 +9,7 @@
 
 #include "garmentfit/error.h"
 #include "gltf_container.h"
+#include "gltf_materials.h"
 #include "gltf_model.h"
 #include "gltf_scene.h"
 #include "gltf_unpack.h"
@@ -41,11 +42,14 @@ public:
     {
         for (const GltfSurface& surface : scene_.surfaces()) {
             const Block& block = block_of(surface);
+            const Eigen::Index before = fans_.rows();
             add_faces(*surface.primitive, indices_of(*surface.primitive, block), block);
+            parts.push_back({ surface.primitive, block.first_row, fans_.rows() - before });
         }
     }
 
     std::vector<Block> blocks;
+    std::vector<GltfPart> parts;
     Triangles triangles() const { return fans_.triangles(); }
     Eigen::Index rows() const { return rows_; }
 
@@ -187,6 +191,9 @@ struct GltfContent : MeshFile::Content {
     Buffers buffers;
     std::vector<Block> blocks;
     Positions normals;  ///< of the world; zero where the file has none
+    Appearance look;
+
+    Appearance appearance() const override { return look; }
 
     std::string bytes_with(const Positions& moved) const override
     {
@@ -275,9 +282,10 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
         require_apart(file, scene.blocks);
         content->triangles = scene.triangles();
         content->blocks = std::move(scene.blocks);
+        embed_pictures(content->container.json, folder);
+        content->look = gltf_appearance(file, model, content->container.json, scene.parts, content->triangles);
         content->buffers = std::move(model.buffers);
         read_values(file, *content, scene.rows());
-        embed_pictures(content->container.json, folder);
     } catch (const InvalidInput&) {
         throw;
     } catch (const std::exception& error) {  // of the JSON library: a member of an unexpected type

@@ -57,6 +57,9 @@ const Positions& MeshFile::positions() const { return content_->positions; }
 const Triangles& MeshFile::triangles() const { return content_->triangles; }
 const std::string& MeshFile::format() const { return content_->format; }
 
+Appearance MeshFile::appearance() const { return content_->appearance(); }
+std::vector<std::string> MeshFile::companions() const { return content_->companions(); }
+
 void MeshFile::write(const std::filesystem::path& path, const Positions& positions) const
 {
     if (positions.rows() != content_->positions.rows())

@@ -19,6 +19,8 @@ struct MeshFile::Content {
     virtual ~Content() = default;
     /// The bytes of the file with other positions (same count).
     virtual std::string bytes_with(const Positions& positions) const = 0;
+    virtual Appearance appearance() const { return {}; }
+    virtual std::vector<std::string> companions() const { return {}; }
 };
 
 using ContentPtr = std::shared_ptr<const MeshFile::Content>;
@@ -41,6 +43,7 @@ public:
     /// One polygon: `columns` indices (of position, of normal, ...) for each corner, all of the first corner first.
     void add(const std::vector<int>& corners);
     Triangles triangles(int column = 0) const;
+    Eigen::Index rows() const { return static_cast<Eigen::Index>(fans_[0].size() / 3); }
 
 private:
     int columns_;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text_content.h"
-
 #include <climits>
+
+#include "obj_materials.h"
+#include "text_content.h"
 
 namespace garmentfit {
 namespace {
+
+struct ObjContent : TextContent {
+    Appearance appearance() const override { return obj_appearance(file); }
+    std::vector<std::string> companions() const override { return obj_companions(file); }
+};
 
 /// Vertices and normals; faces may name vertices further down, so they are read afterwards.
 void read_rows(TextContent& content)
@@ -106,7 +112,7 @@ void read_faces(TextContent& content)
 
 ContentPtr read_obj(FileBytes file)
 {
-    auto content = std::make_shared<TextContent>();
+    auto content = std::make_shared<ObjContent>();
     content->format = "obj";
     content->file = std::move(file);
     read_rows(*content);

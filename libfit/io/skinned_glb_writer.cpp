@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "garmentfit/io.h"
 #include "garmentfit/mesh.h"
 #include "garmentfit/skinned_gltf.h"
+#include "glb_appearance.h"
 #include "glb_model.h"
 
 namespace garmentfit {
@@ -79,27 +82,70 @@ Positions unit_normals(const TriangleMesh& surface)
     return normals;
 }
 
-tinygltf::Primitive primitive_of(const SkinnedMesh& mesh, GlbModel& glb)
+/// Attributes of all vertices, which the primitives of a mesh share.
+tinygltf::Primitive attributes_of(const SkinnedMesh& mesh, const SeamVertices& vertices, GlbModel& glb)
 {
-    const auto& [name, surface, weights, covered] = mesh;
+    const std::vector<int>& rows = vertices.sources;
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    const int positions = glb.add<float>(surface.positions, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    glb.set_bounds(positions, surface.positions);
-    primitive.attributes["POSITION"] = positions;
-    primitive.attributes["NORMAL"]
-        = glb.add<float>(unit_normals(surface), TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    const Eigen::MatrixXi used = (weights.weights.array() > 0).select(weights.bones.array() + 1, 0);  // 0 where unused
-    primitive.attributes["JOINTS_0"] = glb.add<std::uint8_t>(used, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.attributes["WEIGHTS_0"]
-        = glb.add<float>(weights.weights, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
-    if (!covered.empty()) {
-        const auto mask = Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(covered.data(), covered.size());
-        primitive.attributes["_COVERED"] = glb.add<float>(mask, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ARRAY_BUFFER);
+    const auto add = [&](const char* name, const auto& values, int type, auto number) {
+        primitive.attributes[name] = glb.add<decltype(number)>(values, type, TINYGLTF_TARGET_ARRAY_BUFFER);
+    };
+    add("POSITION", mesh.surface.positions(rows, Eigen::all), TINYGLTF_TYPE_VEC3, float());
+    glb.set_bounds(primitive.attributes["POSITION"], mesh.surface.positions);
+    add("NORMAL", unit_normals(mesh.surface)(rows, Eigen::all), TINYGLTF_TYPE_VEC3, float());
+    if (vertices.uvs.rows() > 0)
+        add("TEXCOORD_0", vertices.uvs, TINYGLTF_TYPE_VEC2, float());
+    const SkinWeights& skin = mesh.weights;
+    const Eigen::MatrixXi used = (skin.weights.array() > 0).select(skin.bones.array() + 1, 0);  // 0 where unused
+    add("JOINTS_0", used(rows, Eigen::all), TINYGLTF_TYPE_VEC4, std::uint8_t());
+    add("WEIGHTS_0", skin.weights(rows, Eigen::all), TINYGLTF_TYPE_VEC4, float());
+    if (!mesh.covered.empty()) {
+        Eigen::VectorXd mask(Eigen::Index(rows.size()));
+        for (std::size_t v = 0; v < rows.size(); ++v)
+            mask[Eigen::Index(v)] = mesh.covered[std::size_t(rows[v])];
+        add("_COVERED", mask, TINYGLTF_TYPE_SCALAR, float());
     }
-    primitive.indices
-        = glb.add<std::uint32_t>(surface.triangles, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     return primitive;
+}
+
+bool is_hidden(const SkinnedMesh& mesh, Eigen::Index triangle)
+{
+    const auto corners = mesh.surface.triangles.row(triangle);
+    return mesh.hides_covered && !mesh.covered.empty()
+        && std::all_of(corners.begin(), corners.end(), [&](int v) { return mesh.covered[std::size_t(v)]; });
+}
+
+/// Rows of the triangles of each material, -1: none. All of them where all are hidden: glTF knows no empty mesh.
+std::map<int, std::vector<Eigen::Index>> triangles_by_material(const SkinnedMesh& mesh)
+{
+    std::map<int, std::vector<Eigen::Index>> shown, all;
+    const bool has_materials = Eigen::Index(mesh.look.material_of.size()) == mesh.surface.triangles.rows();
+    for (Eigen::Index f = 0; f < mesh.surface.triangles.rows(); ++f) {
+        const int material = has_materials ? mesh.look.material_of[std::size_t(f)] : -1;
+        all[material].push_back(f);
+        if (!is_hidden(mesh, f))
+            shown[material].push_back(f);
+    }
+    return shown.empty() ? all : shown;
+}
+
+tinygltf::Mesh gltf_mesh(const SkinnedMesh& mesh, GlbModel& glb)
+{
+    const SeamVertices vertices = split_at_seams(mesh.surface.positions.rows(), mesh.surface.triangles, mesh.look);
+    const tinygltf::Primitive attributes = attributes_of(mesh, vertices, glb);
+    const int first_material = add_materials(mesh.look, glb);
+    tinygltf::Mesh result;
+    result.name = mesh.name;
+    for (const auto& [material, rows] : triangles_by_material(mesh)) {
+        tinygltf::Primitive primitive = attributes;
+        const Triangles own = vertices.triangles(rows, Eigen::all);
+        primitive.indices = glb.add<std::uint32_t>(own, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        if (material >= 0)
+            primitive.material = first_material + material;
+        result.primitives.push_back(primitive);
+    }
+    return result;
 }
 
 }  // namespace
@@ -115,12 +161,9 @@ void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skelet
                                    + " rows of weights; give a row for each vertex");
     const std::vector<Joint> joints = joints_of(skeleton);
     GlbModel glb;
-    for (const SkinnedMesh& skinned : meshes) {
-        tinygltf::Mesh mesh;
-        mesh.name = skinned.name;
-        mesh.primitives.push_back(primitive_of(skinned, glb));
+    for (const SkinnedMesh& mesh : meshes) {
         glb.model.scenes[0].nodes.push_back(int(glb.model.meshes.size()));
-        glb.model.meshes.push_back(mesh);
+        glb.model.meshes.push_back(gltf_mesh(mesh, glb));
     }
     tinygltf::Skin skin;
     skin.skeleton = int(meshes.size());  // the node of the root

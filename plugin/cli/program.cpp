@@ -108,6 +108,8 @@ std::vector<std::string> outdated(const Call& call, const Session& session, cons
 void write(const Call& call, Session& session, OutputFolder& folder)
 {
     const auto start = std::chrono::steady_clock::now();
+    if (!call.outfit.empty())
+        read_looks(session);
     write_results(session, call.filter->name, folder.draft());
     add_warnings(session);  // after write_results, which certifies what it wrote
     session.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -69,12 +69,30 @@ Positions body_in_file(const Session& session, const Positions& in_metres)
                                                               : session.body.frame.frame.to_file(in_metres);
 }
 
+/// Materials and pictures of a mesh, beside it under the same names. What lies elsewhere would overwrite other files.
+void copy_companions(const MeshFile& file, const fs::path& from, const fs::path& folder)
+{
+    for (const std::string& name : file.companions()) {
+        const fs::path relative = fs::path(name).lexically_normal(), source = from / relative;
+        std::error_code none;
+        if (relative.is_absolute() || *relative.begin() == ".." || !fs::is_regular_file(source, none))
+            continue;
+        fs::create_directories((folder / relative).parent_path());
+        fs::copy_file(source, folder / relative, fs::copy_options::skip_existing, none);
+    }
+}
+
+void write_garment(const GarmentFile& garment, const Positions& positions, const fs::path& folder)
+{
+    garment.file.write(folder / garment.name(), positions);
+    copy_companions(garment.file, garment.path.parent_path(), folder);
+}
+
 void write_garments(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
     fs::create_directories(folder);
     for (const std::size_t i : dressing.worn())
-        session.garments[i].file.write(folder / session.garments[i].name(),
-                                       session.body.frame.frame.to_file(dressing.garments[i].positions));
+        write_garment(session.garments[i], session.body.frame.frame.to_file(dressing.garments[i].positions), folder);
 }
 
 void write_body(const Session& session, const Dressing& dressing, const fs::path& folder)
@@ -166,7 +184,7 @@ void write_rest_shapes(const Session& session, const fs::path& folder)
     for (std::size_t i = 0; i < session.garments.size(); ++i) {
         const GarmentFile& garment = session.garments[i];
         const double size = draped && draped->is_worn(i) ? draped->garments[i].size : 1;
-        garment.file.write(folder / garment.name(), size * garment.file.positions());
+        write_garment(garment, size * garment.file.positions(), folder);
     }
 }
 
@@ -181,16 +199,12 @@ void write_fitted_body(const Session& session, const fs::path& folder)
               { "garmentfit: the body in the pose fitted to " + session.garments[outer].name() });
 }
 
-/// The mask of what the clothes cover, and the body without it.
-void hide_covered(SkinnedMesh& body, const Rig& rig, const std::vector<SkinnedMesh>& meshes)
+std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, const Rig& rig)
 {
     std::vector<SkinnedCloth> clothes;
     for (std::size_t i = 1; i < meshes.size(); ++i)
         clothes.push_back({ meshes[i].surface, meshes[i].weights });
-    body.covered = find_covered_skin(body.surface, rig, clothes);
-    const Triangles shown = uncovered_faces(body.surface.triangles, body.covered);
-    if (shown.rows() > 0)  // a mesh without faces is no mesh in glTF
-        body.surface.triangles = shown;
+    return find_covered_skin(meshes[0].surface, rig, clothes);
 }
 
 // ---- what earlier runs wrote ---------------------------------------------------------------------------------------
@@ -278,16 +292,18 @@ void write_outfit(const Session& session, const fs::path& path, bool hide_covere
     const Scene& scene = session.scene;
     const Dressing& dressing = *scene.recovered;
     const TriangleMesh body { dressing.body, scene.body->surface.triangles };
-    std::vector<SkinnedMesh> meshes { { "body", body, scene.rig->weights } };
+    std::vector<SkinnedMesh> meshes { { "body", body, scene.rig->weights, session.body.look } };
     for (const std::size_t i : dressing.worn()) {
         const GarmentMesh& garment = scene.garments[i].mesh;
         const Positions& worn = dressing.garments[i].positions;
         meshes.push_back({ session.garments[i].path.stem().string(),
                            { worn, garment.triangles },
-                           garment_weights(body, scene.rig->weights, garment, worn) });
+                           garment_weights(body, scene.rig->weights, garment, worn),
+                           session.garments[i].look });
     }
     if (hide_covered_skin)
-        hide_covered(meshes[0], *scene.rig, meshes);
+        meshes[0].covered = covered_by_clothes(meshes, *scene.rig);
+    meshes[0].hides_covered = hide_covered_skin;
     if (path.has_parent_path())
         fs::create_directories(path.parent_path());
     write_skinned_glb(path, scene.rig->skeleton, meshes);

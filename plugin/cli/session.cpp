@@ -225,4 +225,16 @@ void read_draped(Session& session, const fs::path& folder)
                                          read_left(session, folder / "body.ply"), worn, session.garment_names());
 }
 
+void read_looks(Session& session)
+{
+    const auto take = [&](const std::filesystem::path& path, Appearance look) {
+        for (const std::string& warning : look.warnings)
+            session.warnings.push_back(path.filename().string() + ": " + warning);
+        return look;
+    };
+    session.body.look = take(session.body.path, session.body.file.appearance());
+    for (GarmentFile& garment : session.garments)
+        garment.look = take(garment.path, garment.file.appearance());
+}
+
 }  // namespace garmentfit::cli

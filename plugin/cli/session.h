@@ -20,6 +20,7 @@ struct BodyFile {
     MeshFile file;
     Triangles triangles;  ///< of the file, or reconstructed from its points
     FrameGuess frame;  ///< confidences are 1 where the user said it
+    Appearance look {};  ///< after read_looks
 };
 
 struct GarmentFile {
@@ -27,6 +28,7 @@ struct GarmentFile {
     MeshFile file;  ///< as given, off the body
     FrameGuess frame;  ///< confidences are 1 where the user said it
     std::optional<GarmentChoice> choice = {};  ///< none where a folder of an earlier step was read
+    Appearance look {};  ///< after read_looks
 
     std::string name() const { return path.filename().string(); }
 };
@@ -45,6 +47,9 @@ struct Session {
 /// @param reconstruct  builds a surface from a file's points where it has no faces
 void read_body(Session& session, const std::filesystem::path& path, const BodyChoice& choice, bool reconstruct);
 void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const GarmentChoice& choice);
+
+/// UVs, materials and pictures of all files, for an outfit. What cannot be kept is a warning.
+void read_looks(Session& session);
 
 /// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.
 /// @return false where the file has joints only, and the weights are still to be found

@@ -712,6 +712,44 @@ TEST_F(Slow, DressesToTheSameBytesWithAnyNumberOfThreads)
     }
 }
 
+/// The skirt as OBJ with a material and a picture in a folder of its own.
+fs::path textured_skirt(const fs::path& folder)
+{
+    const auto skirt = garmentfit::MeshFile::read(k_skirt);
+    fs::create_directories(folder / "tex");
+    std::ofstream obj(folder / "skirt.obj");
+    obj.precision(9);
+    obj << "mtllib skirt.mtl\n";
+    for (const auto& row : skirt.positions().rowwise())
+        obj << "v " << row << "\nvt " << row[0] << ' ' << row[1] << '\n';
+    obj << "usemtl plaid\n";
+    for (const auto& row : skirt.triangles().rowwise()) {
+        obj << 'f';
+        for (const int corner : row)
+            obj << ' ' << corner + 1 << '/' << corner + 1;
+        obj << '\n';
+    }
+    std::ofstream(folder / "skirt.mtl") << "newmtl plaid\nmap_Kd tex/plaid.png\nmap_Ke gone.png\n";
+    std::ofstream(folder / "tex" / "plaid.png", std::ios::binary) << "\x89PNG\r\n\x1a\n";
+    return folder / "skirt.obj";
+}
+
+TEST_F(Slow, CarriesMaterialsAndPicturesAlong)
+{
+    const Ended ended = run({ "dress", k_body, textured_skirt(folder / "given"), "--type", "skirt", "--quality",
+                              "draft", "--json", "--outfit", folder / "outfit.glb", "-o", folder / "dressed" });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    for (const char* copy : { "dressed", "dressed/rest", "dressed/fitted" }) {
+        EXPECT_TRUE(fs::exists(folder / copy / "skirt.mtl")) << copy;
+        EXPECT_TRUE(fs::exists(folder / copy / "tex" / "plaid.png")) << copy;
+    }
+    EXPECT_NE(ended.out.find("gone.png cannot be read"), std::string::npos) << "a warning";
+    const auto look = garmentfit::MeshFile::read(folder / "outfit.glb").appearance();
+    ASSERT_EQ(look.materials.size(), 1u);
+    EXPECT_EQ(look.materials[0].name, "plaid");
+    EXPECT_EQ(look.pictures.size(), 1u);
+}
+
 TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
 {
     const fs::path dressed = folder / "dressed", fitted = folder / "fitted", draped = folder / "draped",

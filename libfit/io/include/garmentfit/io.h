@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "garmentfit/appearance.h"
 #include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
@@ -33,6 +34,13 @@ public:
     /// Writes the file as it was read, with other positions (n x 3, same order). Writes a temporary file and renames
     /// it, so that no half-written file is left. @throws InvalidInput when the place cannot be written.
     void write(const std::filesystem::path& path, const Positions& positions) const;
+
+    /// UVs, materials and pictures of OBJ and glTF, for files of another format; what is missing or mangled is a
+    /// warning. Reads files beside this one. O(n).
+    Appearance appearance() const;
+
+    /// Files beside this one that it names, as it names them, and those that these name: materials and pictures of OBJ.
+    std::vector<std::string> companions() const;
 
     struct Content;  ///< one kind for each format, private
 

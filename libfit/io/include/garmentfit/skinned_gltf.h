@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "garmentfit/appearance.h"
 #include "garmentfit/export.h"
 #include "garmentfit/skeleton.h"
 
@@ -17,11 +18,14 @@ struct SkinnedMesh {
     std::string name;
     TriangleMesh surface;  ///< metres, +y up
     SkinWeights weights;  ///< a row for each vertex
+    Appearance look {};  ///< of the triangles of `surface`
     std::vector<char> covered {};  ///< of each vertex, whether clothes cover it: attribute _COVERED, 1 or 0. Or empty
+    bool hides_covered = false;  ///< leaves out faces of which all corners are covered, unless all are
 };
 
 /// Writes body and clothes as one GLB: a mesh each, with its own vertices in their order, and one skin for all of them.
-/// Joints as below; without UVs and materials. Never leaves a half-written file.
+/// Where a vertex has several UVs, copies of it follow after all others; each material has a primitive of its own.
+/// Joints as below. Never leaves a half-written file.
 /// @throws InvalidInput: a mesh has not a row of weights for each vertex, or the place cannot be written.
 GARMENTFIT_API void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skeleton,
                                       const std::vector<SkinnedMesh>& meshes);

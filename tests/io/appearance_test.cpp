@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/appearance.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "file_bytes.h"
+#include "garmentfit/io.h"
+#include "garmentfit/skinned_gltf.h"
+#include "gltf_container.h"
+#include "pictures.h"
+#include "temporary_folder.h"
+
+namespace {
+
+using namespace garmentfit;
+namespace fs = std::filesystem;
+
+using Look = fixtures::TemporaryFolder;
+
+void write_text(const fs::path& path, const std::string& text)
+{
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+/// The header of a PNG: nothing here decodes one.
+std::string png(int width, int height)
+{
+    std::string bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+    for (const int side : { width, height })
+        for (const int shift : { 24, 16, 8, 0 })
+            bytes += char(side >> shift & 255);
+    return bytes;
+}
+
+/// Two squares that share an edge: one has a seam in its UVs along it. Two materials.
+const std::string k_obj = "mtllib a cloth.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n"
+                          "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0 0\nvt 0.5 0.25\n"
+                          "usemtl blue cotton\nf 1/1 2/2 3/3 4/4\nusemtl lace\nf 2/5 5/2 6/3 3/6\n";
+const std::string k_mtl = "# by hand\nnewmtl blue cotton\nKd 0.1 0.2 0.3\nmap_Kd -s 1 1 1 tex/my weave.png\nNs 10\r\n"
+                          "newmtl lace\nKd 1 1 1\nd 0.5\nmap_Kd gone.png\nmap_d holes.png\n";
+
+fs::path write_cloth(const fs::path& folder)
+{
+    write_text(folder / "cloth.obj", k_obj);
+    write_text(folder / "a cloth.mtl", k_mtl);
+    write_text(folder / "tex" / "my weave.png", png(64, 32));
+    return folder / "cloth.obj";
+}
+
+bool mentions(const std::vector<std::string>& warnings, const std::string& text)
+{
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& w) { return w.find(text) != std::string::npos; });
+}
+
+TEST_F(Look, OfObjHasItsMaterialsUvsAndPictures)
+{
+    const Appearance look = MeshFile::read(write_cloth(folder)).appearance();
+    ASSERT_EQ(look.materials.size(), 2u);
+    EXPECT_EQ(look.materials[0].name, "blue cotton");
+    ASSERT_EQ(look.pictures.size(), 1u);
+    EXPECT_EQ(look.pictures[0].mime_type, "image/png");
+    EXPECT_EQ(look.pictures[0].bytes, png(64, 32));
+    EXPECT_EQ(look.materials[0].colour_picture, 0);
+    EXPECT_EQ(look.materials[1].colour_picture, -1);
+    EXPECT_EQ(look.materials[1].alpha, "BLEND");
+    EXPECT_EQ(look.materials[1].colour[3], 0.5);
+    EXPECT_EQ(look.material_of, (std::vector<int> { 0, 0, 1, 1 }));
+    ASSERT_EQ(look.uv_corners.rows(), 4);
+    EXPECT_EQ(look.uvs.rows(), 5) << "equal UVs are one";
+    EXPECT_TRUE(look.uvs.row(look.uv_corners(3, 2)).isApprox(Eigen::RowVector2d(0.5, 0.75)));
+    EXPECT_TRUE(mentions(look.warnings, "gone.png")) << "a missing texture";
+    EXPECT_TRUE(mentions(look.warnings, "map_d"));
+}
+
+TEST_F(Look, OfObjWithoutItsFilesIsAWarning)
+{
+    write_text(folder / "cloth.obj", k_obj);
+    const Appearance look = MeshFile::read(folder / "cloth.obj").appearance();
+    EXPECT_TRUE(look.materials.empty());
+    EXPECT_TRUE(look.material_of.empty());
+    EXPECT_EQ(look.uv_corners.rows(), 4);
+    EXPECT_TRUE(mentions(look.warnings, "cloth.mtl"));
+}
+
+TEST_F(Look, CompanionsAreNamedAsTheFilesNameThem)
+{
+    const std::vector<std::string> expected { "a cloth.mtl", "gone.png", "holes.png", "tex/my weave.png" };
+    EXPECT_EQ(MeshFile::read(write_cloth(folder)).companions(), expected);
+}
+
+TEST_F(Look, OfManglesIsNeverAnError)
+{
+    write_text(folder / "cloth.obj",
+               "mtllib m.mtl\nmtllib\nusemtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt\nvt x nan\n"
+               "f 1/9 2/-7 3/1\nf 1/ 2// 3/x\n");
+    write_text(folder / "m.mtl", "Kd 1\nnewmtl\nmap_Kd\nmap_Kd -s\nmap_Kd -bm\nKd inf nan x\nmap_Kd .\nmap_Ke m.mtl\n");
+    const Appearance look = MeshFile::read(folder / "cloth.obj").appearance();
+    EXPECT_TRUE(look.uvs.allFinite());
+    EXPECT_LT(look.uv_corners.maxCoeff(), look.uvs.rows());
+    EXPECT_TRUE(look.pictures.empty());
+    EXPECT_TRUE(mentions(look.warnings, "neither PNG nor JPEG"));
+}
+
+TEST(Pictures, TellTheirTypeAndSize)
+{
+    EXPECT_EQ(picture_size(png(16384, 20)), std::pair(16384, 20));
+    const std::string jpeg("\xFF\xD8\xFF\xE0\0\4xx\xFF\xC0\0\21\10\1\0\2\0\3", 18);
+    EXPECT_EQ(picture_type(jpeg), "image/jpeg");
+    EXPECT_EQ(picture_size(jpeg), std::pair(512, 256));
+    EXPECT_EQ(picture_size(jpeg.substr(0, 12)), std::pair(0, 0));
+    EXPECT_EQ(picture_type("BM"), "");
+    Appearance look;
+    EXPECT_EQ(add_picture(look, "huge.png", png(16384, 20)), 0);
+    EXPECT_TRUE(mentions(look.warnings, "16384 x 20"));
+}
+
+SkinWeights on_root_bone(Eigen::Index rows)
+{
+    SkinWeights weights;
+    weights.bones.setZero(rows, 4);
+    weights.weights.setZero(rows, 4);
+    weights.weights.col(0).setOnes();
+    return weights;
+}
+
+nlohmann::ordered_json json_of(const fs::path& glb) { return read_gltf_container(read_file(glb)).json; }
+
+TEST_F(Look, GoesIntoOutfitsAndIsReadBack)
+{
+    const MeshFile file = MeshFile::read(write_cloth(folder));
+    const SkinnedMesh cloth { "cloth", { file.positions(), file.triangles() }, on_root_bone(6), file.appearance() };
+    write_skinned_glb(folder / "outfit.glb", Skeleton(), { { "body", cloth.surface, cloth.weights }, cloth });
+
+    const auto json = json_of(folder / "outfit.glb");
+    ASSERT_EQ(json.at("meshes").size(), 2u);
+    EXPECT_FALSE(json.at("meshes")[0].at("primitives")[0].contains("material"));
+    const auto& primitives = json.at("meshes")[1].at("primitives");
+    ASSERT_EQ(primitives.size(), 2u) << "one for each material";
+    EXPECT_EQ(primitives[0].at("attributes"), primitives[1].at("attributes")) << "the same vertices";
+    EXPECT_EQ(json.at("materials")[primitives[1].at("material").get<std::size_t>()].at("name"), "lace");
+    EXPECT_EQ(json.at("images").size(), 1u);
+
+    const MeshFile outfit = MeshFile::read(folder / "outfit.glb");
+    ASSERT_EQ(outfit.positions().rows(), 6 + 8) << "two vertices have two UVs each";
+    EXPECT_TRUE(outfit.positions().middleRows(6, 6).isApprox(file.positions())) << "the order of the file";
+    const Appearance read = outfit.appearance(), given = file.appearance();
+    EXPECT_TRUE(read.warnings.empty());
+    ASSERT_EQ(read.pictures.size(), 1u);
+    EXPECT_EQ(read.pictures[0].bytes, given.pictures[0].bytes);
+    ASSERT_EQ(read.materials.size(), 2u);
+    EXPECT_EQ(read.materials[0].colour_picture, 0);
+    EXPECT_EQ(read.materials[1].alpha, "BLEND");
+    EXPECT_EQ(read.material_of, (std::vector<int> { -1, -1, -1, -1, 0, 0, 1, 1 }));
+    for (int f = 0; f < 4; ++f)
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_EQ(read.uv_corners(f, k), -1);
+            EXPECT_TRUE(read.uvs.row(read.uv_corners(f + 4, k)).isApprox(given.uvs.row(given.uv_corners(f, k))));
+            EXPECT_TRUE(outfit.positions()
+                            .row(outfit.triangles()(f + 4, k))
+                            .isApprox(file.positions().row(file.triangles()(f, k))));
+        }
+}
+
+TEST_F(Look, OfPicturesBesideAGltfIsKept)
+{
+    const MeshFile file = MeshFile::read(write_cloth(folder));
+    write_skinned_glb(folder / "outfit.glb", Skeleton(),
+                      { { "cloth", { file.positions(), file.triangles() }, on_root_bone(6), file.appearance() } });
+    GltfContainer container = read_gltf_container(read_file(folder / "outfit.glb"));
+    container.json["images"][0] = { { "uri", "tex/my%20weave.png" } };
+    write_text(folder / "other.glb", bytes_of(container));
+    EXPECT_EQ(MeshFile::read(folder / "other.glb").appearance().pictures.at(0).bytes, png(64, 32));
+    fs::remove(folder / "tex" / "my weave.png");
+    const Appearance without = MeshFile::read(folder / "other.glb").appearance();
+    EXPECT_TRUE(without.pictures.empty());
+    EXPECT_EQ(without.materials.size(), 2u);
+    EXPECT_TRUE(mentions(without.warnings, "cannot be read"));
+}
+
+TEST_F(Look, CoveredFacesAreLeftOutAndTheMaskStays)
+{
+    const MeshFile file = MeshFile::read(write_cloth(folder));
+    SkinnedMesh body { "body", { file.positions(), file.triangles() }, on_root_bone(6), file.appearance() };
+    body.covered = { 1, 1, 1, 1, 0, 0 };
+    body.hides_covered = true;
+    write_skinned_glb(folder / "outfit.glb", Skeleton(), { body });
+    EXPECT_EQ(MeshFile::read(folder / "outfit.glb").triangles().rows(), 2);
+    const auto json = json_of(folder / "outfit.glb");
+    const auto& primitives = json.at("meshes")[0].at("primitives");
+    ASSERT_EQ(primitives.size(), 1u) << "nothing of the other material is left";
+    EXPECT_TRUE(primitives[0].at("attributes").contains("_COVERED"));
+    body.covered.assign(6, 1);
+    write_skinned_glb(folder / "none.glb", Skeleton(), { body });
+    EXPECT_EQ(MeshFile::read(folder / "none.glb").triangles().rows(), 4) << "glTF knows no empty mesh";
+}
+
+}  // namespace
