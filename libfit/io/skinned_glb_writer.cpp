@@ -12,36 +12,46 @@
 #include "garmentfit/skinned_gltf.h"
 #include "glb_appearance.h"
 #include "glb_model.h"
+#include "joint_tree.h"
+#include "keyframes.h"
 
 namespace garmentfit {
 namespace {
 
-constexpr std::array<const char*, extremity_count> k_last_joints { "head", "lhand", "rhand", "lfoot", "rfoot" };
-constexpr std::array<const char*, extremity_count> k_tips { "head_top", "lhand_tip", "rhand_tip", "lfoot_tip",
-                                                            "rfoot_tip" };
-
-struct Joint {
-    std::string name;
-    int parent;  ///< -1: none
-    Vec3 place;
+/// What the joints are on their way into the file.
+struct Bones {
+    const Skeleton& skeleton;
+    JointTree tree;
+    std::vector<Eigen::Quaterniond> turns;  ///< of each joint, relative to its parent: the pose that is shown
 };
 
-/// The root, the bones in order, the last joints, the tips.
-std::vector<Joint> joints_of(const Skeleton& skeleton)
+Bones bones_at_rest(const Skeleton& skeleton, BoneNames names)
 {
-    std::vector<Joint> joints { { "root", -1, skeleton.root } };
-    for (int b = 0; b < bone_count; ++b)
-        joints.push_back({ std::string(bone_name(b)), 1 + parent_of(b), skeleton.head(b) });
-    for (int e = 0; e < extremity_count; ++e)
-        joints.push_back({ k_last_joints[e], 1 + bone_before(Extremity(e)), skeleton.tail(bone_before(Extremity(e))) });
-    for (int e = 0; e < extremity_count; ++e)
-        joints.push_back({ k_tips[e], 1 + bone_count + e, skeleton.tips[e] });
-    return joints;
+    Bones bones { skeleton, joint_tree(skeleton, names), {} };
+    bones.turns.assign(bones.tree.joints.size(), Eigen::Quaterniond::Identity());
+    return bones;
+}
+
+/// As VRM 1.0 wants models: in T pose, facing +z.
+Bones bones_in_t_pose(const Rig& rig, BoneNames names)
+{
+    Bones bones = bones_at_rest(rig.skeleton, names);
+    for (const Keyframe& key : keyframes_of(rig))
+        if (key.name == k_t_pose)
+            for (std::size_t j = 0; j < bones.turns.size(); ++j)
+                if (const int bone = bones.tree.joints[j].bone; bone >= 0 && bone < bone_count)
+                    bones.turns[j] = key.pose.rotations[std::size_t(bone)];
+    Eigen::Matrix3d body_axes;
+    body_axes.row(1) = rig.up.normalized();
+    body_axes.row(0) = rig.up.cross(rig.front).normalized();
+    body_axes.row(2) = body_axes.row(0).cross(body_axes.row(1));
+    bones.turns[0] = Eigen::Quaterniond(body_axes);
+    return bones;
 }
 
 /// One 4 x 4 matrix a row, column by column as the format has them: from the world to the joint, whose axes are the
 /// world's.
-Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const std::vector<Joint>& joints)
+Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const std::vector<FileJoint>& joints)
 {
     Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> rows(joints.size(), 16);
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -53,8 +63,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> inverse_binds(const s
 }
 
 /// The meshes first, then the joints.
-std::vector<tinygltf::Node> nodes_of(const std::vector<SkinnedMesh>& meshes, const std::vector<Joint>& joints)
+std::vector<tinygltf::Node> nodes_of(const std::vector<SkinnedMesh>& meshes, const Bones& bones)
 {
+    const std::vector<FileJoint>& joints = bones.tree.joints;
     std::vector<tinygltf::Node> nodes(meshes.size() + joints.size());
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         nodes[m].name = meshes[m].name;
@@ -62,10 +73,13 @@ std::vector<tinygltf::Node> nodes_of(const std::vector<SkinnedMesh>& meshes, con
         nodes[m].skin = 0;
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        const Joint& joint = joints[j];
+        const FileJoint& joint = joints[j];
+        tinygltf::Node& node = nodes[meshes.size() + j];
         const Vec3 d = joint.parent < 0 ? joint.place : Vec3(joint.place - joints[std::size_t(joint.parent)].place);
-        nodes[meshes.size() + j].name = joint.name;
-        nodes[meshes.size() + j].translation = { d.x(), d.y(), d.z() };
+        node.name = joint.name;
+        node.translation = { d.x(), d.y(), d.z() };
+        if (const Eigen::Quaterniond turn = bones.turns[j].normalized(); turn.vec().norm() > 0)
+            node.rotation = { turn.x(), turn.y(), turn.z(), turn.w() };
         if (joint.parent >= 0)
             nodes[meshes.size() + std::size_t(joint.parent)].children.push_back(int(meshes.size() + j));
     }
@@ -83,7 +97,8 @@ Positions unit_normals(const TriangleMesh& surface)
 }
 
 /// Attributes of all vertices, which the primitives of a mesh share.
-tinygltf::Primitive attributes_of(const SkinnedMesh& mesh, const SeamVertices& vertices, GlbModel& glb)
+tinygltf::Primitive attributes_of(const SkinnedMesh& mesh, const Bones& bones, const SeamVertices& vertices,
+                                  GlbModel& glb)
 {
     const std::vector<int>& rows = vertices.sources;
     tinygltf::Primitive primitive;
@@ -96,9 +111,8 @@ tinygltf::Primitive attributes_of(const SkinnedMesh& mesh, const SeamVertices& v
     add("NORMAL", unit_normals(mesh.surface)(rows, Eigen::all), TINYGLTF_TYPE_VEC3, float());
     if (vertices.uvs.rows() > 0)
         add("TEXCOORD_0", vertices.uvs, TINYGLTF_TYPE_VEC2, float());
-    const SkinWeights& skin = mesh.weights;
-    const Eigen::MatrixXi used = (skin.weights.array() > 0).select(skin.bones.array() + 1, 0);  // 0 where unused
-    add("JOINTS_0", used(rows, Eigen::all), TINYGLTF_TYPE_VEC4, std::uint8_t());
+    const FileWeights skin = file_weights(bones.tree, bones.skeleton, mesh.surface.positions, mesh.weights);
+    add("JOINTS_0", skin.joints(rows, Eigen::all), TINYGLTF_TYPE_VEC4, std::uint8_t());
     add("WEIGHTS_0", skin.weights(rows, Eigen::all), TINYGLTF_TYPE_VEC4, float());
     if (!mesh.covered.empty()) {
         Eigen::VectorXd mask(Eigen::Index(rows.size()));
@@ -130,10 +144,10 @@ std::map<int, std::vector<Eigen::Index>> triangles_by_material(const SkinnedMesh
     return shown.empty() ? all : shown;
 }
 
-tinygltf::Mesh gltf_mesh(const SkinnedMesh& mesh, GlbModel& glb)
+tinygltf::Mesh gltf_mesh(const SkinnedMesh& mesh, const Bones& bones, GlbModel& glb)
 {
     const SeamVertices vertices = split_at_seams(mesh.surface.positions.rows(), mesh.surface.triangles, mesh.look);
-    const tinygltf::Primitive attributes = attributes_of(mesh, vertices, glb);
+    const tinygltf::Primitive attributes = attributes_of(mesh, bones, vertices, glb);
     const int first_material = add_materials(mesh.look, glb);
     tinygltf::Mesh result;
     result.name = mesh.name;
@@ -148,10 +162,7 @@ tinygltf::Mesh gltf_mesh(const SkinnedMesh& mesh, GlbModel& glb)
     return result;
 }
 
-}  // namespace
-
-void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skeleton,
-                       const std::vector<SkinnedMesh>& meshes)
+void require_rows(const std::vector<SkinnedMesh>& meshes)
 {
     for (const SkinnedMesh& mesh : meshes)
         if (mesh.weights.weights.rows() != mesh.surface.positions.rows())
@@ -159,26 +170,73 @@ void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skelet
                                "skinned GLB: " + mesh.name + " has " + std::to_string(mesh.surface.positions.rows())
                                    + " vertices and " + std::to_string(mesh.weights.weights.rows())
                                    + " rows of weights; give a row for each vertex");
-    const std::vector<Joint> joints = joints_of(skeleton);
+}
+
+GlbModel skinned_model(const Bones& bones, const std::vector<SkinnedMesh>& meshes)
+{
+    require_rows(meshes);
     GlbModel glb;
     for (const SkinnedMesh& mesh : meshes) {
         glb.model.scenes[0].nodes.push_back(int(glb.model.meshes.size()));
-        glb.model.meshes.push_back(gltf_mesh(mesh, glb));
+        glb.model.meshes.push_back(gltf_mesh(mesh, bones, glb));
     }
     tinygltf::Skin skin;
     skin.skeleton = int(meshes.size());  // the node of the root
-    skin.joints.resize(joints.size());
+    skin.joints.resize(bones.tree.joints.size());
     std::iota(skin.joints.begin(), skin.joints.end(), skin.skeleton);
-    skin.inverseBindMatrices = glb.add<float>(inverse_binds(joints), TINYGLTF_TYPE_MAT4);
+    skin.inverseBindMatrices = glb.add<float>(inverse_binds(bones.tree.joints), TINYGLTF_TYPE_MAT4);
     glb.model.skins.push_back(skin);
-    glb.model.nodes = nodes_of(meshes, joints);
+    glb.model.nodes = nodes_of(meshes, bones);
     glb.model.scenes[0].nodes.push_back(skin.skeleton);
-    write_file(path, glb.file());
+    return glb;
+}
+
+using Object = tinygltf::Value::Object;
+
+/// Who made an avatar and what others may do with it is not known here: the strictest choices, which are the defaults.
+Object vrm_meta(const std::string& title)
+{
+    return { { "name", tinygltf::Value(title) },
+             { "authors", tinygltf::Value(tinygltf::Value::Array { tinygltf::Value(std::string("unknown")) }) },
+             { "licenseUrl", tinygltf::Value(std::string("https://vrm.dev/licenses/1.0/")) } };
+}
+
+void add_vrm(GlbModel& glb, const Bones& bones, const std::string& title)
+{
+    Object human_bones;
+    const int first = glb.model.skins[0].skeleton;
+    for (std::size_t j = 0; j < bones.tree.joints.size(); ++j)
+        human_bones[bones.tree.joints[j].name]
+            = tinygltf::Value(Object { { "node", tinygltf::Value(first + int(j)) } });
+    const Object humanoid { { "humanBones", tinygltf::Value(human_bones) } };
+    glb.model.extensions["VRMC_vrm"] = tinygltf::Value(Object { { "specVersion", tinygltf::Value(std::string("1.0")) },
+                                                                { "meta", tinygltf::Value(vrm_meta(title)) },
+                                                                { "humanoid", tinygltf::Value(humanoid) } });
+    glb.model.extensionsUsed.push_back("VRMC_vrm");
+}
+
+}  // namespace
+
+void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skeleton,
+                       const std::vector<SkinnedMesh>& meshes)
+{
+    write_file(path, skinned_model(bones_at_rest(skeleton, BoneNames::garmentfit), meshes).file());
 }
 
 void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig)
 {
     write_skinned_glb(path, rig.skeleton, { { "body", surface, rig.weights } });
+}
+
+void write_outfit_glb(const std::filesystem::path& path, const Rig& rig, const std::vector<SkinnedMesh>& meshes,
+                      const OutfitOptions& options)
+{
+    const bool is_vrm = options.names == BoneNames::vrm;
+    const Bones bones = is_vrm ? bones_in_t_pose(rig, options.names) : bones_at_rest(rig.skeleton, options.names);
+    GlbModel glb = skinned_model(bones, meshes);
+    if (is_vrm)
+        add_vrm(glb, bones, options.title);
+    write_file(path, glb.file());
 }
 
 }  // namespace garmentfit

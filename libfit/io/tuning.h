@@ -60,4 +60,11 @@ inline constexpr double k_symmetry_weight = 2;
 /// guess.
 inline constexpr double k_clear_preference = 0.4;
 
+/// Dimensionless. From the ankle to the tip of the foot, and from the wrist to the tip of the hand: where the toes and
+/// the fingers begin. fitted: guess.
+inline constexpr double k_ball_of_foot = 0.65, k_knuckles = 0.45;
+/// Dimensionless, a share of the bone before: half width of the transition at wrist or ankle. fitted: guess; as
+/// k_extremity_blend of the skeleton room.
+inline constexpr double k_wrist_blend = 0.12;
+
 }  // namespace garmentfit

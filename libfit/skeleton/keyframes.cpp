@@ -43,7 +43,7 @@ const Limb k_level { k_out, k_out };
 const std::array<Described, 20> k_poses { {
     { "stand", k_leg, k_leg, k_hanging, k_hanging },
     { "a pose", k_leg, k_leg, k_slanted, k_slanted },
-    { "t pose", k_leg, k_leg, k_level, k_level },
+    { k_t_pose, k_leg, k_leg, k_level, k_level },
     { "arms up", k_leg, k_leg, { { 0.5, 1, 0 }, { 0.1, 1, 0 } }, { { 0.5, 1, 0 }, { 0.1, 1, 0 } } },
     { "arms forward", k_leg, k_leg, { { 0.1, 0, 1 }, { 0, 0.05, 1 } }, { { 0.1, 0, 1 }, { 0, 0.05, 1 } } },
     { "hands on hips",

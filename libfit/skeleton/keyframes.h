@@ -11,6 +11,8 @@
 
 namespace garmentfit {
 
+inline constexpr const char* k_t_pose = "t pose";  ///< the name of that keyframe
+
 struct Keyframe {
     std::string name;
     Pose pose;  ///< away from the rest pose of the rig, whatever that is

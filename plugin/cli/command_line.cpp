@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 
 #include <CLI/CLI.hpp>
 
@@ -152,6 +153,36 @@ void add_fabric_option(CLI::App& command, Call& call)
         ->group("Parameters");
 }
 
+void add_outfit_options(CLI::App& command, Call& call)
+{
+    static const std::map<std::string, BoneNames> names { { "garmentfit", BoneNames::garmentfit },
+                                                          { "vrm", BoneNames::vrm },
+                                                          { "mixamo", BoneNames::mixamo },
+                                                          { "unreal", BoneNames::unreal },
+                                                          { "smpl", BoneNames::smpl } };
+    command
+        .add_option("--outfit", call.outfit,
+                    "Write body and clothes as one skinned GLB, too, where they are certified: one skeleton, and "
+                    "weights for all meshes, so that other programs can pose them")
+        ->check([](const std::string& path) {
+            const std::string extension = std::filesystem::path(path).extension().string();
+            return extension == ".glb" || extension == ".vrm" ? "" : path + ": give a name that ends in .glb or .vrm";
+        });
+    command
+        .add_flag("--hide-covered-skin", call.hide_covered_skin,
+                  "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
+                  "movement, so that they cannot pass through posed cloth")
+        ->needs("--outfit");
+    command
+        .add_option("--bones", call.bones,
+                    "With --outfit: the program whose joints and names it has: garmentfit, vrm, mixamo, unreal or "
+                    "smpl. A name that ends in .vrm has those of vrm")
+        ->transform(CLI::CheckedTransformer(names))
+        ->type_name("NAME")
+        ->default_str("garmentfit")
+        ->needs("--outfit");
+}
+
 void add_command(CLI::App& app, const CommandText& text, Call& call)
 {
     const Filter& filter = filter_of(text.name);
@@ -166,20 +197,7 @@ void add_command(CLI::App& app, const CommandText& text, Call& call)
             ->required();
     command.add_option("-o,--output", call.out, "Folder for the results")->required();
     if (recovers(filter))
-        command
-            .add_option("--outfit", call.outfit,
-                        "Write body and clothes as one skinned GLB, too, where they are certified: one skeleton, and "
-                        "weights for all meshes, so that other programs can pose them")
-            ->check([](const std::string& path) {
-                return std::filesystem::path(path).extension() == ".glb" ? ""
-                                                                         : path + ": give a name that ends in .glb";
-            });
-    if (recovers(filter))
-        command
-            .add_flag("--hide-covered-skin", call.hide_covered_skin,
-                      "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
-                      "movement, so that they cannot pass through posed cloth")
-            ->needs("--outfit");
+        add_outfit_options(command, call);
     command.add_option("--threads", call.threads, "Number of threads; 0 uses all cores. Results do not depend on it")
         ->check(CLI::Range(0, 1024))
         ->default_str("0");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
+#include "garmentfit/skinned_gltf.h"
 #include "session.h"
 
 namespace garmentfit::cli {
@@ -18,6 +19,7 @@ struct Call {
     std::filesystem::path body, from, rig, joints, out;  ///< `from`: the folder that drape and recover continue
     std::filesystem::path outfit;  ///< where body and clothes go as one skinned file; empty: nowhere
     bool hide_covered_skin = false;  ///< of that file
+    BoneNames bones = BoneNames::garmentfit;  ///< of that file
     std::vector<std::filesystem::path> garments;
     std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
     FrameChoice body_frame, garment_frame;

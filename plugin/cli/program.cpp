@@ -125,7 +125,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     folder.publish(outdated(call, session, folder));
     const Dressing* end = final_dressing(session.scene);
     if (!call.outfit.empty() && end && end->certified)
-        write_outfit(session, call.outfit, call.hide_covered_skin);
+        write_outfit(session, call.outfit, call.bones, call.hide_covered_skin);
     if (call.json)
         std::cout << report;
     else if (!call.quiet)

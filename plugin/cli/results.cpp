@@ -287,7 +287,7 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_last_state(session, *scene.draped, folder);
 }
 
-void write_outfit(const Session& session, const fs::path& path, bool hide_covered_skin)
+void write_outfit(const Session& session, const fs::path& path, BoneNames bones, bool hide_covered_skin)
 {
     const Scene& scene = session.scene;
     const Dressing& dressing = *scene.recovered;
@@ -306,7 +306,8 @@ void write_outfit(const Session& session, const fs::path& path, bool hide_covere
     meshes[0].hides_covered = hide_covered_skin;
     if (path.has_parent_path())
         fs::create_directories(path.parent_path());
-    write_skinned_glb(path, scene.rig->skeleton, meshes);
+    write_outfit_glb(path, *scene.rig, meshes,
+                     { path.extension() == ".vrm" ? BoneNames::vrm : bones, path.stem().string() });
 }
 
 }  // namespace garmentfit::cli

@@ -355,6 +355,10 @@ TEST_F(CommandLine, WritesNoOutfitOfAGarmentThatIsTooSmallAndNoneOfAnotherFormat
     const Ended alone = run({ "dress", k_body, k_skirt, "--hide-covered-skin", "-o", folder / "result" });
     EXPECT_EQ(alone.code, 2);
     EXPECT_NE(alone.err.find("--outfit"), std::string::npos) << alone.err;
+    const Ended unknown = run(
+        { "dress", k_body, k_skirt, "--outfit", folder / "outfit.glb", "--bones", "nobody", "-o", folder / "result" });
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_NE(unknown.err.find("mixamo"), std::string::npos) << unknown.err;
     const Ended small = run({ "dress", k_body, k_skirt, "--type", "skirt", "--garment-scale", "0.5", "--outfit",
                               folder / "outfit.glb", "-o", folder / "result" });
     EXPECT_NE(small.code, 0);
@@ -737,14 +741,15 @@ fs::path textured_skirt(const fs::path& folder)
 TEST_F(Slow, CarriesMaterialsAndPicturesAlong)
 {
     const Ended ended = run({ "dress", k_body, textured_skirt(folder / "given"), "--type", "skirt", "--quality",
-                              "draft", "--json", "--outfit", folder / "outfit.glb", "-o", folder / "dressed" });
+                              "draft", "--json", "--outfit", folder / "outfit.vrm", "-o", folder / "dressed" });
     ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_NE(read_text(folder / "outfit.vrm").find("VRMC_vrm"), std::string::npos) << "by its name";
     for (const char* copy : { "dressed", "dressed/rest", "dressed/fitted" }) {
         EXPECT_TRUE(fs::exists(folder / copy / "skirt.mtl")) << copy;
         EXPECT_TRUE(fs::exists(folder / copy / "tex" / "plaid.png")) << copy;
     }
     EXPECT_NE(ended.out.find("gone.png cannot be read"), std::string::npos) << "a warning";
-    const auto look = garmentfit::MeshFile::read(folder / "outfit.glb").appearance();
+    const auto look = garmentfit::MeshFile::read(folder / "outfit.vrm").appearance();
     ASSERT_EQ(look.materials.size(), 1u);
     EXPECT_EQ(look.materials[0].name, "plaid");
     EXPECT_EQ(look.pictures.size(), 1u);

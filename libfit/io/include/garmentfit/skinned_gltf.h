@@ -23,12 +23,26 @@ struct SkinnedMesh {
     bool hides_covered = false;  ///< leaves out faces of which all corners are covered, unless all are
 };
 
+/// Whose names the joints have, and which joints there are. Other than garmentfit: hips, the spine's three, neck, head,
+/// shoulders, arms, hands, legs, feet and toes as each program wants them; the skin of hands and feet follows them.
+enum class BoneNames { garmentfit, vrm, mixamo, unreal, smpl };
+
+struct OutfitOptions {
+    BoneNames names = BoneNames::garmentfit;
+    std::string title = "garmentfit";  ///< of the avatar, in the metadata of VRM
+};
+
 /// Writes body and clothes as one GLB: a mesh each, with its own vertices in their order, and one skin for all of them.
 /// Where a vertex has several UVs, copies of it follow after all others; each material has a primitive of its own.
 /// Joints as below. Never leaves a half-written file.
 /// @throws InvalidInput: a mesh has not a row of weights for each vertex, or the place cannot be written.
 GARMENTFIT_API void write_skinned_glb(const std::filesystem::path& path, const Skeleton& skeleton,
                                       const std::vector<SkinnedMesh>& meshes);
+
+/// The same with joints for another program. For VRM with the humanoid map and metadata of VRM 1.0, standing in T pose
+/// and facing +z as that format wants it; otherwise in the rest pose. @throws InvalidInput as above.
+GARMENTFIT_API void write_outfit_glb(const std::filesystem::path& path, const Rig& rig,
+                                     const std::vector<SkinnedMesh>& meshes, const OutfitOptions& options = {});
 
 /// Writes a GLB: metres, +y up, one mesh, one skin. Joints have the names of Bone and are at the heads of the bones.
 /// Head, hands, feet and their tips follow as joints without weight. Never leaves a half-written file.

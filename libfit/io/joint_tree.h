@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The skeleton as the joints of a file, named and cut as one program wants them.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "garmentfit/skinned_gltf.h"
+
+namespace garmentfit {
+
+struct FileJoint {
+    std::string name;
+    int parent;  ///< row, before this one; -1: none
+    Vec3 place;  ///< m, in the rest pose
+    int bone = -1;  ///< whose rotation it takes: that of the body as a whole where it is none
+};
+
+struct JointTree {
+    std::vector<FileJoint> joints;  ///< parents before children, the root first
+    std::array<int, bone_count> joint_of {};  ///< of each bone the row that moves its skin
+    std::array<int, extremity_count> extremities { -1, -1, -1, -1, -1 };  ///< rows of hands and feet that move skin
+
+    int row_named(const std::string& name) const;  ///< -1: none
+};
+
+JointTree joint_tree(const Skeleton& skeleton, BoneNames names);
+
+/// At most four joints a vertex, rows of the tree.
+struct FileWeights {
+    Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor> joints;
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> weights;
+};
+
+/// Bones without a joint of their own go to the one before them. Where the tree has hands and feet that move, skin
+/// beyond wrist and ankle goes to these.
+FileWeights file_weights(const JointTree& tree, const Skeleton& skeleton, const Positions& positions,
+                         const SkinWeights& weights);
+
+}  // namespace garmentfit
