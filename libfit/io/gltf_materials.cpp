@@ -154,16 +154,18 @@ private:
         if (attribute == part.primitive->attributes.end())
             return;
         try {
-            const auto [entry, is_new]
-                = first_uv_.try_emplace({ attribute->second, part.first_row }, int(uvs_.size() / 2));
-            if (is_new)
-                append_uvs(attribute->second);
+            const std::pair key(attribute->second, part.first_row);
+            if (!first_uv_.count(key)) {
+                const int first = int(uvs_.size() / 2);
+                append_uvs(attribute->second);  // or throws
+                first_uv_[key] = first;
+            }
             const auto own = triangles.middleRows(first_triangle, part.triangles);
             const int count = int(model_.accessors[std::size_t(attribute->second)].count);
             if (part.triangles > 0 && own.maxCoeff() - part.first_row >= count)
                 file_.fail("TEXCOORD_0 has fewer rows than POSITION");
             look_.uv_corners.middleRows(first_triangle, part.triangles)
-                = own.array() - int(part.first_row) + entry->second;
+                = own.array() - int(part.first_row) + first_uv_[key];
         } catch (const InvalidInput& error) {
             warn(std::string("UVs are left out: ") + error.what());
         }

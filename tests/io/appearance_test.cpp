@@ -182,6 +182,22 @@ TEST_F(Look, OfPicturesBesideAGltfIsKept)
     EXPECT_TRUE(mentions(without.warnings, "cannot be read"));
 }
 
+TEST_F(Look, OfMangledUvsIsAWarningForEachMaterial)
+{
+    const MeshFile file = MeshFile::read(write_cloth(folder));
+    write_skinned_glb(folder / "outfit.glb", Skeleton(),
+                      { { "cloth", { file.positions(), file.triangles() }, on_root_bone(6), file.appearance() } });
+    GltfContainer container = read_gltf_container(read_file(folder / "outfit.glb"));
+    const auto uvs = container.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"].get<std::size_t>();
+    container.json["accessors"][uvs]["type"] = "SCALAR";
+    write_text(folder / "mangled.glb", bytes_of(container));
+    const Appearance look = MeshFile::read(folder / "mangled.glb").appearance();
+    EXPECT_EQ(look.uvs.rows(), 0);
+    EXPECT_EQ(look.uv_corners.rows(), 0);
+    EXPECT_EQ(look.materials.size(), 2u);
+    EXPECT_TRUE(mentions(look.warnings, "TEXCOORD_0"));
+}
+
 TEST_F(Look, CoveredFacesAreLeftOutAndTheMaskStays)
 {
     const MeshFile file = MeshFile::read(write_cloth(folder));

@@ -27,6 +27,14 @@ protected:
             ASSERT_TRUE(mesh.positions().allFinite());
             ASSERT_GE(mesh.triangles().minCoeff(), 0);
             ASSERT_LT(mesh.triangles().maxCoeff(), mesh.positions().rows());
+            const Appearance look = mesh.appearance();
+            ASSERT_TRUE(look.uvs.allFinite());
+            if (look.uv_corners.rows() > 0) {
+                ASSERT_EQ(look.uv_corners.rows(), mesh.triangles().rows());
+                ASSERT_LT(look.uv_corners.maxCoeff(), look.uvs.rows());
+            }
+            for (const int material : look.material_of)
+                ASSERT_LT(material, int(look.materials.size()));
             std::filesystem::remove(folder / "written");
             mesh.write(folder / "written", 2 * mesh.positions());
         } catch (const InvalidInput& error) {
