@@ -77,7 +77,7 @@ def _run_process(work: Path, call: list, limits: Limits) -> dict:
         log.flush()
         process = subprocess.Popen(call, stdout=output, stderr=log, stdin=subprocess.DEVNULL, cwd=work,
                                    start_new_session=True, preexec_fn=_die_with_parent)
-        stopped, peak = _watch(process, limits, start)
+        stopped, peak = _watch(process, limits, start, work)
     row = {"exit": process.returncode, "seconds": round(time.monotonic() - start, 3), "memory_mb": round(peak / 1e6, 1)}
     row.update(_reason(process.returncode, stopped, limits, work))
     (work / "output.json").unlink()
@@ -89,12 +89,16 @@ def _die_with_parent() -> None:
     _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
 
 
-def _watch(process, limits: Limits, start: float) -> tuple:
-    """Waits for the end within the limits; returns the limit that ended it, or "", and the peak memory in bytes."""
+def _watch(process, limits: Limits, start: float, work: Path) -> tuple:
+    """Waits for the end within the limits; returns the limit that ended it, or "", and the peak memory in bytes.
+
+    Raises Fatal where the next run cleared the folder: this job's run was killed, and nobody waits for its result."""
     stopped, peak, watched = "", 0, psutil.Process(process.pid)
     try:
         while process.poll() is None:
             peak = max(peak, _memory(watched))
+            if not work.is_dir():
+                raise Fatal(f"{work}: was cleared by another run in this folder; this one ends")
             if peak > limits.memory_mb * 1e6:
                 stopped = "memory_limit"
             elif time.monotonic() - start > limits.seconds:

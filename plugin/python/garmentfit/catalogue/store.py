@@ -9,16 +9,21 @@
     DIR/work/KEY-RANDOM/   a job at work
 
 A job writes into its folder in work/, which is renamed when all is written. So a folder in jobs/ or rigs/ is complete,
-and what is in work/ is never read.
+and what is in work/ is never read. Whoever removes a folder renames it first. So of a job that ends and a run that
+clears its folder one wins: the folder is finished as a whole, or not at all.
 """
 from __future__ import annotations
 
+import errno
 import fcntl
 import json
 import os
 import shutil
 import uuid
 from pathlib import Path
+
+
+_CLEARED = "cleared-"
 
 
 class StoreError(RuntimeError):
@@ -48,9 +53,21 @@ class Store:
         return file
 
     def clear_work(self) -> None:
-        """Removes what runs left that were killed. Only for the holder of the lock, before workers start."""
-        for left in (self.folder / "work").iterdir():
-            shutil.rmtree(left, ignore_errors=True)
+        """Removes what runs left that were killed. Only for the holder of the lock, before workers start.
+
+        Workers of such a run may still be at work, for example on other machines. Their jobs find their folders gone
+        and end."""
+        for left in list((self.folder / "work").iterdir()):
+            self._remove(left)
+
+    def _remove(self, folder: Path) -> None:
+        """Removes a folder that its owner may still write to, or rename."""
+        gone = self.folder / "work" / f"{_CLEARED}{uuid.uuid4().hex}"
+        try:
+            os.rename(folder, gone)
+        except FileNotFoundError:
+            return  # its job was quicker, and it is finished
+        shutil.rmtree(gone, ignore_errors=True)
 
     def pair_folder(self, key: str) -> Path:
         return self.folder / "jobs" / key[:2] / key
@@ -74,16 +91,22 @@ class Store:
         return folder
 
     def finish(self, kind: str, key: str, work: Path, row: dict) -> None:
-        """Writes the row and renames the folder. Of two jobs with one key the first stays."""
+        """Writes the row and renames the folder. Of two jobs with one key the first stays.
+
+        Raises FileNotFoundError where another run cleared the folder meanwhile."""
         write_whole(work / "done.json", json.dumps(row))
         target = self.target(kind, key)
         target.parent.mkdir(exist_ok=True)
         try:
             os.rename(work, target)
-        except OSError:
-            if not (target / "done.json").exists():
+        except OSError as error:
+            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
                 raise
-            shutil.rmtree(work, ignore_errors=True)
+            if (target / "done.json").exists():
+                shutil.rmtree(work, ignore_errors=True)
+            else:  # no job leaves a folder without its row; somebody removed the row
+                self._remove(target)
+                os.rename(work, target)
 
     def count_attempt(self, key: str) -> int:
         """Notes one more process that was killed from outside, and returns how many there were."""
@@ -94,9 +117,7 @@ class Store:
 
     def forget(self, kind: str, key: str) -> None:
         """Removes a finished pair or rig, so that it is done again."""
-        work = self.start(key)
-        os.rename(self.target(kind, key), work / "old")  # at once: a reader sees all of it or nothing
-        shutil.rmtree(work, ignore_errors=True)
+        self._remove(self.target(kind, key))
         (self.folder / "attempts" / key).unlink(missing_ok=True)
 
     def write_plan(self, pairs: dict) -> None:
