@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 from .plan import Hashes, PlanError, read_plan, to_json
-from .store import Store, StoreError
+from .store import DiskError, Store, StoreError, write_error
 
 _STOPPED = "garmentfit catalogue: stopped; the same command goes on from here"
 _MISSING = "garmentfit catalogue: needs {}; install it with: pip install 'garmentfit[catalogue]'"
@@ -22,6 +22,9 @@ def main(words: list) -> int:
     except (PlanError, StoreError) as error:
         print(f"garmentfit catalogue: {error}", file=sys.stderr)
         return 2
+    except DiskError as error:
+        print(f"garmentfit catalogue: {error}", file=sys.stderr)
+        return 4
     except ModuleNotFoundError as error:
         print(_MISSING.format(error.name), file=sys.stderr)
         return 2
@@ -48,20 +51,29 @@ def _arguments(words: list):
 def _run(words: list) -> int:
     options = _arguments(words)
     program = shlex.split(options.program) or [sys.executable, "-m", "garmentfit"]
-    plan, version, hashes = read_plan(options.plan), _version(program), Hashes()
+    plan, version = read_plan(options.plan), _version(program)
     store = Store(options.output)
     store.create()
     with store.lock():
-        store.clear_work()
         try:
-            pairs = {hashes.of_pair(pair, version): (pair, hashes.of_rig(pair, version)) for pair in plan.pairs}
+            return _run_held(store, plan, program, version, options)
         except OSError as error:
-            raise PlanError(f"{error.filename}: {error.strerror}") from None
-        store.write_plan({key: to_json(pair) for key, (pair, _) in pairs.items()})
-        if options.retry:
-            _forget_failures(store, pairs)
-        code = _work(store, pairs, program, plan.limits, options)
-        _write_results(store, not options.no_pictures)
+            raise write_error(store.folder, error) from None
+
+
+def _run_held(store: Store, plan, program: list, version: str, options) -> int:
+    """The run of the holder of the lock; returns the exit code."""
+    store.clear_work()
+    hashes = Hashes()
+    try:
+        pairs = {hashes.of_pair(pair, version): (pair, hashes.of_rig(pair, version)) for pair in plan.pairs}
+    except OSError as error:
+        raise PlanError(f"{error.filename}: {error.strerror}") from None
+    store.write_plan({key: to_json(pair) for key, (pair, _) in pairs.items()})
+    if options.retry:
+        _forget_failures(store, pairs)
+    code = _work(store, pairs, program, plan.limits, options)
+    _write_results(store)
     return code
 
 
@@ -108,15 +120,12 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
     return 0
 
 
-def _write_results(store: Store, draw: bool) -> None:
+def _write_results(store: Store) -> None:
     from . import page, results
 
     rows = results.collect(store)
-    try:
-        results.write_tables(store, rows)
-        page.write_page(store, rows)
-    except OSError as error:
-        raise StoreError(f"{store.folder}: the results cannot be written ({error.strerror})") from None
+    results.write_tables(store, rows)
+    page.write_page(store, rows)
     print(_in_words(results.summary(rows)))
 
 

@@ -30,6 +30,17 @@ class StoreError(RuntimeError):
     """The folder cannot be used; one line says why."""
 
 
+class DiskError(RuntimeError):
+    """The disk takes no more; one line says so. With some space, the same folder goes on."""
+
+
+def write_error(folder, error: OSError) -> RuntimeError:
+    """What to raise for an error of writing into the folder: a full disk is no mistake of the caller."""
+    if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO):
+        return DiskError(f"{folder}: cannot be written ({error.strerror}); free some space, then run again")
+    return StoreError(f"{folder}: cannot be written ({error.strerror}); give another folder")
+
+
 class Store:
     def __init__(self, folder):
         self.folder = Path(folder).resolve()
@@ -39,11 +50,14 @@ class Store:
             for name in ("jobs", "rigs", "work", "attempts"):
                 (self.folder / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise StoreError(f"{self.folder}: cannot be written ({error.strerror}); give another folder") from None
+            raise write_error(self.folder, error) from None
 
     def lock(self):
-        """Holds the folder until the returned file is closed or the process ends. Raises StoreError."""
-        file = open(self.folder / "lock", "a+")
+        """Holds the folder until the returned file is closed or the process ends. Raises StoreError, DiskError."""
+        try:
+            file = open(self.folder / "lock", "a+")
+        except OSError as error:
+            raise write_error(self.folder, error) from None
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -37,9 +38,12 @@ class Trial:
         self.command = [*CATALOGUE, str(folder / "plan.toml"), "-o", str(self.output), "--program", FAKE,
                         "--workers", "2", "--quiet"]
 
-    def run(self, *words):
+    def run(self, *words, largest_file=None):
+        """largest_file: bytes; a write beyond it fails, as on a full disk."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
         return subprocess.run([*self.command, *words], env=self.environment, capture_output=True, text=True,
-                              timeout=300)
+                              timeout=300, preexec_fn=limit if largest_file else None)
 
     def start(self, *words):
         return subprocess.Popen([*self.command, *words], env=self.environment, stdout=subprocess.DEVNULL,
@@ -93,6 +97,19 @@ def test_two_runs_in_one_folder_and_an_unwritable_one_end_clearly(tmp_path):
     (tmp_path / "file").write_text("")
     bad = trial.run("-o", str(tmp_path / "file" / "out"))
     assert bad.returncode == 2 and "cannot be written" in bad.stderr
+
+
+def test_a_disk_that_takes_no_more_ends_with_4_and_one_line(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"] * 8)
+    full = trial.run(largest_file=1_500)  # the plan is larger
+    assert full.returncode == 4 and "cannot be written" in full.stderr and full.stderr.count("\n") == 1
+    assert trial.run().returncode == 0
+    full = trial.run(largest_file=200_000)  # the page is larger
+    assert full.returncode == 4 and "cannot be written" in full.stderr and full.stderr.count("\n") == 1
+    (trial.output / "lock").unlink()
+    (trial.output / "lock").mkdir()
+    wrong = trial.run()
+    assert wrong.returncode == 2 and "cannot be written" in wrong.stderr and wrong.stderr.count("\n") == 1
 
 
 def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
