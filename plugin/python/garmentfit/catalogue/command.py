@@ -63,18 +63,30 @@ def _run(words: list) -> int:
 
 def _run_held(store: Store, plan, program: list, version: str, options) -> int:
     """The run of the holder of the lock; returns the exit code."""
+    from .job import finish_unreadable
+
     store.clear_work()
-    hashes = Hashes()
-    try:
-        pairs = {hashes.of_pair(pair, version): (pair, hashes.of_rig(pair, version)) for pair in plan.pairs}
-    except OSError as error:
-        raise PlanError(f"{error.filename}: {error.strerror}") from None
+    pairs, unreadable = _named(plan, version)
     store.write_plan({key: to_json(pair) for key, (pair, _) in pairs.items()})
+    for key, error in unreadable.items():
+        finish_unreadable(store, key, pairs[key][0], error)
     if options.retry:
         _forget_failures(store, pairs)
     code = _work(store, pairs, program, plan.limits, options)
     _write_results(store)
     return code
+
+
+def _named(plan, version: str) -> tuple:
+    """Pairs with the names of their rigs, and errors of those with a file that cannot be read: both by their names."""
+    hashes, pairs, unreadable = Hashes(), {}, {}
+    for pair in plan.pairs:
+        try:
+            pairs[hashes.of_pair(pair, version)] = pair, hashes.of_rig(pair, version)
+        except OSError as error:
+            key = hashes.of_unreadable(pair, version)
+            pairs[key], unreadable[key] = (pair, ""), error
+    return pairs, unreadable
 
 
 def _version(program: list) -> str:
@@ -85,7 +97,7 @@ def _version(program: list) -> str:
 
 
 def _forget_failures(store: Store, pairs: dict) -> None:
-    rigs = {("rig", rig) for _, rig in pairs.values()}
+    rigs = {("rig", rig) for _, rig in pairs.values() if rig}
     for kind, key in [("dress", key) for key in pairs] + sorted(rigs):
         row = store.finished(kind, key)
         if row and row["reason"] in ("crashed", "killed", "time_limit", "memory_limit"):

@@ -52,13 +52,30 @@ def run_job(folder: str, kind: str, key: str, pair: Pair, rig_key: str, program:
     if row["reason"] == "unwritable_file" or shutil.disk_usage(folder).free < _LEAST_FREE_BYTES:
         shutil.rmtree(work, ignore_errors=True)
         raise Fatal(f"{folder}: cannot be written: {row['message'] or 'the disk is full'}")
-    row.update(kind=kind, key=key, body=pair.body, garment=pair.garment, size=pair.size)
+    row.update(_inputs(kind, key, pair))
     if kind == "dress":
-        row.update(layers=list(pair.layers), parameters=dict(pair.body_parameters + pair.parameters))
         row.update(_figures(work / "result" / "report.json"))
         if draw:
             _draw(work, row)
     store.finish(kind, key, work, row)
+    return row
+
+
+def finish_unreadable(store: Store, key: str, pair: Pair, error: OSError) -> None:
+    """Writes the row of a pair that no process can dress, because this run cannot read one of its files."""
+    if store.finished("dress", key) is not None:
+        return
+    message = f"{error.filename}: {error.strerror}"
+    work = store.start(key)
+    (work / "log.txt").write_text(message + "\n")
+    row = dict(exit=2, reason="unreadable_file", message=message, seconds=0.0, memory_mb=0.0)
+    store.finish("dress", key, work, {**row, **_inputs("dress", key, pair)})
+
+
+def _inputs(kind: str, key: str, pair: Pair) -> dict:
+    row = dict(kind=kind, key=key, body=pair.body, garment=pair.garment, size=pair.size)
+    if kind == "dress":
+        row.update(layers=list(pair.layers), parameters=dict(pair.body_parameters + pair.parameters))
     return row
 
 

@@ -64,7 +64,7 @@ def flags(parameters) -> list:
 
 
 class Hashes:
-    """SHA-256 of files, each file read once. Cost: one read of the file at its first call."""
+    """SHA-256 of files, each file read once. Cost: one read of the file at its first call. Raises OSError."""
 
     def __init__(self):
         self._of_path = {}
@@ -87,6 +87,11 @@ class Hashes:
         """Name of a pair: content of the inputs, file names of garments (outputs bear them), parameters, version."""
         layers = [(Path(layer).name, self.of_file(layer)) for layer in pair.layers]
         return _digest(["dress", version, self.of_file(pair.body), layers, pair.types, pair.body_parameters,
+                        pair.parameters])
+
+    def of_unreadable(self, pair: Pair, version: str) -> str:
+        """Name of a pair with a file that cannot be read: by paths. Once the file can be read it is another pair."""
+        return _digest(["unreadable", version, pair.body, pair.layers, pair.types, pair.body_parameters,
                         pair.parameters])
 
 

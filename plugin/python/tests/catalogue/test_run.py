@@ -112,6 +112,23 @@ def test_a_disk_that_takes_no_more_ends_with_4_and_one_line(tmp_path):
     assert wrong.returncode == 2 and "cannot be written" in wrong.stderr and wrong.stderr.count("\n") == 1
 
 
+def test_an_unreadable_file_costs_its_own_rows(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"] * 2)
+    for name in ("body9", "garment9"):
+        (tmp_path / f"{name}.ply").symlink_to(tmp_path / f"gone_{name}.ply")
+    done = trial.run()
+    assert done.returncode == 0, done.stderr
+    rows = {(row["body"], row["garment"]): row for row in trial.rows()}
+    assert len(rows) == 6 and sum(row["reason"] == "done" for row in rows.values()) == 2
+    bad = rows["body0", "gone_garment9"]
+    assert (bad["reason"], bad["exit"]) == ("unreadable_file", "2") and "gone_garment9.ply: No such" in bad["message"]
+    assert "gone_garment9.ply" in (trial.output / bad["folder"] / "log.txt").read_text()
+    (tmp_path / "gone_garment9.ply").write_text("ok 9")
+    assert trial.run().returncode == 0
+    rows = {(row["body"], row["garment"]): row["reason"] for row in trial.rows()}
+    assert rows["body0", "gone_garment9"] == "done" and rows["gone_body9", "gone_garment9"] == "unreadable_file"
+
+
 def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
     trial = Trial(tmp_path, 1, ["ok"] * 30, seconds=0.3)
     run = trial.start()
