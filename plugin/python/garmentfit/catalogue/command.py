@@ -100,7 +100,7 @@ def _forget_failures(store: Store, pairs: dict) -> None:
     rigs = {("rig", rig) for _, rig in pairs.values() if rig}
     for kind, key in [("dress", key) for key in pairs] + sorted(rigs):
         row = store.finished(kind, key)
-        if row and row["reason"] in ("crashed", "killed", "time_limit", "memory_limit"):
+        if row and row["reason"] in ("crashed", "killed", "time_limit", "memory_limit", "file_limit"):
             store.forget(kind, key)
 
 

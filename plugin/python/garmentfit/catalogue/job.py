@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -148,6 +149,10 @@ def _reason(code: int, stopped: str, limits: Limits, work: Path) -> dict:
         return {"reason": stopped, "message": f"stopped after {limits.seconds:g} s"}
     if stopped == "memory_limit":
         return {"reason": stopped, "message": f"stopped above {limits.memory_mb:g} MB"}
+    if code == -signal.SIGXFSZ:
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0] / 1e6
+        return {"reason": "file_limit", "message": f"a file became larger than {limit:g} MB, the worker's limit for "
+                                                   "files (ulimit -f)"}
     if code in (-signal.SIGKILL, -signal.SIGTERM, -signal.SIGINT, 130):
         return {"reason": "killed", "message": "killed from outside, perhaps for want of memory"}
     if code == 0:

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stands in for the program in tests of scheduling: quick, and it crashes, hangs or eats memory when asked to.
 
-What it does stands in the garment's file: ok, crash, hang, memory, small, wrong. Each process that ends its work adds a
+What it does stands in the garment's file: ok, crash, hang, memory, large, small, wrong. Each process that ends its work adds a
 line to the file named by FAKE_COUNTS, by one write, so that lines of processes do not mix."""
 import json
 import os
+import signal
 import sys
 import time
 from pathlib import Path
@@ -24,6 +25,9 @@ def main(words):
     if todo == "memory":
         eaten = bytearray(os.urandom(1 << 20) * 300)
         time.sleep(len(eaten))
+    if todo == "large":
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # as in a program that is not Python
+        Path("large").write_bytes(bytes(8_000_000))
     if todo == "wrong":
         print(json.dumps({"error": {"code": "no_faces", "message": "coat.ply: has no faces"}}))
         return 2

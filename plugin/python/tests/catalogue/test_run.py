@@ -129,6 +129,15 @@ def test_an_unreadable_file_costs_its_own_rows(tmp_path):
     assert rows["body0", "gone_garment9"] == "done" and rows["gone_body9", "gone_garment9"] == "unreadable_file"
 
 
+def test_a_limit_of_file_size_is_named(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok", "large"])
+    assert trial.run(largest_file=4_000_000).returncode == 0
+    row = {row["garment"]: row for row in trial.rows()}["garment1"]
+    assert row["reason"] == "file_limit" and "4 MB" in row["message"]
+    again = trial.run("--retry", largest_file=4_000_000)
+    assert again.returncode == 0 and len(trial.counts.read_text().splitlines()) == 2  # a rig and the good pair
+
+
 def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
     trial = Trial(tmp_path, 1, ["ok"] * 30, seconds=0.3)
     run = trial.start()
