@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of a catalogue in Debian's Chromium, opened from disk."""
+import io
 import json
 import shutil
 
 import numpy as np
 import pytest
+from PIL import Image
 
 for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
     pytest.importorskip(needed)
@@ -133,8 +135,23 @@ def test_works_with_the_keyboard_on_a_phone_in_the_dark(browser, errors, tmp_pat
     assert opened.evaluate("document.getElementById('viewer').scrollWidth") <= 360
     opened.keyboard.press("Escape")
     assert not opened.locator("#viewer").is_visible()
-    assert opened.evaluate("getComputedStyle(document.body).colorScheme") == "light dark"
     assert errors == []
+
+
+@pytest.mark.parametrize("scheme, is_right", [("light", lambda tone: tone > 200), ("dark", lambda tone: tone < 70)])
+def test_page_and_viewer_follow_the_mode(browser, errors, tmp_path, scheme, is_right):
+    make_catalogue(tmp_path, 1, 1, drawn=1)
+    opened = open_page(browser, tmp_path, errors, color_scheme=scheme)
+    assert is_right(usual_tone(opened.screenshot()))
+    opened.locator(".row").first.click()
+    opened.wait_for_selector("#canvas:not([hidden])")
+    assert is_right(usual_tone(opened.locator("#canvas").screenshot()))
+    assert errors == []
+
+
+def usual_tone(screenshot):
+    """Median of the pixels' brightness, 0 to 255: that of the background."""
+    return np.median(np.asarray(Image.open(io.BytesIO(screenshot)).convert("L")))
 
 
 def test_the_size_matrix_has_a_verdict_for_each_garment_and_body(browser, errors, tmp_path):

@@ -19,6 +19,7 @@ for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
     pytest.importorskip(needed)
 import psutil  # noqa: E402
 import pyarrow.parquet  # noqa: E402
+from garmentfit.catalogue.store import Store  # noqa: E402
 
 FAKE = f"{sys.executable} {Path(__file__).parent / 'fake_program.py'}"
 CATALOGUE = [sys.executable, "-m", "garmentfit", "catalogue"]
@@ -242,3 +243,18 @@ def test_a_scheduler_and_workers_of_others_do_the_same(tmp_path):
             stop_tree(each.pid)
             each.wait()
     assert len(trial.counts.read_text().splitlines()) == 21
+
+
+def test_status_counts_the_ends_of_a_folder_at_any_time(tmp_path):
+    def status():
+        return subprocess.run([*CATALOGUE, "status", str(trial.output)], capture_output=True, text=True, timeout=60)
+    trial = Trial(tmp_path, 1, ["ok", "ok", "small", "wrong"])
+    none = status()
+    assert none.returncode == 2 and "no catalogue" in none.stderr and none.stderr.count("\n") == 1
+    assert trial.run().returncode == 0
+    assert status().stdout.split("\n") == ["4 of 4 pairs finished", "       2  done", "       1  too_small",
+                                           "       1  no_faces", ""]
+    shutil.rmtree(next(iter(trial.output.glob("jobs/*/*/done.json"))).parent)
+    with Store(trial.output).lock():  # while a run is at work
+        now = status()
+    assert now.returncode == 0 and "3 of 4 pairs finished" in now.stdout and "1  waiting" in now.stdout
