@@ -170,25 +170,35 @@ def _reason(code: int, stopped: str, limits: Limits, work: Path) -> dict:
 
 
 def _figures(report: Path) -> dict:
-    """What the table shows of report.json: the garment figures are those of the outermost layer."""
+    """What the table shows of report.json. Figures are those of the outermost layer; an outfit of several layers has
+    those of each, too, as layer1_ and so on from the inside out."""
     try:
         table = json.loads(report.read_text())
     except (OSError, ValueError):
         return {}
     garments = table.get("garments") or [{}]
-    outer = garments[-1]
+    scale = (table.get("body") or {}).get("metres_per_unit") or 1
     figures = {
         "certified": table.get("certified"),
         "type": "+".join(str(garment.get("type")) for garment in garments),
         "type_probability": min((garment.get("type_probability") or 0) for garment in garments),
-        "verdict": (outer.get("verdict") or {}).get("fit"),
-        "strain_median": (outer.get("strain") or {}).get("median"),
-        "strain_max": (outer.get("strain") or {}).get("max"),
         "program_memory_mb": round((table.get("peak_memory_bytes") or 0) / 1e6, 1),
         "warnings": table.get("warnings", []),
     }
-    scale = (table.get("body") or {}).get("metres_per_unit") or 1
-    for girth in outer.get("girths") or []:
+    if len(garments) > 1:
+        for number, garment in enumerate(garments, 1):
+            figures.update((f"layer{number}_{name}", value) for name, value in _of_garment(garment, scale).items())
+    return {**figures, **_of_garment(garments[-1], scale)}
+
+
+def _of_garment(garment: dict, scale: float) -> dict:
+    """Verdict, strain and ease of one garment. scale: metres per unit of the body's file."""
+    figures = {
+        "verdict": (garment.get("verdict") or {}).get("fit"),
+        "strain_median": (garment.get("strain") or {}).get("median"),
+        "strain_max": (garment.get("strain") or {}).get("max"),
+    }
+    for girth in garment.get("girths") or []:
         if girth.get("ease") is not None:
             figures["ease_" + girth["place"].replace(" ", "_")] = girth["ease"] * scale  # metres
     return figures

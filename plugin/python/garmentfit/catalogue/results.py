@@ -26,7 +26,7 @@ def collect(store: Store) -> list:
     for key, pair in store.read_plan().items():
         row = store.finished("dress", key)
         state = row or {"exit": None, "reason": "waiting", "message": ""}
-        names = [name for name in state if name.startswith("ease_")]
+        names = [name for name in state if name.startswith(("ease_", "layer")) and name != "layers"]
         flat = {name: state.get(name) for name in [*_FIRST[4:], *names, *_LAST[:5]]}
         flat.update(picture=bool(state.get("picture")), view=bool(state.get("view")), pair=key,
                     body=Path(pair["body"]).stem, garment=pair["garment"], size=pair["size"],
@@ -57,12 +57,17 @@ def write_tables(store: Store, rows: list) -> None:
 
 
 def columns(rows: list) -> list:
-    return [*_FIRST, *ease_columns(rows), *_LAST]
+    return [*_FIRST, *ease_columns(rows), *layer_columns(rows), *_LAST]
 
 
 def ease_columns(rows: list) -> list:
     """One for each place that some garment goes round."""
     return sorted({name for row in rows for name in row if name.startswith("ease_")})
+
+
+def layer_columns(rows: list) -> list:
+    """Verdict, strain and ease of each garment of outfits of several layers."""
+    return sorted({name for row in rows for name in row if name.startswith("layer")})
 
 
 def summary(rows: list) -> collections.Counter:
@@ -80,7 +85,8 @@ def _type(name: str):
 
 
 def _is_number(name: str) -> bool:
-    return name in _NUMBERS or name.startswith("ease_")
+    plain = name.split("_", 1)[1] if name.startswith("layer") else name
+    return plain in _NUMBERS or plain.startswith("ease_")
 
 
 def _column(rows: list, name: str) -> list:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stands in for the program in tests of scheduling: quick, and it crashes, hangs or eats memory when asked to.
 
-What it does stands in the garment's file: ok, crash, hang, memory, large, small, wrong. Each process that ends its work adds a
-line to the file named by FAKE_COUNTS, by one write, so that lines of processes do not mix."""
+What it does stands in the garment's file: ok, crash, hang, memory, large, small, wrong. Each process that ends its
+work adds a line to the file named by FAKE_COUNTS, by one write, so that lines of processes do not mix."""
 import json
 import os
 import signal
@@ -34,8 +34,8 @@ def main(words):
     time.sleep(float(os.environ.get("FAKE_SECONDS", "0")))
     output.mkdir()
     garments = [{"file": Path(name).name, "type": "coat", "type_probability": 0.9, "verdict": {"fit": "fits"},
-                 "strain": {"median": 0.01, "max": 0.1}, "girths": [{"place": "waist", "ease": 0.04}]}
-                for name in inputs[1:]]
+                 "strain": {"median": 0.01, "max": 0.1}, "girths": [{"place": "waist", "ease": 0.04 + 0.01 * layer}]}
+                for layer, name in enumerate(inputs[1:])]
     (output / "report.json").write_text(json.dumps({"certified": True, "body": {"metres_per_unit": 1},
                                                     "garments": garments, "peak_memory_bytes": 1e6}))
     (output / "rig.json").write_text("{}")

@@ -258,3 +258,15 @@ def test_status_counts_the_ends_of_a_folder_at_any_time(tmp_path):
     with Store(trial.output).lock():  # while a run is at work
         now = status()
     assert now.returncode == 0 and "3 of 4 pairs finished" in now.stdout and "1  waiting" in now.stdout
+
+
+def test_an_outfit_of_layers_has_the_ease_of_each_garment(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok", "ok"])
+    (tmp_path / "plan.toml").write_text('bodies = ["body0.ply"]\ngarment_files = ["garment0.ply"]\n'
+                                        '[[garments]]\nlayers = ["garment0.ply", "garment1.ply"]\n')
+    assert trial.run("--no-pictures").returncode == 0
+    single, outfit = pyarrow.parquet.read_table(trial.output / "results.parquet").to_pylist()
+    assert (outfit["layer1_ease_waist"], outfit["layer2_ease_waist"], outfit["ease_waist"]) == (0.04, 0.05, 0.05)
+    assert outfit["layer1_verdict"] == "fits" and outfit["layer2_strain_max"] == 0.1
+    assert single["ease_waist"] == 0.04 and single["layer1_ease_waist"] is None
+    assert trial.rows()[1]["layer2_ease_waist"] == "0.05"
