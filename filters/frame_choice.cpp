@@ -96,14 +96,17 @@ std::vector<double> wearer_heights_of_any_size(Positions metres, const Triangles
 void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body,
                    double stature)
 {
+    const Positions metres = guess.frame.to_metres(positions);
     std::vector<double> statures;
     try {
-        statures = wearer_heights_of_any_size(guess.frame.to_metres(positions), triangles);
+        statures = wearer_heights_of_any_size(metres, triangles);
     } catch (const InvalidInput&) {
         return;
     }
     const double own_unit = guess.frame.metres_per_unit;
-    const ScaleGuess scale = guess_scale(statures, stature, own_unit, own_unit == in_named_unit(body).metres_per_unit);
+    const double length = metres.col(1).maxCoeff() - metres.col(1).minCoeff();
+    const ScaleGuess scale
+        = guess_scale(statures, length, stature, own_unit, own_unit == in_named_unit(body).metres_per_unit);
     guess.scale = scale.factor;
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;

@@ -28,6 +28,12 @@ double likelihood(double deviation)
     return std::exp(-0.5 * std::pow(deviation / spread, 2)) / (std::sqrt(2 * std::numbers::pi) * spread);
 }
 
+/// No garment hangs far below the feet of whom it fits. @param share  of the longest that a garment may be
+double likelihood_of_length(double share)
+{
+    return share > 1 ? std::exp(-0.5 * std::pow(std::log(share) / k_too_large_spread, 2)) : 1;
+}
+
 double median(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
@@ -37,22 +43,28 @@ double median(std::vector<double> values)
 
 }  // namespace
 
-ScaleGuess guess_scale(const std::vector<double>& statures, double height, double metres_per_unit, bool as_body)
+ScaleGuess guess_scale(const std::vector<double>& statures, double length, double height, double metres_per_unit,
+                       bool as_body)
 {
-    if (statures.size() < k_min_parts || !(height > 0))
+    if (statures.size() < k_min_parts || !(height > 0) || !(length > 0))
         return {};
     std::vector<double> deviations;
     for (const double stature : statures)
         deviations.push_back(std::log(stature / height));
 
+    const double longest = k_longest_share * height / length;
+    const auto likelihood_of = [&](double factor) {
+        return likelihood(common_deviation(deviations, std::log(factor))) * likelihood_of_length(factor / longest);
+    };
+
     const SizePriors& priors = as_body ? k_priors_as_body : k_priors_otherwise;
-    std::vector<ScaleGuess> hypotheses { { 1, priors.guessed_unit * likelihood(common_deviation(deviations, 0)) },
-                                         { std::exp(-median(deviations)), priors.no_unit * k_no_unit_density } };
+    std::vector<ScaleGuess> hypotheses { { 1, priors.guessed_unit * likelihood_of(1) },
+                                         { std::min(std::exp(-median(deviations)), longest),
+                                           priors.no_unit * k_no_unit_density } };
     for (const std::string_view unit : unit_choices())
         if (unit != "auto" && metres_per(unit) != metres_per_unit) {
             const double factor = metres_per(unit) / metres_per_unit;
-            hypotheses.push_back(
-                { factor, priors.other_unit * likelihood(common_deviation(deviations, std::log(factor))) });
+            hypotheses.push_back({ factor, priors.other_unit * likelihood_of(factor) });
         }
     double sum = 0;
     for (const ScaleGuess& hypothesis : hypotheses)

@@ -72,6 +72,20 @@ TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
     }
 }
 
+// Slim limbs of usual girth on a garment far longer than its wearer: the size is not that of any unit.
+TEST(GarmentScale, NoGarmentIsLongerThanItsWearerIsTall)
+{
+    TriangleMesh gown = shirt();
+    for (Eigen::Index v = 0; v < gown.positions.rows(); ++v)
+        if (gown.positions(v, 1) < 1.2)  // below the sleeves
+            gown.positions(v, 1) = 1.2 - 7 * (1.2 - gown.positions(v, 1));
+    const double length = gown.positions.col(1).maxCoeff() - gown.positions.col(1).minCoeff();
+    ASSERT_GT(length, 1.2 * body_stature());
+    const FrameGuess guess = garment_frame(gown.positions, gown.triangles, {}, {}, body_stature());
+    EXPECT_LT(guess.scale, 0.95) << guess.why;
+    EXPECT_LT(length * guess.frame.metres_per_unit, body_stature());
+}
+
 TEST(GarmentScale, WhatTheUserSaysIsNotScaled)
 {
     GarmentChoice in_metres;
