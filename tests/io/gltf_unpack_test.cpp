@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gltf_unpack.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include <draco/compression/encode.h>
@@ -14,6 +16,7 @@
 #include <meshoptimizer.h>
 
 #include "fixtures.h"
+#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "mesh_file_samples.h"
 #include "temporary_folder.h"
@@ -227,6 +230,46 @@ TEST_F(PackedGltf, IsRefusedInWordsWhereItIsMangled)
     expect("2 GB", [&] { packed()["count"] = 4000000000u; });
     expect("mangled", [&] { packed().erase("count"); });
     expect("filter", [&] { packed()["filter"] = "QUATERNION"; });
+}
+
+// A file from anywhere ends in a mesh or in an error, whatever its packed bytes are.
+TEST_F(PackedGltf, EndsWellWhateverItsBytesAre)
+{
+    constexpr int k_rounds = 1000;
+    std::mt19937 random(7);
+    const auto expect_end = [&] {
+        try {
+            read();
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    };
+    const auto mangled = [&](std::string bytes) {
+        for (unsigned changes = 1 + random() % 4; changes > 0; --changes)
+            bytes[random() % bytes.size()] = char(random());
+        return random() % 4 == 0 ? bytes.substr(0, random() % bytes.size()) : bytes;
+    };
+    const std::string square = draco_square();
+    const ordered_json whole = json;
+    for (int round = 0; round < k_rounds; ++round) {
+        json = whole;
+        pack_with_draco(mangled(square));
+        expect_end();
+    }
+    json = whole;
+    pack_with_meshopt();
+    const ordered_json packed = json;
+    for (int round = 0; round < k_rounds; ++round) {
+        json = packed;
+        for (const std::size_t view : { 0, 1 }) {
+            ordered_json& part = json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
+            std::string bytes(part["byteLength"].get<std::size_t>(), '\0');
+            std::generate(bytes.begin(), bytes.end(), [&] { return char(random()); });
+            bytes[0] = char(view == 0 ? 0xa0 : 0xd1);  // the headers of such data
+            part["buffer"] = add_buffer(bytes);
+        }
+        expect_end();
+    }
 }
 
 }  // namespace
