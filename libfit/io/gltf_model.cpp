@@ -2,6 +2,8 @@
 #include "gltf_model.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 #include "garmentfit/error.h"
 
@@ -107,6 +109,37 @@ Column vector_column(const FileBytes& file, const tinygltf::Model& model, int in
         file.fail(std::string(what) + " (accessor " + std::to_string(index)
                   + ") is not three floats; export it without quantization");
     return column;
+}
+
+double number_of_type(const void* at, int type, bool is_normalized)
+{
+    const auto read = [&](auto value) {
+        std::memcpy(&value, at, sizeof value);
+        using Number = decltype(value);
+        return is_normalized ? std::max(double(value) / double(std::numeric_limits<Number>::max()), -1.0)
+                             : double(value);
+    };
+    switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return read(std::int8_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return read(std::uint8_t());
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return read(std::int16_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return read(std::uint16_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return read(std::uint32_t());
+    default: {
+        float value;
+        std::memcpy(&value, at, sizeof value);
+        return value;
+    }
+    }
+}
+
+double number_at(const tinygltf::Model& model, const Column& column, std::size_t row, int k)
+{
+    const tinygltf::Accessor& accessor = model.accessors[std::size_t(column.accessor)];
+    const std::size_t size = std::size_t(tinygltf::GetComponentSizeInBytes(accessor.componentType));
+    return number_of_type(model.buffers[std::size_t(column.buffer)].data.data() + column.offset(Eigen::Index(row))
+                              + std::size_t(k) * size,
+                          accessor.componentType, accessor.normalized);
 }
 
 }  // namespace garmentfit

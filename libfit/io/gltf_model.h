@@ -43,4 +43,10 @@ Column column_of(const FileBytes& file, const tinygltf::Model& model, int index,
 /// The same, and made of three floats.
 Column vector_column(const FileBytes& file, const tinygltf::Model& model, int index, const char* what);
 
+/// One component of an element; normalised integers as their share of the largest (glTF 2.0, KHR_mesh_quantization).
+/// @param type  one of TINYGLTF_COMPONENT_TYPE, of at most four bytes, all of which can be read at `at`
+double number_of_type(const void* at, int type, bool is_normalized);
+/// Component `k` of the element in a row.
+double number_at(const tinygltf::Model& model, const Column& column, std::size_t row, int k);
+
 }  // namespace garmentfit

@@ -2,8 +2,6 @@
 #include "gltf_scene.h"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -39,27 +37,6 @@ Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& no
 }
 
 }  // namespace
-
-double number_at(const tinygltf::Model& model, const Column& column, std::size_t row, int k)
-{
-    const tinygltf::Accessor& accessor = model.accessors[std::size_t(column.accessor)];
-    const auto* at = model.buffers[std::size_t(column.buffer)].data.data() + column.offset(Eigen::Index(row))
-        + std::size_t(k) * std::size_t(tinygltf::GetComponentSizeInBytes(accessor.componentType));
-    const auto read = [&](auto number) {
-        std::memcpy(&number, at, sizeof number);
-        return accessor.normalized ? double(number) / double(std::numeric_limits<decltype(number)>::max())
-                                   : double(number);
-    };
-    switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return read(std::uint8_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return read(std::uint16_t());
-    default: {
-        float number;
-        std::memcpy(&number, at, sizeof number);
-        return number;
-    }
-    }
-}
 
 GltfScene::GltfScene(const FileBytes& file, const tinygltf::Model& model) :
     file_(file), model_(model), parents_(model.nodes.size(), -1),

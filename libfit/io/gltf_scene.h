@@ -10,9 +10,6 @@
 
 namespace garmentfit {
 
-/// The number `k` of an accessor's element; normalised integers as their share of the largest.
-double number_at(const tinygltf::Model& model, const Column& column, std::size_t row, int k);
-
 /// A primitive with triangles and positions. Primitives may share vertices: the first one `adds_vertices`.
 struct GltfSurface {
     int node;

@@ -46,29 +46,6 @@ bool is_packed(const ordered_json& json)
                        [](const ordered_json& accessor) { return accessor.contains("sparse"); });
 }
 
-/// Integers as glTF 2.0 and KHR_mesh_quantization understand them.
-double number(const char* at, int type, bool is_normalized)
-{
-    const auto read = [&](auto value) {
-        std::memcpy(&value, at, sizeof value);
-        using Number = decltype(value);
-        return is_normalized ? std::max(double(value) / double(std::numeric_limits<Number>::max()), -1.0)
-                             : double(value);
-    };
-    switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return read(std::int8_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return read(std::uint8_t());
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return read(std::int16_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return read(std::uint16_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return read(std::uint32_t());
-    default: {
-        float value;
-        std::memcpy(&value, at, sizeof value);
-        return value;
-    }
-    }
-}
-
 class Unpacker {
 public:
     Unpacker(const FileBytes& file, GltfContainer container, const std::filesystem::path& folder) :
@@ -343,7 +320,7 @@ private:
                           values = part("values", accessor["type"], accessor["componentType"]);
         const std::size_t index_size = indices.size() / std::max<std::size_t>(count, 1);
         for (std::size_t i = 0; i < count; ++i) {
-            const auto row = std::size_t(number(indices.data() + i * index_size, index_type, false));
+            const auto row = std::size_t(number_of_type(indices.data() + i * index_size, index_type, false));
             if (row >= bytes.size() / size)
                 fail("a sparse accessor changes element " + std::to_string(row) + ", which there is not");
             std::memcpy(bytes.data() + row * size, values.data() + i * size, size);
@@ -384,7 +361,7 @@ private:
         require_size(packed.size() / size, sizeof(float));
         std::string bytes(packed.size() / size * sizeof(float), '\0');
         for (std::size_t i = 0; i < packed.size() / size; ++i) {
-            const auto value = float(number(packed.data() + i * size, type, is_normalized));
+            const auto value = float(number_of_type(packed.data() + i * size, type, is_normalized));
             std::memcpy(bytes.data() + i * sizeof value, &value, sizeof value);
         }
         accessor["componentType"] = TINYGLTF_COMPONENT_TYPE_FLOAT;

@@ -110,6 +110,8 @@ private:
             ++set;
     }
 
+    int type_of(const Column& column) const { return model_.accessors[std::size_t(column.accessor)].componentType; }
+
     /// Four joints and weights of each vertex; further sets follow where the file has more.
     bool read_set(const GltfSurface& surface, const tinygltf::Skin& skin, int set, std::size_t first)
     {
@@ -126,6 +128,14 @@ private:
             return model_.accessors[std::size_t(column.accessor)].type == TINYGLTF_TYPE_VEC4
                 && column.count == surface.positions.count;
         };
+        const int of_joints = type_of(joint), of_weights = type_of(weight);
+        const bool are_right = (of_joints == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+                                || of_joints == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+            && (of_weights == TINYGLTF_COMPONENT_TYPE_FLOAT || of_weights == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+                || of_weights == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+        if (!are_right)
+            file_.fail("has " + joints + " or " + weights
+                       + " of a type that glTF does not allow for them; export the file again");
         if (!is_four(joint) || !is_four(weight))
             file_.fail("has " + joints + " and " + weights
                        + " that are not four numbers a vertex; export the file again");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
@@ -81,6 +82,16 @@ double distance_from_body(const BodyMesh& body, const TriangleTree& skin, const 
     return winding_number(body.closed, joint) > 0.5 ? 0 : skin.distance(joint) / height;
 }
 
+// A skeleton with left and right exchanged has its front behind. Feet that point down or have no toes tell nothing.
+bool feet_point_backwards(const Skeleton& skeleton, const Vec3& hips)
+{
+    const Vec3 front = hips.cross(skeleton.tail(thorax) - skeleton.root).normalized();
+    double forwards = 0;
+    for (const auto& [tip, shin] : { std::pair(lfoot_tip, ltibia), std::pair(rfoot_tip, rtibia) })
+        forwards += (skeleton.tips[tip] - skeleton.tail(shin)).normalized().dot(front) / 2;
+    return forwards < -k_feet_backwards;
+}
+
 }  // namespace
 
 void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
@@ -104,6 +115,8 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
                shoulders = skeleton.tail(lclavicle) - skeleton.tail(rclavicle);
     if (!(hips.dot(shoulders) > 0))
         refuse("the left hip and the left shoulder lie on different sides");
+    if (feet_point_backwards(skeleton, hips))
+        refuse("the feet point backwards, so left and right seem to be exchanged");
     for (int bone = 0; bone < bone_count; ++bone)
         if (const double off = distance_from_body(body, tree, skeleton.tail(bone), height);
             !(off < k_farthest_own_joint))

@@ -192,6 +192,9 @@ inline constexpr double k_side_tolerance = 0.2;
 /// shortest limb bone of one. fitted: guess; the joints of a wrong map lie tenths off
 inline constexpr double k_farthest_own_joint = 0.05, k_shortest_own_bone = 0.02;
 
+/// Cosine between the front and the mean direction of the feet, from which they point backwards. fitted: guess
+inline constexpr double k_feet_backwards = 0.3;
+
 /// Interval of a ratio of lengths.
 struct Proportion {
     double least, most;

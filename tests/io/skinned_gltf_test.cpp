@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fixtures.h"
+#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 #include "temporary_folder.h"
@@ -185,6 +186,22 @@ TEST_F(SkinnedParts, MayHaveMoreThanFourJointsAVertex)
     });
     const ForeignRig read = read_skinned_gltf(glb);
     EXPECT_LT((read.weights.weights.topRows(body_rows()) - rig.weights.weights).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_F(SkinnedParts, OfATypeThatGltfDoesNotAllowAreRefused)
+{
+    for (const auto& [attribute, type] : { std::pair("JOINTS_0", 5125), std::pair("JOINTS_0", 5120),
+                                           std::pair("WEIGHTS_0", 5122), std::pair("WEIGHTS_0", 5125) }) {
+        const std::string whole = load(glb);
+        edit([&](json& document) {
+            const std::size_t accessor = document["meshes"][0]["primitives"][0]["attributes"][attribute];
+            document["accessors"][accessor]["componentType"] = type;
+        });
+        const std::string mangled = load(glb);
+        save("mangled.glb", mangled);
+        EXPECT_THROW(read_skinned_gltf(folder / "mangled.glb"), InvalidInput) << attribute << " " << type;
+        save("rigged.glb", whole);
+    }
 }
 
 TEST_F(SkinnedGltf, ComesBackAsItWasWritten)

@@ -76,12 +76,19 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
     Person aside = person;
     for (Vec3& tail : aside.skeleton.tails)
         tail.z() += 0.6;
+    for (Vec3& tip : aside.skeleton.tips)
+        tip.z() += 0.6;
     expect_invalid([&] { check_skeleton(body, aside.skeleton); }, "outside of the body");
     Person crossed = person;
     std::swap(crossed.skeleton.tails[lhipjoint], crossed.skeleton.tails[rhipjoint]);
     std::swap(crossed.skeleton.tails[lfemur], crossed.skeleton.tails[rfemur]);
     std::swap(crossed.skeleton.tails[ltibia], crossed.skeleton.tails[rtibia]);
     expect_invalid([&] { check_skeleton(body, crossed.skeleton); }, "different sides");
+    Person mirrored = person;
+    for (const int left : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius })
+        std::swap(mirrored.skeleton.tails[left], mirrored.skeleton.tails[mirror_of(left)]);
+    std::swap(mirrored.skeleton.tips[lfoot_tip], mirrored.skeleton.tips[rfoot_tip]);
+    expect_invalid([&] { check_skeleton(body, mirrored.skeleton); }, "exchanged");
     Person folded = person;
     folded.skeleton.tails[lradius] = folded.skeleton.tails[lhumerus];
     expect_invalid([&] { check_skeleton(body, folded.skeleton); }, "hardly any length");

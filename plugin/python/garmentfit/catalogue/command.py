@@ -18,7 +18,7 @@ def main(words: list) -> int:
     """Runs `garmentfit catalogue words...`. Returns 0 when every pair has a row, whatever its end; 2: wrong input or
     folder; 4: the disk, the scheduler or all workers were lost; 130: Ctrl-C. After 4 and 130 the folder resumes."""
     try:
-        return _status(words[1:]) if words[:1] == ["status"] else _run(words)
+        return _command(words)
     except (PlanError, StoreError) as error:
         print(f"garmentfit catalogue: {error}", file=sys.stderr)
         return 2
@@ -33,27 +33,49 @@ def main(words: list) -> int:
         return 130
 
 
+OPTIONS = (  # of a run and of a list of its jobs
+    (("-o", "--output"), {"required": True, "metavar": "DIR", "help": "folder; a run that stopped goes on in it"}),
+    (("--program",), {"default": "", "metavar": "COMMAND", "help": "program to call; this package's by default"}),
+    (("--no-pictures",), {"action": "store_true", "help": "no thumbnails and no 3D views"}),
+)
+
+
+def _command(words: list) -> int:
+    from . import workflow
+
+    others = {"status": _status, "list": workflow.list_jobs, "job": workflow.run_one,
+              "results": workflow.tables_and_page}
+    return others[words[0]](words[1:]) if words and words[0] in others else _run(words)
+
+
 def _arguments(words: list):
     parser = argparse.ArgumentParser(prog="garmentfit catalogue", description="Dresses many bodies in many garments.",
-                                     epilog="garmentfit catalogue status DIR: how many pairs have ended, and how")
+                                     epilog="garmentfit catalogue status DIR: how many pairs have ended, and how. "
+                                            "garmentfit catalogue list, job, results: one step each, for workflow "
+                                            "engines")
     parser.add_argument("plan", help="plan.toml or plan.csv")
-    parser.add_argument("-o", "--output", required=True, metavar="DIR", help="folder; a run that stopped goes on in it")
+    for names, about in OPTIONS:
+        parser.add_argument(*names, **about)
     parser.add_argument("--scheduler", default="", metavar="ADDRESS",
                         help="a Dask scheduler whose workers see DIR and the inputs under the same paths")
     parser.add_argument("--workers", type=int, default=0, help="local workers; one for each core by default")
-    parser.add_argument("--program", default="", metavar="COMMAND", help="program to call; this package's by default")
     parser.add_argument("--retry", action="store_true", help="do again what crashed or met a limit")
-    parser.add_argument("--no-pictures", action="store_true", help="no thumbnails and no 3D views")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
     return parser.parse_args(words)
 
 
-def _run(words: list) -> int:
-    options = _arguments(words)
+def prepare(options) -> tuple:
+    """The plan, the program with its version, and the folder, which exists then."""
     program = shlex.split(options.program) or [sys.executable, "-m", "garmentfit"]
     plan, version = read_plan(options.plan), _version(program)
     store = Store(options.output)
     store.create()
+    return plan, program, version, store
+
+
+def _run(words: list) -> int:
+    options = _arguments(words)
+    plan, program, version, store = prepare(options)
     with store.lock():
         try:
             return _run_held(store, plan, program, version, options)
@@ -63,18 +85,25 @@ def _run(words: list) -> int:
 
 def _run_held(store: Store, plan, program: list, version: str, options) -> int:
     """The run of the holder of the lock; returns the exit code."""
+    store.clear_work()
+    pairs = named_pairs(store, plan, version)
+    if options.retry:
+        _forget_failures(store, pairs)
+    code = _work(store, pairs, program, plan.limits, options)
+    write_results(store)
+    return code
+
+
+def named_pairs(store: Store, plan, version: str) -> dict:
+    """Pairs with the names of their rigs, by their names; also written into the folder. A pair with a file that cannot
+    be read gets its row here, and has no rig."""
     from .job import finish_unreadable
 
-    store.clear_work()
     pairs, unreadable = _named(plan, version)
     store.write_plan({key: to_json(pair) for key, (pair, _) in pairs.items()})
     for key, error in unreadable.items():
         finish_unreadable(store, key, pairs[key][0], error)
-    if options.retry:
-        _forget_failures(store, pairs)
-    code = _work(store, pairs, program, plan.limits, options)
-    _write_results(store)
-    return code
+    return pairs
 
 
 def _named(plan, version: str) -> tuple:
@@ -132,7 +161,7 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
     return 0
 
 
-def _write_results(store: Store) -> None:
+def write_results(store: Store) -> None:
     from . import page, results
 
     rows = results.collect(store)
