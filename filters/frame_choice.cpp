@@ -82,6 +82,8 @@ void choose_up(FrameGuess& guess, const Positions& positions, const Triangles& t
 /// with its longest side as long as a shirt or a pair of trousers.
 std::vector<double> wearer_heights_of_any_size(Positions metres, const Triangles& triangles)
 {
+    if (metres.rows() == 0)
+        return {};
     const double longest = (metres.colwise().maxCoeff() - metres.colwise().minCoeff()).maxCoeff();
     if (!(longest > 0))
         return {};
@@ -104,6 +106,8 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
         return;
     }
     const double own_unit = guess.frame.metres_per_unit;
+    if (statures.empty())
+        return;
     const double length = metres.col(1).maxCoeff() - metres.col(1).minCoeff();
     const ScaleGuess scale
         = guess_scale(statures, length, stature, own_unit, own_unit == in_named_unit(body).metres_per_unit);

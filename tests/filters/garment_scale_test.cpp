@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/warnings.h"
@@ -84,6 +86,15 @@ TEST(GarmentScale, NoGarmentIsLongerThanItsWearerIsTall)
     const FrameGuess guess = garment_frame(gown.positions, gown.triangles, {}, {}, body_stature());
     EXPECT_LT(guess.scale, 0.95) << guess.why;
     EXPECT_LT(length * guess.frame.metres_per_unit, body_stature());
+}
+
+TEST(GarmentScale, WhatHasNoVerticesOrNoSizeIsLeftToItsPreparation)
+{
+    EXPECT_EQ(garment_frame(Positions(0, 3), Triangles(0, 3), {}, {}, body_stature()).scale, 1);
+    EXPECT_EQ(garment_frame(Positions::Zero(3, 3), Triangles { { 0, 1, 2 } }, {}, {}, body_stature()).scale, 1);
+    Positions none = shirt().positions;
+    none(0, 0) = std::nan("");
+    EXPECT_EQ(garment_frame(none, shirt().triangles, {}, {}, body_stature()).scale, 1);
 }
 
 TEST(GarmentScale, WhatTheUserSaysIsNotScaled)
