@@ -73,10 +73,9 @@ double BoneMetric::trunk_overlap(int bone, const Vec3& head, const Vec3& tail, c
 
 int BoneMetric::samples_inside(const Vec3& head, const Vec3& tail) const
 {
-    constexpr double is_inside = 0.5;  // derived: the middle between outside (0) and inside (1)
     int count = 0;
     for (int i = 0; i < k_samples; ++i)
-        count += cloth_.at(bone_sample(head, tail, i)).inside > is_inside;
+        count += cloth_.at(bone_sample(head, tail, i)).is_inside();
     return count;
 }
 

@@ -13,6 +13,8 @@ namespace garmentfit {
 struct Clearance {
     double distance = 0;  ///< m, to the nearest cloth
     double inside = 0;  ///< 1 inside, 0 outside, between them in an opening
+
+    bool is_inside() const { return inside > 0.5; }  // derived: the middle
 };
 
 /// The inside of a Clearance by the winding number.

@@ -59,6 +59,23 @@ InsideShares shares_inside(const FitEnergy& energy, const Posture& posture)
     return { sum.covered / std::max(covered, 1), sum.uncovered / std::max(uncovered, 1) };
 }
 
+// Trousers have cloth between the legs, skirts have none; whether there is an opening at each foot or not.
+double share_divided(const FitEnergy& energy, const Skeleton& joints)
+{
+    const ClearanceField& cloth = energy.metric().cloth();
+    int inside = 0, divided = 0;
+    for (const auto& [left, right] : { std::pair(lfemur, rfemur), std::pair(ltibia, rtibia) })
+        for (int i = 0; i < k_samples; ++i) {
+            const Vec3 on_left = bone_sample(joints.head(left), joints.tail(left), i),
+                       on_right = bone_sample(joints.head(right), joints.tail(right), i);
+            if (!cloth.at(on_left).is_inside() || !cloth.at(on_right).is_inside())
+                continue;
+            ++inside;
+            divided += cloth.crosses(on_left, on_right);
+        }
+    return double(divided) / std::max(inside, 1);
+}
+
 // @param in_place  where the posture is the input pose; null for any other one
 WearEvidence evidence_of(const WearingContext& context, const Posture& posture, const BodyPlace* in_place)
 {
@@ -86,6 +103,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[legs_evidence + kind] = 1;
         e[legs_height_evidence + kind] = std::log((cloth.high().y() - cloth.low().y()) / leg);
         e[legs_hems_evidence + kind] = !energy.cues().hems.empty();
+        e[legs_divided_evidence + kind] = share_divided(energy, place_bones(rest, posture).joints);
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
     }
     e[input_front_evidence] = upright_front.dot(energy.rig().front);
@@ -134,6 +152,10 @@ const std::array<std::string_view, evidence_count>& evidence_names()
         "skirt_hems",
         "dress_hems",
         "jumpsuit_hems",
+        "legs_divided",
+        "skirt_divided",
+        "dress_divided",
+        "jumpsuit_divided",
         "legs_arms",
         "skirt_arms",
         "dress_arms",

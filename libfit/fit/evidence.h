@@ -43,6 +43,10 @@ enum Evidence {
     skirt_hems_evidence,
     dress_hems_evidence,
     jumpsuit_hems_evidence,
+    legs_divided_evidence,  ///< share of the opposite places on both legs, both inside, that have cloth between them
+    skirt_divided_evidence,
+    dress_divided_evidence,
+    jumpsuit_divided_evidence,
     legs_arms_evidence,  ///< 1 where two openings are sleeves or armholes
     skirt_arms_evidence,
     dress_arms_evidence,

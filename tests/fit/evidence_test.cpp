@@ -30,6 +30,7 @@ TEST(Evidence, EachKindHasItsName)
         EXPECT_FALSE(name.empty());
     EXPECT_EQ(evidence_names()[as_given_evidence], "as_given");
     EXPECT_EQ(evidence_names()[jumpsuit_evidence], "jumpsuit");
+    EXPECT_EQ(evidence_names()[jumpsuit_divided_evidence], "jumpsuit_divided");
     EXPECT_EQ(evidence_names()[jumpsuit_arms_evidence], "jumpsuit_arms");
     EXPECT_EQ(evidence_names()[input_front_evidence], "input_front");
 }

@@ -131,6 +131,20 @@ GarmentMesh skirt(double waist, double hips, double hem, double length)
     return make_garment(positions, triangles);
 }
 
+// Sleeveless, from the shoulders to the ankles.
+GarmentMesh long_dress()
+{
+    const auto radius = [](double y) { return 0.18 + 0.14 * std::clamp(1.1 - y, 0.0, 1.0); };
+    const auto beyond = [&](const Vec3& p) { return std::hypot(p.x(), p.z() / 0.65) - radius(p.y()); };
+    const TriangleMesh mesh = polygonise([&](const Vec3& p) { return std::max(beyond(p), p.y() - 1.44); },
+                                         Vec3(-0.5, 0, -0.4), Vec3(0.5, 1.6, 0.4), 0.02);
+    return cut(make_garment(mesh.positions, mesh.triangles), [&](const Vec3& p) {
+        const bool neck = p.y() > 1.4 && std::hypot(p.x(), p.z()) < 0.08;
+        const bool arm = std::abs(p.x()) > 0.9 * radius(p.y()) && p.y() > 1.2 && p.y() < 1.4;
+        return p.y() > 0.2 && !neck && !arm;
+    });
+}
+
 // Two sheets, sewn together along every edge: a closed surface.
 GarmentMesh with_thickness(const GarmentMesh& garment, double thickness)
 {
@@ -489,6 +503,13 @@ TEST(FitSkeleton, ASkirtsWaistIsUp)
     EXPECT_EQ(upright.up, Vec3::UnitY());
     const Eigen::Quaterniond over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
     EXPECT_LT(angle(fit_skeleton(rig, rotate(garment, over)).up, -Vec3::UnitY()), 1);
+}
+
+TEST(FitSkeleton, WithoutClothBetweenTheLegsALongDressIsNoJumpsuit)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    EXPECT_EQ(fit_skeleton(rig, long_dress()).type, GarmentType::dress);
+    EXPECT_EQ(fit_skeleton(rig, jumpsuit({ .arm_angle = 45 })).type, GarmentType::jumpsuit);
 }
 
 TEST(FitSkeleton, OneSleeveHoldsOneArm)
