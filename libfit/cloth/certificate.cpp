@@ -10,6 +10,7 @@
 #include "parallel.h"
 #include "quantile.h"
 #include "stretch.h"
+#include "topology.h"
 #include "used_vertices.h"
 #include "winding_number.h"
 
@@ -55,19 +56,76 @@ bool surely_crosses(const TriangleMesh& mesh, const Edges& edges, const Crossing
         && std::min({ barycentric(0), barycentric(1), barycentric(2) }) > k_inside_margin;
 }
 
-/// The present crossings, by whether the input had them. A pair that only touched in the input did not cross there.
+/// The crossings of the input, sorted, by whether any rounding would find them.
+struct GivenCrossings {
+    std::vector<Crossing> sure;
+    std::vector<Crossing> touching;  ///< within a border, where the curve of a sure one passes on to the next triangle
+};
+
+// Two triangles cross along a segment, at whose ends an edge of one meets the other one.
+class SureSegments {
+public:
+    SureSegments(const MeshTopology& topology, const std::vector<Crossing>& sure) : topology_(topology)
+    {
+        for (const Crossing& crossing : sure)
+            add_segments(crossing, pairs_);
+        std::sort(pairs_.begin(), pairs_.end());
+    }
+
+    bool continue_at(const Crossing& crossing) const
+    {
+        std::vector<Pair> at;
+        add_segments(crossing, at);
+        return std::any_of(at.begin(), at.end(),
+                           [&](const Pair& pair) { return std::binary_search(pairs_.begin(), pairs_.end(), pair); });
+    }
+
+private:
+    using Pair = std::pair<int, int>;  // of triangles, the smaller number first
+
+    void add_segments(const Crossing& crossing, std::vector<Pair>& pairs) const
+    {
+        for (const int side : topology_.sides_at(crossing.first))
+            pairs.push_back(std::minmax(side / 3, crossing.second));
+    }
+
+    const MeshTopology& topology_;
+    std::vector<Pair> pairs_;
+};
+
+GivenCrossings given_crossings(const TriangleMesh& given, const Edges& edges, const std::vector<Crossing>& all)
+{
+    GivenCrossings result;
+    std::vector<Crossing> touching;
+    for (const Crossing& crossing : all)
+        (surely_crosses(given, edges, crossing) ? result.sure : touching).push_back(crossing);
+    if (result.sure.empty() || touching.empty())
+        return result;
+    const MeshTopology topology(given.triangles, int(given.positions.rows()));
+    const SureSegments segments(topology, result.sure);
+    for (const Crossing& crossing : touching)
+        if (segments.continue_at(crossing))
+            result.touching.push_back(crossing);
+    return result;
+}
+
+/// The present crossings, by whether the input had them.
 struct SelfCrossings {
     std::vector<Crossing> kept;
     int fresh = 0;
 };
 
-SelfCrossings compare_self_crossings(const TriangleMesh& before, const std::vector<Crossing>& crossed_before,
-                                     const IndexedMesh& now)
+// A pair that only touched in the input did not cross there, unless cloth crosses on both sides of it. Where more pairs
+// cross now than surely did before, none that touched is known: others may count it as new.
+SelfCrossings compare_self_crossings(const GivenCrossings& given, const std::vector<Crossing>& present)
 {
+    const auto is_among = [](const std::vector<Crossing>& known, const Crossing& crossing) {
+        return std::binary_search(known.begin(), known.end(), crossing);
+    };
+    const bool forgives_touching = present.size() <= given.sure.size();
     SelfCrossings result;
-    for (const Crossing& crossing : self_crossings(now))
-        if (std::binary_search(crossed_before.begin(), crossed_before.end(), crossing)
-            && surely_crosses(before, now.edges, crossing))
+    for (const Crossing& crossing : present)
+        if (is_among(given.sure, crossing) || (forgives_touching && is_among(given.touching, crossing)))
             result.kept.push_back(crossing);
         else
             ++result.fresh;
@@ -142,7 +200,8 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     result.body_crossings = int(through_body.size() + crossings(obstacle, garment).size());
     const std::vector<Crossing> crossed_before = self_crossings(IndexedMesh(given, garment.edges));
     result.input_self_crossings = int(crossed_before.size());
-    SelfCrossings self = compare_self_crossings(given, crossed_before, garment);
+    SelfCrossings self
+        = compare_self_crossings(given_crossings(given, garment.edges, crossed_before), self_crossings(garment));
     result.self_crossings = self.fresh;
     result.kept_self_crossings = std::move(self.kept);
     for (const TriangleMesh& mesh : under) {

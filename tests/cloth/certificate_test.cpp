@@ -89,6 +89,24 @@ TEST(Certificate, KnowsNoCrossingWhereTheInputOnlyTouched)
     EXPECT_GT(certify(body, { mesh.positions, mesh.triangles }, moved).self_crossings, 0);
 }
 
+TEST(Certificate, KnowsACurveThatPassesExactlyThroughAnEdge)
+{
+    // three spikes through a square of two triangles; that in the middle exactly through their common border
+    TriangleMesh mesh { Positions(13, 3), Triangles(5, 3) };
+    mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0, 0.5, 0, -1, 0.5, 0, 1, 0.5, 0.9, -1,  //
+        0.4, 0.3, -1, 0.4, 0.3, 1, 0.4, 9, 1, 0.6, -0.3, -1, 0.6, -0.3, 1, 0.6, -9, 1;
+    mesh.triangles << 0, 1, 2, 1, 0, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12;
+    const TriangleMesh body = ball(0.05, Vec3(0, 0, 5));
+    const auto after = [&](const Vec3& move) {
+        Positions moved = mesh.positions;
+        moved.middleRows(4, 3).rowwise() += move.transpose();
+        moved.bottomRows(3).col(0).array() += 5;  // one spike fewer: never more crossings than as given
+        return certify(body, { mesh.positions, mesh.triangles }, moved).self_crossings;
+    };
+    EXPECT_EQ(after({ 0.01, 0.05, 0 }), 0) << "along its curve into the triangle that it surely crosses";
+    EXPECT_GT(after({ 0.01, -0.05, 0 }), 0) << "into the triangle that it only touched";
+}
+
 TEST(Certificate, MeasuresStrainAgainstTheRestLengths)
 {
     const TriangleMesh mesh = ball(0.2);
