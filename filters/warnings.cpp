@@ -156,7 +156,8 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
         warnings.push_back("the cloth is not at rest: forces on it are out of balance by "
                            + std::to_string(std::lround(100 * end.residual->mean)) + " % of its weight on the mean; "
                            + (end.out_of_time ? "give more time as time_limit: it was reached"
-                                              : "quality draft ends so, standard goes on where it can"));
+                                              : "quality draft does not look for rest, and cloth that passes through "
+                                                "itself or is far too tight may have none"));
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
             warn_of_worn(warnings, names[i], end, i);

@@ -61,7 +61,8 @@ public:
         const int most = k_most_rest_moves + more;
         bool in_time = true;
         std::vector<double> left;  // after each round
-        for (int after_rest = -1; in_time && after_rest < more && moves_ < most && !has_stalled(left);) {
+        for (int after_rest = -1;
+             in_time && after_rest < more && moves_ < most && !has_stalled(left) && !is_hopeless(left);) {
             const Positions before = cloth();
             if (!left.empty())
                 let_go();
@@ -82,6 +83,17 @@ private:
     {
         const std::size_t n = left.size();
         return n > 2 && left[n - 1] > left[n - 3] && left[n - 1] > k_balanced;
+    }
+
+    /// Whether forces far beyond the cloth's weight would not come to balance even if they fell twice as fast from here on:
+    /// those of cloth that passes through itself, or that is far too tight.
+    bool is_hopeless(const std::vector<double>& left) const
+    {
+        const std::size_t n = left.size();
+        if (n < 2 || left[n - 1] < k_far_from_balance)
+            return false;
+        const double rounds_left = double(k_most_rest_moves - moves_) / k_most_round_moves;
+        return left[n - 1] * std::pow(left[n - 1] / left[n - 2], 2 * rounds_left) > k_balanced;
     }
 
     /// @return whether there was time enough

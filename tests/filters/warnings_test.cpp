@@ -83,7 +83,8 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
     scene.draped->garments[0].piece_shift = 0.12;
     EXPECT_EQ(warnings_of(scene),
               (Lines { "the cloth is not at rest: forces on it are out of balance by 35 % of its weight on the mean; "
-                       "quality draft ends so, standard goes on where it can",
+                       "quality draft does not look for rest, and cloth that passes through itself or is far too tight "
+                       "may have none",
                        "skirt was made 8% larger",
                        "a piece of skirt went 120 mm away from the cloth that it lay on; join its border to that cloth "
                        "in the garment's file",
