@@ -10,6 +10,7 @@
 #include "gltf_scene.h"
 #include "gltf_unpack.h"
 #include "joint_names.h"
+#include "nearest.h"
 
 namespace garmentfit {
 namespace {
@@ -24,7 +25,31 @@ struct FileSkin {
     std::vector<int> parents;  ///< rows of the same; -1 none
     std::vector<Vec3> places;
     std::vector<std::vector<std::pair<int, double>>> hangs;  ///< of each vertex: joints and weights
+    int loose = 0;  ///< vertices that hung on no joint
 };
+
+bool has_weight(const std::vector<std::pair<int, double>>& hang)
+{
+    return std::any_of(hang.begin(), hang.end(),
+                       [](const auto& joint) { return joint.second > 0 && std::isfinite(joint.second); });
+}
+
+// Hats beside the skeleton's tree, and vertices that an exporter left out of its weights, follow what they lie at.
+// @throws InvalidInput where no vertex has a weight
+void hang_on_nearest(const FileBytes& file, const Positions& positions, FileSkin& skin)
+{
+    std::vector<int> held, loose;
+    for (std::size_t v = 0; v < skin.hangs.size(); ++v)
+        (has_weight(skin.hangs[v]) ? held : loose).push_back(int(v));
+    if (held.empty())
+        file.fail("has a skin, but no vertex with a positive weight; export the weights, too");
+    skin.loose = int(loose.size());
+    if (loose.empty())
+        return;
+    const NearestPoint nearest(positions(held, Eigen::all));
+    for (const int v : loose)
+        skin.hangs[std::size_t(v)] = skin.hangs[std::size_t(held[std::size_t(nearest.index(positions.row(v)))])];
+}
 
 /// Reads all skins of a file as one: their joints are merged by node. The rows are the vertices of MeshFile.
 class SkinReader {
@@ -46,6 +71,7 @@ public:
         for (const GltfSurface& surface : surfaces)
             if (surface.adds_vertices)
                 read_weights(surface);
+        hang_on_nearest(file_, positions_of(surfaces), skin_);
         return std::move(skin_);
     }
 
@@ -84,30 +110,34 @@ private:
         return node < 0 ? -1 : row_of_[std::size_t(node)];
     }
 
-    void read_weights(const GltfSurface& surface)
-    {
-        if (const tinygltf::Skin* skin = skin_of(surface.node))
-            read_weights(surface, *skin);
-        else
-            hang_on_one_joint(surface);
-    }
-
     /// Eyes, hair and the like may be moved by a joint without a skin of their own.
-    void hang_on_one_joint(const GltfSurface& surface)
-    {
-        const int joint = joint_above(surface.node);
-        if (joint < 0)
-            file_.fail("node '" + first_line(model_.nodes[std::size_t(surface.node)].name)
-                       + "' shows a mesh that has no skin and hangs on no joint; leave it out, or give it a skin");
-        skin_.hangs.insert(skin_.hangs.end(), surface.positions.count, { { joint, 1.0 } });
-    }
-
-    void read_weights(const GltfSurface& surface, const tinygltf::Skin& skin)
+    void read_weights(const GltfSurface& surface)
     {
         const std::size_t first = skin_.hangs.size();
         skin_.hangs.resize(first + surface.positions.count);
-        for (int set = 0; read_set(surface, skin, set, first);)
-            ++set;
+        if (const tinygltf::Skin* skin = skin_of(surface.node))
+            for (int set = 0; read_set(surface, *skin, set, first);)
+                ++set;
+        else if (const int joint = joint_above(surface.node); joint >= 0)
+            std::fill(skin_.hangs.begin() + std::ptrdiff_t(first), skin_.hangs.end(),
+                      std::vector<std::pair<int, double>> { { joint, 1.0 } });
+    }
+
+    /// Where the scene shows the vertices of the file, in its units.
+    Positions positions_of(const std::vector<GltfSurface>& surfaces) const
+    {
+        Positions result(Eigen::Index(skin_.hangs.size()), 3);
+        Eigen::Index row = 0;
+        for (const GltfSurface& surface : surfaces) {
+            if (!surface.adds_vertices)
+                continue;
+            const Eigen::Affine3d world_from_mesh = scene_.world_from_mesh(surface.node);
+            for (std::size_t v = 0; v < surface.positions.count; ++v) {
+                const auto at = [&](int k) { return number_at(model_, surface.positions, v, k); };
+                result.row(row++) = (world_from_mesh * Vec3(at(0), at(1), at(2))).transpose();
+            }
+        }
+        return result;
     }
 
     int type_of(const Column& column) const { return model_.accessors[std::size_t(column.accessor)].componentType; }
@@ -118,10 +148,8 @@ private:
         const std::string number = std::to_string(set), joints = "JOINTS_" + number, weights = "WEIGHTS_" + number;
         const auto joint_at = surface.primitive->attributes.find(joints),
                    weight_at = surface.primitive->attributes.find(weights), end = surface.primitive->attributes.end();
-        if (set > 0 && (joint_at == end || weight_at == end))
-            return false;
         if (joint_at == end || weight_at == end)
-            file_.fail("has vertices without JOINTS_0 and WEIGHTS_0; give a rigged body");
+            return false;
         const Column joint = column_of(file_, model_, joint_at->second, joints.c_str()),
                      weight = column_of(file_, model_, weight_at->second, weights.c_str());
         const auto is_four = [&](const Column& column) {
@@ -172,7 +200,7 @@ public:
         place_limbs();
         place_spine();
         place_tips();
-        ForeignRig result { skeleton_, {} };
+        ForeignRig result { skeleton_, {}, skin_.loose };
         std::vector<int> bones;  // k_pelvis for a joint that is none of the bones
         for (std::size_t j = 0; j < skin_.names.size(); ++j)
             bones.push_back(bone_for(int(j)));
@@ -298,8 +326,8 @@ private:
             }
         std::stable_sort(sums.begin(), sums.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
         const double total = sums[0].first + sums[1].first + sums[2].first + sums[3].first;
-        if (!(total > 0) || !std::isfinite(total))
-            file_.fail("vertex " + std::to_string(v) + " has no positive weight; normalise the weights");
+        if (!std::isfinite(total))
+            file_.fail("vertex " + std::to_string(v) + " has a weight without a limit; export the weights again");
         for (int k = 0; k < 4; ++k) {
             weights.bones(v, k) = sums[std::size_t(k)].second;
             weights.weights(v, k) = sums[std::size_t(k)].first / total;

@@ -83,10 +83,13 @@ Frame frame_on_body(const Session& session, const fs::path& glb)
                            + " do; give the rig of this very mesh in its bind pose");
 }
 
-Rig read_skinned(const Session& session, const fs::path& glb)
+Rig read_skinned(Session& session, const fs::path& glb)
 {
     const Frame frame = frame_on_body(session, glb);
     const ForeignRig foreign = read_skinned_gltf(glb);
+    if (foreign.loose_vertices > 0)
+        session.warnings.push_back(glb.filename().string() + ": " + std::to_string(foreign.loose_vertices)
+                                   + " vertices hang on no joint; they follow the nearest vertex that does");
     const auto in_metres = [&](const Vec3& p) { return Vec3(frame.to_metres(Positions(p.transpose())).row(0)); };
     Rig rig { foreign.skeleton, foreign.weights };
     rig.skeleton.root = in_metres(rig.skeleton.root);

@@ -127,10 +127,33 @@ TEST_F(SkinnedParts, HangOnTheJointAboveWithoutASkin)
     EXPECT_TRUE((last.col(0).array() == ltibia).all()) << last.col(0).transpose();
 }
 
-TEST_F(SkinnedParts, WithoutASkinAndAJointAreRefusedByName)
+TEST_F(SkinnedParts, WithoutASkinAndAJointFollowWhatTheyLieAt)
 {
     edit([](json& document) { document["nodes"][std::size_t(node_called(document, "shoes"))].erase("skin"); });
-    fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "node 'shoes'");
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_EQ(read.loose_vertices, int(shoes.positions.rows()));
+    const Eigen::RowVector3d first = shoes.positions.row(0);
+    Eigen::Index nearest;
+    (person.mesh.positions.rowwise() - first).rowwise().norm().minCoeff(&nearest);
+    EXPECT_EQ(read.weights.bones.row(body_rows()), read.weights.bones.row(nearest));
+    EXPECT_EQ(read.weights.weights.row(body_rows()), read.weights.weights.row(nearest));
+}
+
+TEST_F(SkinnedParts, WithoutWeightsFollowWhatTheyLieAt)
+{
+    edit([](json& document) {
+        json& mesh
+            = document["meshes"][std::size_t(document["nodes"][std::size_t(node_called(document, "shoes"))]["mesh"])];
+        for (const char* attribute : { "JOINTS_0", "WEIGHTS_0" })
+            mesh["primitives"][0]["attributes"].erase(attribute);
+    });
+    EXPECT_EQ(read_skinned_gltf(glb).loose_vertices, int(shoes.positions.rows()));
+    edit([](json& document) {
+        for (json& mesh : document["meshes"])
+            for (json& primitive : mesh["primitives"])
+                primitive["attributes"].erase("WEIGHTS_0");
+    });
+    fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "no vertex with a positive weight");
 }
 
 TEST_F(SkinnedParts, LieWhereTheirJointsAre)

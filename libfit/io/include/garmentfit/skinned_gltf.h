@@ -54,13 +54,15 @@ GARMENTFIT_API void write_skinned_glb(const std::filesystem::path& path, const T
 struct ForeignRig {
     Skeleton skeleton;
     SkinWeights weights;
+    int loose_vertices
+        = 0;  ///< those without a weight, or of meshes that hang on no joint: they follow the nearest one
 };
 
 /// Whether a glTF or GLB shows a mesh with a skin. @throws InvalidInput: missing, not glTF.
 GARMENTFIT_API bool has_skin(const std::filesystem::path& path);
 
 /// All meshes of the scene are one body: joints of several skins are merged, and a mesh without a skin hangs on the
-/// joint above it. @throws InvalidInput: not glTF, no skin, joints that a human needs have no known names.
+/// joint above it. What hangs on none, or has no weight, follows the nearest vertex that has one. @throws InvalidInput: not glTF, no skin, joints that a human needs have no known names.
 GARMENTFIT_API ForeignRig read_skinned_gltf(const std::filesystem::path& path);
 
 }  // namespace garmentfit
