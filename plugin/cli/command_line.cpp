@@ -155,26 +155,19 @@ void add_fabric_option(CLI::App& command, Call& call)
 
 void add_outfit_options(CLI::App& command, Call& call)
 {
-    static const std::map<std::string, BoneNames> names { { "garmentfit", BoneNames::garmentfit },
-                                                          { "vrm", BoneNames::vrm },
-                                                          { "mixamo", BoneNames::mixamo },
-                                                          { "unreal", BoneNames::unreal },
-                                                          { "smpl", BoneNames::smpl } };
+    static const std::map<std::string, BoneNames> names(bone_name_sets().begin(), bone_name_sets().end());
     command
-        .add_option("--outfit", call.outfit,
+        .add_option("--outfit", call.outfit.path,
                     "Write body and clothes as one skinned GLB, too, where they are certified: one skeleton, and "
                     "weights for all meshes, so that other programs can pose them")
-        ->check([](const std::string& path) {
-            const std::string extension = std::filesystem::path(path).extension().string();
-            return extension == ".glb" || extension == ".vrm" ? "" : path + ": give a name that ends in .glb or .vrm";
-        });
+        ->check([](const std::string& path) { return fault_of_outfit_name(path); });
     command
-        .add_flag("--hide-covered-skin", call.hide_covered_skin,
+        .add_flag("--hide-covered-skin", call.outfit.hide_covered_skin,
                   "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
                   "movement, so that they cannot pass through posed cloth")
         ->needs("--outfit");
     command
-        .add_option("--bones", call.bones,
+        .add_option("--bones", call.outfit.bones,
                     "With --outfit: the program whose joints and names it has: garmentfit, vrm, mixamo, unreal or "
                     "smpl. A name that ends in .vrm has those of vrm")
         ->transform(CLI::CheckedTransformer(names))

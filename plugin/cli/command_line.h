@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
-#include "garmentfit/skinned_gltf.h"
+#include "garmentfit/filters/outfit.h"
 #include "session.h"
 
 namespace garmentfit::cli {
@@ -17,9 +17,7 @@ namespace garmentfit::cli {
 struct Call {
     const Filter* filter = nullptr;
     std::filesystem::path body, from, rig, joints, out;  ///< `from`: the folder that drape and recover continue
-    std::filesystem::path outfit;  ///< where body and clothes go as one skinned file; empty: nowhere
-    bool hide_covered_skin = false;  ///< of that file
-    BoneNames bones = BoneNames::garmentfit;  ///< of that file
+    OutfitRequest outfit;  ///< where body and clothes go as one skinned file; no path: nowhere
     std::vector<std::filesystem::path> garments;
     std::vector<std::string> types;  ///< the first for the first garment, ...; the rest is "auto"
     FrameChoice body_frame, garment_frame;

@@ -108,7 +108,7 @@ std::vector<std::string> outdated(const Call& call, const Session& session, cons
 void write(const Call& call, Session& session, OutputFolder& folder)
 {
     const auto start = std::chrono::steady_clock::now();
-    if (!call.outfit.empty())
+    if (!call.outfit.path.empty())
         read_looks(session);
     write_results(session, call.filter->name, folder.draft());
     add_warnings(session);  // after write_results, which certifies what it wrote
@@ -124,8 +124,8 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     stop_watching();
     folder.publish(outdated(call, session, folder));
     const Dressing* end = final_dressing(session.scene);
-    if (!call.outfit.empty() && end && end->certified)
-        write_outfit(session, call.outfit, call.bones, call.hide_covered_skin);
+    if (!call.outfit.path.empty() && end && end->certified)
+        write_outfit(session, call.outfit);
     if (call.json)
         std::cout << report;
     else if (!call.quiet)

@@ -9,11 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "garmentfit/animated_gltf.h"
-#include "garmentfit/covered_skin.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/warnings.h"
-#include "garmentfit/garment_weights.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 
@@ -199,14 +197,6 @@ void write_fitted_body(const Session& session, const fs::path& folder)
               { "garmentfit: the body in the pose fitted to " + session.garments[outer].name() });
 }
 
-std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, const Rig& rig)
-{
-    std::vector<SkinnedCloth> clothes;
-    for (std::size_t i = 1; i < meshes.size(); ++i)
-        clothes.push_back({ meshes[i].surface, meshes[i].weights });
-    return find_covered_skin(meshes[0].surface, rig, clothes);
-}
-
 // ---- what earlier runs wrote ---------------------------------------------------------------------------------------
 
 bool is_result(const fs::path& folder)
@@ -287,27 +277,12 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_last_state(session, *scene.draped, folder);
 }
 
-void write_outfit(const Session& session, const fs::path& path, BoneNames bones, bool hide_covered_skin)
+void write_outfit(const Session& session, const OutfitRequest& request)
 {
-    const Scene& scene = session.scene;
-    const Dressing& dressing = *scene.recovered;
-    const TriangleMesh body { dressing.body, scene.body->surface.triangles };
-    std::vector<SkinnedMesh> meshes { { "body", body, scene.rig->weights, session.body.look } };
-    for (const std::size_t i : dressing.worn()) {
-        const GarmentMesh& garment = scene.garments[i].mesh;
-        const Positions& worn = dressing.garments[i].positions;
-        meshes.push_back({ session.garments[i].path.stem().string(),
-                           { worn, garment.triangles },
-                           garment_weights(body, scene.rig->weights, garment, worn),
-                           session.garments[i].look });
-    }
-    if (hide_covered_skin)
-        meshes[0].covered = covered_by_clothes(meshes, *scene.rig);
-    meshes[0].hides_covered = hide_covered_skin;
-    if (path.has_parent_path())
-        fs::create_directories(path.parent_path());
-    write_outfit_glb(path, *scene.rig, meshes,
-                     { path.extension() == ".vrm" ? BoneNames::vrm : bones, path.stem().string() });
+    std::vector<OutfitPart> garments;
+    for (const GarmentFile& garment : session.garments)
+        garments.push_back({ garment.path.stem().string(), garment.look });
+    write_outfit(session.scene, { "body", session.body.look }, garments, request);
 }
 
 }  // namespace garmentfit::cli

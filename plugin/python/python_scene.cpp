@@ -8,6 +8,7 @@
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/joint_names.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/outfit.h"
 #include "garmentfit/filters/snapshot.h"
 #include "garmentfit/filters/warnings.h"
 
@@ -218,6 +219,32 @@ void set_worn(PythonScene& s, const nb::object& find, const NumbersIn& body, con
         worn.push_back(s.body_frame.to_metres(positions_from(garment)));
     const Positions left = s.body_frame.to_metres(positions_from(body));
     s.scene.draped = dressing_from(s.scene, dressed_pose_from(find_with(find)), left, worn, s.names);
+}
+
+void set_body_look(PythonScene& scene, const MeshFile& file)
+{
+    scene.body_look = std::make_shared<const Appearance>(file.appearance());
+}
+
+void set_garment_look(PythonScene& scene, const MeshFile& file)
+{
+    scene.garment_looks.resize(scene.scene.garments.size());
+    scene.garment_looks.back() = std::make_shared<const Appearance>(file.appearance());
+}
+
+void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, const std::string& bones,
+                     bool hide_covered_skin)
+{
+    const auto part = [](std::string name, const std::shared_ptr<const Appearance>& look) {
+        return OutfitPart { std::move(name), look ? *look : Appearance() };
+    };
+    std::vector<OutfitPart> garments;
+    for (std::size_t i = 0; i < s.names.size(); ++i)
+        garments.push_back(part(std::filesystem::path(s.names[i]).stem().string(),
+                                i < s.garment_looks.size() ? s.garment_looks[i] : nullptr));
+    const OutfitRequest request { path, bone_names_called(bones), hide_covered_skin };
+    const nb::gil_scoped_release other_threads_run;
+    write_outfit(s.scene, part("body", s.body_look), garments, request);
 }
 
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress)

@@ -4,12 +4,16 @@
 // A scene, the frames of its inputs, and the filters that run on it. A scene that Python holds never changes: each step
 // works on a copy.
 
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "garmentfit/appearance.h"
 #include "garmentfit/filters/filters.h"
+#include "garmentfit/io.h"
 #include "garmentfit/units.h"
 #include "numpy_arrays.h"
 
@@ -23,6 +27,8 @@ struct PythonScene {
     std::vector<std::string> frame_warnings;  ///< one line for each guess of unit, axes and scale that is uncertain
     std::optional<Vec3> front;
     GivenJoints joints;
+    std::shared_ptr<const Appearance> body_look;  ///< of the body's file; null where it was made of arrays
+    std::vector<std::shared_ptr<const Appearance>> garment_looks;  ///< of each garment, or null
     ClothOptions cloth;  ///< of the last step that moved the garments
 
     /// @throws InvalidInput naming the step that is missing.
@@ -46,6 +52,15 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
 /// Sets body and garments as worn in the body's DressedPose, in its units. @throws InvalidInput.
 void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);
+
+/// UVs, materials and pictures of the file that the body, or the garment that was added last, was read from.
+void set_body_look(PythonScene& scene, const MeshFile& file);
+void set_garment_look(PythonScene& scene, const MeshFile& file);
+
+/// Body and garments as one skinned file that other programs can pose. Other Python threads run meanwhile.
+/// @throws InvalidInput.
+void write_outfit_of(const PythonScene& scene, const std::filesystem::path& path, const std::string& bones,
+                     bool hide_covered_skin);
 
 /// Runs a filter of the table on a copy. Other Python threads run meanwhile; progress(fraction, stage) returns False to
 /// stop.

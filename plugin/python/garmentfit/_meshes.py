@@ -25,7 +25,7 @@ class Mesh:
         self.positions: Positions = _numbers(positions, "positions")
         self.triangles: Triangles = _indices(triangles)
         self.name = name
-        self._file = file
+        self.file = file  #: what it was read from, with UVs, materials and textures; None for arrays
 
     def __repr__(self) -> str:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
@@ -34,8 +34,8 @@ class Mesh:
         """Writes the file that this mesh was read from with other positions. Vertices, order, UVs, groups and materials
         stay; normals are computed anew. A mesh that was made from arrays is written as PLY."""
         moved = self.positions if positions is None else _numbers(positions, "positions")
-        if self._file is not None:
-            self._file.write(Path(path), moved)
+        if self.file is not None:
+            self.file.write(Path(path), moved)
         elif Path(path).suffix.lower() == ".ply":
             _core.write_mesh(Path(path), moved, self.triangles)
         else:

@@ -5,7 +5,9 @@ Each function takes the parameters of its filter as keyword arguments. Their doc
 """
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Callable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -212,6 +214,17 @@ class Dressing(_Result):
         """States on the pose path to the body's input pose: at most `frames`, without those that are not certified."""
         return [Frame(*frame) for frame in self._scene.frames()]
 
+    def write_outfit(self, path: Union[str, "os.PathLike[str]"], *, bones: str = "garmentfit",
+                     hide_covered_skin: bool = False) -> None:
+        """Writes body and clothes as one skinned GLB, or VRM by its name: one skeleton, and weights for all meshes, so
+        that other programs can pose them. Meshes from read_mesh keep their UVs, materials and textures.
+
+        bones: the program whose joints and names it has: garmentfit, vrm, mixamo, unreal or smpl.
+        hide_covered_skin: leaves out faces of the body that the clothes cover in all poses of everyday movement.
+        Only of a certified result in the body's own pose (dress, recover_pose).
+        """
+        self._scene.write_outfit(Path(path), bones, hide_covered_skin)
+
 
 def _dressed(garment: Mapping[str, Any]) -> DressedGarment:
     parts = dict(garment)
@@ -227,7 +240,10 @@ def _scene_of(body: MeshLike, unit: str, up: str, front: str,
               joints: Optional[Mapping[str, Sequence[float]]], parameters: Mapping[str, Any]) -> _core.Scene:
     mesh = as_mesh(body)
     known = {name: [float(x) for x in place] for name, place in (joints or {}).items()}
-    return _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known, dict(parameters))
+    scene = _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known, dict(parameters))
+    if mesh.file is not None:
+        scene.set_body_look(mesh.file)
+    return scene
 
 
 def _sizes_of(garment: Garment, parameters: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -247,6 +263,8 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
         named = mesh.name if len(layers) == 1 or mesh.name != "the garment" else f"garment {i + 1}"
         dressed.add_garment(mesh.positions, mesh.triangles, garment.type, unit, up, garment.front or front,
                             dict(_sizes_of(garment, parameters)), named)
+        if mesh.file is not None:
+            dressed.set_garment_look(mesh.file)
     return dressed
 
 

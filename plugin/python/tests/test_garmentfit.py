@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The functions of the package."""
+import json
 import signal
 import threading
 from pathlib import Path
@@ -213,3 +214,43 @@ def test_automatic_layer_order_sorts_by_type(body, skirt):
     rig = garmentfit.rig_body(body)
     assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt]).garments] == [0, 1]
     assert [fit.layer for fit in garmentfit.fit_skeleton(rig, [coat, shirt], layer_order="auto").garments] == [1, 0]
+
+
+def _glb_json(path):
+    data = path.read_bytes()
+    assert data[:4] == b"glTF"
+    return json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+
+
+def test_an_outfit_is_one_skinned_file(dressed, body, tmp_path):
+    dressed.write_outfit(tmp_path / "new" / "outfit.glb", bones="mixamo", hide_covered_skin=True)
+    outfit = _glb_json(tmp_path / "new" / "outfit.glb")
+    assert [mesh["name"] for mesh in outfit["meshes"]] == ["body", "skirt"]
+    assert "mixamorig:Hips" in [node.get("name") for node in outfit["nodes"]]
+    assert len(outfit["skins"]) == 1
+    assert outfit["accessors"][outfit["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]["count"] == \
+        len(body.positions)
+
+
+def test_an_outfit_keeps_materials_of_files(body, skirt, tmp_path):
+    shape = "\n".join([f"v {x} {y} {z}" for x, y, z in skirt.positions] + ["vt .5 .5", "usemtl red"]
+                      + [f"f {a}/1 {b}/1 {c}/1" for a, b, c in skirt.triangles + 1])
+    (tmp_path / "red.obj").write_text("mtllib red.mtl\n" + shape)
+    (tmp_path / "red.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    red = garmentfit.read_mesh(tmp_path / "red.obj")
+    garmentfit.dress(body, red, **QUICK).write_outfit(tmp_path / "red.vrm")
+    outfit = _glb_json(tmp_path / "red.vrm")
+    assert "VRMC_vrm" in outfit["extensionsUsed"]
+    assert "red" in [material["name"] for material in outfit["materials"]]
+
+
+def test_an_outfit_needs_a_certified_result_in_the_bodys_pose(dressed, body, skirt, tmp_path):
+    fit = garmentfit.fit_skeleton(garmentfit.rig_body(body), skirt)
+    draped = garmentfit.drape_garment(fit, settling_steps=2)
+    with pytest.raises(garmentfit.InvalidInput, match="recover the pose"):
+        draped.write_outfit(tmp_path / "outfit.glb")
+    with pytest.raises(garmentfit.InvalidInput, match="ends in .glb or .vrm"):
+        dressed.write_outfit(tmp_path / "outfit.fbx")
+    with pytest.raises(garmentfit.InvalidInput, match="one of garmentfit, vrm"):
+        dressed.write_outfit(tmp_path / "outfit.glb", bones="biped")
+    assert not list(tmp_path.iterdir())

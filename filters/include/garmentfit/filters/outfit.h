@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A dressed body and its clothes in one file that other programs can pose.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "garmentfit/filters/filters.h"
+#include "garmentfit/skinned_gltf.h"
+
+namespace garmentfit {
+
+/// What a file says of a mesh beside its shape.
+struct OutfitPart {
+    std::string name;
+    Appearance look {};  ///< of the triangles of the mesh in the scene; empty where nothing is known
+};
+
+struct OutfitRequest {
+    std::filesystem::path path;  ///< ends in .glb, or in .vrm, which has the joints of VRM whatever `bones` says
+    BoneNames bones = BoneNames::garmentfit;
+    bool hide_covered_skin
+        = false;  ///< leaves out faces of the body that clothes cover in all poses of everyday movement
+};
+
+/// "garmentfit", "vrm", "mixamo", "unreal" and "smpl".
+const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets();
+
+/// @throws InvalidInput naming the sets that there are.
+BoneNames bone_names_called(const std::string& name);
+
+/// "" where an outfit can have this name; else a line that says which one it needs.
+std::string fault_of_outfit_name(const std::filesystem::path& path);
+
+/// Writes body and worn garments, in the body's input pose, as one skinned GLB: one skeleton, weights for all meshes.
+/// Makes the folder where there is none; never leaves a half-written file. Cost: some seconds for 10^4 vertices.
+/// @param body, garments  in the order of the scene, for all of its garments
+/// @throws InvalidInput: the pose is not recovered, the result is not certified, another name, a place that cannot be
+/// written.
+void write_outfit(const Scene& scene, const OutfitPart& body, const std::vector<OutfitPart>& garments,
+                  const OutfitRequest& request);
+
+}  // namespace garmentfit

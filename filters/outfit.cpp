@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/filters/outfit.h"
+
+#include <algorithm>
+
+#include "garmentfit/covered_skin.h"
+#include "garmentfit/error.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/garment_weights.h"
+
+namespace garmentfit {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<OutfitPart>& parts)
+{
+    std::vector<std::string> names;
+    for (const OutfitPart& part : parts)
+        names.push_back(part.name);
+    return names;
+}
+
+void check(const Scene& scene, const std::vector<OutfitPart>& garments, const std::filesystem::path& path)
+{
+    if (const std::string fault = fault_of_outfit_name(path); !fault.empty())
+        throw InvalidInput(ErrorCode::wrong_call, fault);
+    if (!scene.recovered)
+        throw InvalidInput(ErrorCode::missing_input,
+                           "an outfit shows the body in its own pose; recover the pose before it is written");
+    if (!scene.recovered->certified)
+        throw InvalidInput(ErrorCode::invalid_input,
+                           "only what is certified is written as an outfit: "
+                               + explain(*scene.recovered, names_of(garments)));
+}
+
+std::vector<SkinnedMesh> skinned_meshes(const Scene& scene, const OutfitPart& body,
+                                        const std::vector<OutfitPart>& garments)
+{
+    const Dressing& dressing = *scene.recovered;
+    const TriangleMesh skin { dressing.body, scene.body->surface.triangles };
+    std::vector<SkinnedMesh> meshes { { body.name, skin, scene.rig->weights, body.look } };
+    for (const std::size_t i : dressing.worn()) {
+        const GarmentMesh& garment = scene.garments[i].mesh;
+        const Positions& worn = dressing.garments[i].positions;
+        meshes.push_back({ garments.at(i).name,
+                           { worn, garment.triangles },
+                           garment_weights(skin, scene.rig->weights, garment, worn),
+                           garments.at(i).look });
+    }
+    return meshes;
+}
+
+std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, const Rig& rig)
+{
+    std::vector<SkinnedCloth> clothes;
+    for (std::size_t i = 1; i < meshes.size(); ++i)
+        clothes.push_back({ meshes[i].surface, meshes[i].weights });
+    return find_covered_skin(meshes[0].surface, rig, clothes);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets()
+{
+    static const std::vector<std::pair<std::string, BoneNames>> sets { { "garmentfit", BoneNames::garmentfit },
+                                                                       { "vrm", BoneNames::vrm },
+                                                                       { "mixamo", BoneNames::mixamo },
+                                                                       { "unreal", BoneNames::unreal },
+                                                                       { "smpl", BoneNames::smpl } };
+    return sets;
+}
+
+BoneNames bone_names_called(const std::string& name)
+{
+    std::string known;
+    for (const auto& [each, names] : bone_name_sets()) {
+        if (each == name)
+            return names;
+        known += (known.empty() ? "" : ", ") + each;
+    }
+    throw InvalidInput(ErrorCode::unknown_name, "there are no bones called \"" + name + "\"; give one of " + known);
+}
+
+std::string fault_of_outfit_name(const std::filesystem::path& path)
+{
+    const std::string extension = path.extension().string();
+    return extension == ".glb" || extension == ".vrm" ? "" : path.string() + ": give a name that ends in .glb or .vrm";
+}
+
+void write_outfit(const Scene& scene, const OutfitPart& body, const std::vector<OutfitPart>& garments,
+                  const OutfitRequest& request)
+{
+    check(scene, garments, request.path);
+    std::vector<SkinnedMesh> meshes = skinned_meshes(scene, body, garments);
+    if (request.hide_covered_skin)
+        meshes[0].covered = covered_by_clothes(meshes, *scene.rig);
+    meshes[0].hides_covered = request.hide_covered_skin;
+    if (request.path.has_parent_path())
+        std::filesystem::create_directories(request.path.parent_path());
+    write_outfit_glb(
+        request.path, *scene.rig, meshes,
+        { request.path.extension() == ".vrm" ? BoneNames::vrm : request.bones, request.path.stem().string() });
+}
+
+}  // namespace garmentfit
