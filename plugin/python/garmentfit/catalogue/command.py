@@ -152,13 +152,22 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
                 with tqdm(total=total, initial=total - len(jobs), desc=kind, unit="pair" if kind == "dress" else "body",
                           disable=None if not options.quiet else True) as bar:
                     run_jobs(run_job, jobs, options.scheduler, options.workers, lambda row: bar.update())
-    except (Fatal, SchedulerLost, OSError) as error:
-        print(f"garmentfit catalogue: {error}", file=sys.stderr)
-        return 4
-    except KeyboardInterrupt:
-        print(_STOPPED, file=sys.stderr)
-        return 130
+    except BaseException as error:
+        if _is_ctrl_c(error):
+            print(_STOPPED, file=sys.stderr)
+            return 130
+        if isinstance(error, (Fatal, SchedulerLost, OSError)):
+            print(f"garmentfit catalogue: {error}", file=sys.stderr)
+            return 4
+        raise
     return 0
+
+
+def _is_ctrl_c(error) -> bool:
+    """Also where closing the workers failed after it."""
+    while error and not isinstance(error, KeyboardInterrupt):
+        error = error.__context__
+    return error is not None
 
 
 def write_results(store: Store) -> None:

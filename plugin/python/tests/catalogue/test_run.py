@@ -19,6 +19,7 @@ for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
     pytest.importorskip(needed)
 import psutil  # noqa: E402
 import pyarrow.parquet  # noqa: E402
+from garmentfit.catalogue import command, scheduling  # noqa: E402
 from garmentfit.catalogue.store import Store  # noqa: E402
 
 FAKE = f"{sys.executable} {Path(__file__).parent / 'fake_program.py'}"
@@ -150,6 +151,18 @@ def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
     assert trial.run().returncode == 0
     after = trial.finished()
     assert len(after) == 30 and all(after[key] == before[key] for key in before)
+
+
+def test_ctrl_c_is_no_lost_scheduler_where_closing_fails_after_it(tmp_path, monkeypatch, capsys):
+    def stopped(*_):
+        try:
+            raise KeyboardInterrupt
+        finally:
+            raise TimeoutError("the workers did not close in time")
+    trial = Trial(tmp_path, 1, ["ok"])
+    monkeypatch.setattr(scheduling, "run_jobs", stopped)
+    assert command.main(trial.command[len(CATALOGUE):]) == 130
+    assert "the same command goes on from here" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("seed", [1, 2])
