@@ -412,6 +412,7 @@ TEST(FitSkeleton, SortsLayersWhereTheirOrderIsAutomatic)
     vtkNew<vtkFitSkeleton> fit;
     fit->SetInputConnection(0, rig->GetOutputPort());
     fit->SetInputData(1, layers);
+    fit->SetTypeByName("shorts");  // so that the width decides
     fit->Update();
     EXPECT_EQ(number(polydata(*fit, 0), "FitLayers"), 0) << "as given";
     fit->SetLayerOrderByName("auto");
