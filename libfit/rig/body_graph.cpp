@@ -9,6 +9,7 @@
 #include <string>
 
 #include "curve_loops.h"
+#include "curve_tree.h"
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
 #include "tuning.h"
@@ -27,83 +28,8 @@ enum Part : int { head_end, hand_end, foot_end };
 // Lengths along the curves between the ends as shares of stature, rows and columns as Part.
 constexpr double k_between[k_parts][k_parts] = { { 0, 0.61, 1.05 }, { 0.61, 0.90, 1.31 }, { 1.05, 1.31, 1.215 } };
 
-/// A graph from which branches are removed.
-class Tree {
-public:
-    explicit Tree(const CurveSkeleton& skeleton) : nodes_(skeleton.nodes), neighbours_(skeleton.nodes.size())
-    {
-        for (const auto& [a, b] : skeleton.edges) {
-            neighbours_[a].push_back(b);
-            neighbours_[b].push_back(a);
-        }
-    }
-
-    std::vector<int> leaves() const
-    {
-        std::vector<int> result;
-        for (int n = 0; n < int(nodes_.size()); ++n)
-            if (neighbours_[n].size() == 1)
-                result.push_back(n);
-        return result;
-    }
-
-    /// Nodes from a leaf to the next fork, the fork included; to the other leaf if there is no fork.
-    std::vector<int> branch(int leaf) const
-    {
-        std::vector<int> nodes { leaf };
-        for (int before = -1, n = leaf;;) {
-            const auto next
-                = std::find_if(neighbours_[n].begin(), neighbours_[n].end(), [&](int m) { return m != before; });
-            if (next == neighbours_[n].end())
-                return nodes;
-            before = n;
-            n = *next;
-            nodes.push_back(n);
-            if (neighbours_[n].size() != 2)
-                return nodes;
-        }
-    }
-
-    double length(const std::vector<int>& path) const
-    {
-        double sum = 0;
-        for (std::size_t i = 1; i < path.size(); ++i)
-            sum += (nodes_[path[i]] - nodes_[path[i - 1]]).norm();
-        return sum;
-    }
-
-    void remove(const std::vector<int>& branch)
-    {
-        for (std::size_t i = 0; i + 1 < branch.size(); ++i)
-            neighbours_[branch[i]].clear();
-        auto& fork = neighbours_[branch.back()];
-        fork.erase(std::find(fork.begin(), fork.end(), branch[branch.size() - 2]));
-    }
-
-    /// @pre neither node was removed
-    std::vector<int> path(int from, int to) const
-    {
-        std::vector<int> before(nodes_.size(), -1), front { to };
-        before[to] = to;
-        for (std::size_t i = 0; i < front.size() && before[from] < 0; ++i)
-            for (const int n : neighbours_[front[i]])
-                if (before[n] < 0) {
-                    before[n] = front[i];
-                    front.push_back(n);
-                }
-        std::vector<int> result { from };
-        while (result.back() != to)
-            result.push_back(before[result.back()]);
-        return result;
-    }
-
-private:
-    std::vector<Vec3> nodes_;
-    std::vector<std::vector<int>> neighbours_;
-};
-
 /// Removes the shortest branches (fingers, toes, ears, nose) until `ends` leaves remain.
-std::vector<int> prune_to_ends(Tree& tree, std::size_t ends)
+std::vector<int> prune_to_ends(CurveTree& tree, std::size_t ends)
 {
     std::vector<int> leaves = tree.leaves();
     if (leaves.size() < ends)
@@ -155,7 +81,7 @@ Labels score_labels(const std::vector<int>& order, const Eigen::MatrixXd& length
 }
 
 /// The permutation of leaves with the smallest spread.
-Labels best_labels(const Tree& tree, const std::vector<int>& leaves)
+Labels best_labels(const CurveTree& tree, const std::vector<int>& leaves)
 {
     const int n = int(leaves.size());
     Eigen::MatrixXd lengths(n, n);
@@ -185,7 +111,7 @@ Labels best_labels(const Tree& tree, const std::vector<int>& leaves)
 
 /// A curve skeleton without loops, pruned to the branches whose ends have names.
 struct NamedTree {
-    Tree tree;
+    CurveTree tree;
     Labels labels;
 };
 
@@ -197,7 +123,7 @@ NamedTree best_tree(const std::vector<CurveSkeleton>& ways, std::size_t ends)
     std::optional<InvalidInput> refusal;
     for (const CurveSkeleton& way : ways)
         try {
-            Tree tree(way);
+            CurveTree tree(way);
             const std::vector<int> leaves = prune_to_ends(tree, ends);
             const Labels labels = best_labels(tree, leaves);
             if (!best || labels.spread < best->labels.spread)
@@ -237,7 +163,7 @@ std::vector<int> beyond(const std::vector<int>& trunk, const std::vector<int>& p
 }
 
 /// Stature from the distances between head and feet only: an arm that was cut off a hip has a wrong length.
-double size_by_legs(const Tree& tree, int head, int foot0, int foot1)
+double size_by_legs(const CurveTree& tree, int head, int foot0, int foot1)
 {
     const auto distance = [&](int a, int b) { return tree.length(tree.path(a, b)); };
     return std::cbrt(distance(head, foot0) * distance(head, foot1) * distance(foot0, foot1)
@@ -271,17 +197,12 @@ std::vector<BodyGraph::Place> assign_places(const BodyGraph& graph, const CurveS
 
 }  // namespace
 
-BodyGraph body_graph(const CurveSkeleton& skeleton)
+BodyGraph graph_of(const CurveTree& tree, const Ends& ends, const CurveSkeleton& skeleton)
 {
-    const auto [tree, labels] = name_tree(open_loops(skeleton));
-    const int* end = labels.ends.data() + labels.ends.size() - 4;
-    const int hand0 = end[0], hand1 = end[1], foot0 = end[2], foot1 = end[3];
-
+    const auto [head, hand0, hand1, foot0, foot1] = ends;
     BodyGraph graph;
-    graph.size = labels.size;
-    graph.headless = labels.headless();
-    graph.size_by_legs = graph.headless ? graph.size : size_by_legs(tree, labels.ends[0], foot0, foot1);
-    const int top = graph.headless ? beyond(tree.path(foot0, hand0), tree.path(foot0, hand1)).front() : labels.ends[0];
+    graph.headless = head < 0;
+    const int top = graph.headless ? beyond(tree.path(foot0, hand0), tree.path(foot0, hand1)).front() : head;
     graph.legs[0] = beyond(tree.path(top, foot1), tree.path(top, foot0));
     graph.legs[1] = beyond(tree.path(top, foot0), tree.path(top, foot1));
     const std::vector<int> spine = tree.path(graph.legs[0].front(), top);
@@ -296,6 +217,17 @@ BodyGraph body_graph(const CurveSkeleton& skeleton)
     graph.trunk.assign(spine.begin(), fork + 1);
     graph.head.assign(fork, spine.end());
     graph.place_of_node = assign_places(graph, skeleton);
+    return graph;
+}
+
+BodyGraph body_graph(const CurveSkeleton& skeleton)
+{
+    const auto [tree, labels] = name_tree(open_loops(skeleton));
+    const int* end = labels.ends.data() + labels.ends.size() - 4;
+    const Ends ends { labels.headless() ? -1 : labels.ends[0], end[0], end[1], end[2], end[3] };
+    BodyGraph graph = graph_of(tree, ends, skeleton);
+    graph.size = labels.size;
+    graph.size_by_legs = graph.headless ? graph.size : size_by_legs(tree, ends.head, ends.foot0, ends.foot1);
     return graph;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "curve_skeleton.h"
+#include "curve_tree.h"
 
 namespace garmentfit {
 
@@ -34,6 +35,14 @@ struct BodyGraph {
         return c < 2 ? arms[c] : c < k_head_curve ? legs[c - 2] : c == k_head_curve ? head : trunk;
     }
 };
+
+/// Leaves of a tree by name, as nodes; head is -1 where there is none.
+struct Ends {
+    int head, hand0, hand1, foot0, foot1;
+};
+
+/// The curves between the ends, without sizes. @throws InvalidInput when the arms do not leave the spine.
+BodyGraph graph_of(const CurveTree& tree, const Ends& ends, const CurveSkeleton& skeleton);
 
 /// Opens loops, prunes the graph to five ends (four if no head is found) and names them by the lengths between them,
 /// which do not depend on the pose. O(n^2).

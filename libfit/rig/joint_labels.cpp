@@ -4,6 +4,7 @@
 #include <string>
 
 #include "garmentfit/error.h"
+#include "spine_line.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -27,27 +28,6 @@ Centreline extend(const Centreline& line, const Vec3& to)
     return polyline(points, line.length() / line.size());
 }
 
-/// From the pelvis through the centroids of cuts of the trunk to the top of the head's curve. Where the arms leave the
-/// trunk, cuts are not free and are ignored.
-Centreline trace_spine(const LabelledSurface& surface, const Slicer& slicer, const Vec3& pelvis, const Vec3& up)
-{
-    const auto is_limb = [&](int vertex) {
-        const int node = surface.skeleton.node_of_vertex[vertex];
-        return node >= 0 && surface.graph.place_of_node[node].curve < k_head_curve;
-    };
-    std::vector<Vec3> curve = surface.curve(k_trunk_curve);
-    const std::vector<Vec3> head = surface.curve(k_head_curve);
-    curve.insert(curve.end(), head.begin() + 1, head.end());
-    const double spacing = k_spacing * surface.graph.size;
-    const Centreline cuts = centreline(slicer, curve, spacing, is_limb);
-    std::vector<Vec3> middles { pelvis };
-    for (int i = 0; i < cuts.size(); ++i)
-        if (cuts.free[i] && cuts.across[i]
-            && (cuts.points[i] - pelvis).dot(up) > k_pelvis_cuts * k_spacing * surface.graph.size)
-            middles.push_back(cuts.points[i]);
-    return polyline(middles, k_spine_spacing * k_spacing * surface.graph.size);
-}
-
 /// The highest point of a line that is at least `distance` away from `end`, a point beyond its last one; m.
 Vec3 point_below(const Centreline& line, const Vec3& end, double distance)
 {
@@ -64,12 +44,6 @@ Vec3 mean_point(const Centreline& line, double from, double to)
     for (int i = 0; i < k_mean_points; ++i)
         sum += line.at(line.length() - from + (from - to) * (i + 0.5) / k_mean_points) / k_mean_points;
     return sum;
-}
-
-Vec3 find_crown(const LabelledSurface& surface, const Vec3& up)
-{
-    const int top = surface.graph.headless ? k_trunk_curve : k_head_curve;
-    return farthest_along(surface.last_vertices(top, k_crown_skin * surface.graph.size), up);
 }
 
 /// Closed clothes without a body look like a body without a head, but their sleeves and legs end narrow.
@@ -114,14 +88,6 @@ void place_neck(const Centreline& spine, bool headless, BodyJoints& joints)
         joints.head_off_neck
             = mean_point(spine, k_head * joints.size, 0) - mean_point(spine, k_neck * joints.size, k_jaw * joints.size);
     joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
-}
-
-/// Three bones of equal length along the line from pelvis to neck.
-void place_back(const Centreline& spine, BodyJoints& joints)
-{
-    const double neck = spine.arcs[spine.nearest_row(joints.neck_base)];
-    joints.lower_spine = spine.at(neck / 3);
-    joints.upper_spine = spine.at(neck * 2 / 3);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "body_graph.h"
 #include "curve_skeleton.h"
+#include "figure_graph.h"
+#include "figure_joints.h"
 #include "garmentfit/error.h"
 #include "given_joints.h"
 #include "heat_weights.h"
@@ -109,11 +111,15 @@ struct VisibleRig {
     VisibleBones visible;
 };
 
-VisibleRig find_bones(const TriangleMesh& proxy, const RigOptions& options, const Progress& progress)
+/// A decimated copy of the body and its curves, which the human and the figure are both looked for in.
+struct Contracted {
+    TriangleMesh proxy;
+    CurveSkeleton curves;
+};
+
+VisibleRig name_sides(const CurveSkeleton& curves, const BodyGraph& graph, const BodyJoints& joints,
+                      const RigOptions& options)
 {
-    const CurveSkeleton curves = curve_skeleton(proxy, progress);
-    const BodyGraph graph = body_graph(curves);
-    const BodyJoints joints = label_joints(proxy, curves, graph);
     Sides sides = classify_sides(joints, options.front);
     if (options.swap_sides) {
         sides.left_arm = 1 - sides.left_arm;
@@ -126,6 +132,18 @@ VisibleRig find_bones(const TriangleMesh& proxy, const RigOptions& options, cons
     found.rig.front = sides.front;
     found.rig.side_confidence = sides.confidence;
     return found;
+}
+
+VisibleRig find_bones(const Contracted& body, const RigOptions& options)
+{
+    const BodyGraph graph = body_graph(body.curves);
+    return name_sides(body.curves, graph, label_joints(body.proxy, body.curves, graph), options);
+}
+
+VisibleRig find_bones_of_figure(const Contracted& body, const RigOptions& options)
+{
+    const Figure figure = figure_graph(body.curves, body.proxy);
+    return name_sides(body.curves, figure.graph, label_figure(body.proxy, body.curves, figure), options);
 }
 
 /// For joints that are all given: nothing is searched, and every vertex may belong to every bone.
@@ -141,16 +159,12 @@ VisibleRig take_given_bones(const TriangleMesh& proxy, const GivenJoints& joints
     return given;
 }
 
-Rig rig_by_proxy(const BodyMesh& body, int proxy_vertices, const RigOptions& options, const Progress& progress)
+/// Adds weights and radii.
+Rig weigh(VisibleRig found, const TriangleMesh& proxy, const BodyMesh& body, const Progress& progress)
 {
-    const TriangleMesh proxy = proxy_surface(body.closed, proxy_vertices);
-    progress.at(0.15);
-    auto [rig, visible] = options.joints.is_complete() ? take_given_bones(proxy, options.joints)
-                                                       : find_bones(proxy, options, progress.part(0.15, 0.8));
-    progress.at(0.8);
-    check_rig(proxy, rig.skeleton);
-    const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, visible);
-    progress.at(0.9);
+    Rig& rig = found.rig;
+    const Eigen::MatrixXd weights = heat_weights(proxy, rig.skeleton, found.visible);
+    progress.at(0.5);
     rig.weights = transfer_skin_weights(proxy, weights, body);
     rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
     progress.at(1);
@@ -178,14 +192,29 @@ struct Attempt {
 // At touching hands or deep bends the flow may fail with one triangulation and succeed with another.
 constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { k_coarser_proxy, 0.9, 0.95 }, { k_finer_proxy, 0.95, 1 } };
 
+/// What was contracted so far, one for each attempt.
+using Attempts = std::vector<Contracted>;
+
 /// @throws InvalidInput of the first attempt, when no attempt gives a valid rig.
-Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, Attempts& tried, const Progress& progress)
 {
     std::optional<InvalidInput> refusal;
     for (const Attempt& attempt : k_attempts)
         try {
-            Rig rig = rig_by_proxy(body, int(attempt.proxy * options.proxy_vertices), options,
-                                   progress.part(attempt.from, attempt.to));
+            const Progress part = progress.part(attempt.from, attempt.to);
+            Contracted contracted { proxy_surface(body.closed, int(attempt.proxy * options.proxy_vertices)), {} };
+            part.at(0.15);
+            VisibleRig found;
+            if (options.joints.is_complete())
+                found = take_given_bones(contracted.proxy, options.joints);
+            else {
+                contracted.curves = curve_skeleton(contracted.proxy, part.part(0.15, 0.8));
+                tried.push_back(contracted);
+                found = find_bones(contracted, options);
+            }
+            part.at(0.8);
+            check_rig(contracted.proxy, found.rig.skeleton);
+            Rig rig = weigh(std::move(found), contracted.proxy, body, part.part(0.8, 1));
             progress.at(1);
             return rig;
         } catch (const InvalidInput& reason) {
@@ -195,7 +224,49 @@ Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, const Progr
     throw *refusal;
 }
 
+/// Of all attempts, the rig that is most likely one of a human. @throws `refusal` when there is none.
+Rig likeliest_figure(const BodyMesh& body, const RigOptions& options, const Attempts& tried,
+                     const InvalidInput& refusal)
+{
+    std::optional<VisibleRig> best;
+    const TriangleMesh* proxy = nullptr;
+    for (const Contracted& contracted : tried)
+        try {
+            VisibleRig found = find_bones_of_figure(contracted, options);
+            const HumanLikeness human = human_likeness(contracted.proxy, found.rig.skeleton);
+            found.rig.human_probability = human.probability;
+            found.rig.not_human = human.furthest;
+            if (!best || human.probability > best->rig.human_probability) {
+                best = std::move(found);
+                proxy = &contracted.proxy;
+            }
+        } catch (const InvalidInput&) {
+            // another triangulation may do
+        }
+    if (!best)
+        throw refusal;
+    return weigh(*std::move(best), *proxy, body, {});
+}
+
+Rig rig_at_origin(const BodyMesh& body, const RigOptions& options, const Progress& progress)
+{
+    Attempts tried;
+    try {
+        return first_valid_rig(body, options, tried, progress);
+    } catch (const InvalidInput& refusal) {
+        if (options.humanlike == Humanlike::strict || options.joints.is_complete())
+            throw;
+        return likeliest_figure(body, options, tried, refusal);
+    }
+}
+
 }  // namespace
+
+const std::vector<std::string_view>& humanlike_names()
+{
+    static const std::vector<std::string_view> names { "any", "strict" };
+    return names;
+}
 
 Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
@@ -205,7 +276,7 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     centred.joints = translate(options.joints, -centre);
     if (!options.joints.is_complete())
         check_shape(at_origin.closed);
-    Rig rig = first_valid_rig(at_origin, centred, progress);
+    Rig rig = rig_at_origin(at_origin, centred, progress);
     rig.skeleton = translate(rig.skeleton, centre);
     return rig;
 }

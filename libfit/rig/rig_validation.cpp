@@ -2,7 +2,9 @@
 #include "rig_validation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -22,7 +24,8 @@ using namespace rig_tuning;
 
 constexpr int k_samples = 5;  // unit: of each bone, ends included
 
-void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
+/// Of samples on the bones.
+double share_inside(const TriangleMesh& closed, const Skeleton& skeleton)
 {
     int inside = 0;
     for (int b = 0; b < bone_count; ++b)
@@ -31,7 +34,12 @@ void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
             inside += winding_number(closed, (1 - t) * skeleton.head(b) + t * skeleton.tail(b))
                 > 0.5;  // derived: 1 inside, 0 outside
         }
-    const double share = double(inside) / (bone_count * k_samples);
+    return double(inside) / (bone_count * k_samples);
+}
+
+void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
+{
+    const double share = share_inside(closed, skeleton);
     if (share < k_inside_share)
         throw InvalidInput(ErrorCode::not_human,
                            "body: only " + fixed_text(share, 2) + " of the skeleton lies inside it (at least "
@@ -51,29 +59,49 @@ void check_sides(const Skeleton& skeleton)
     }
 }
 
-void check_proportion(const char* what, double value, const Proportion& human)
-{
-    if (!(value >= human.least && value <= human.most))  // not a number fails too
-        throw InvalidInput(ErrorCode::not_human,
-                           std::string("body: the ratio ") + what + " is " + fixed_text(value, 2) + ", a human has "
-                               + fixed_text(human.least, 2) + " to " + fixed_text(human.most, 2)
-                               + "; give a human body whose limbs do not merge, or give joints");
-}
+/// A ratio of lengths, and the interval in which a human's lies.
+struct NamedRatio {
+    const char* what;
+    double value;
+    Proportion human;
 
-void check_proportions(const Skeleton& s)
+    /// How far outside, as a logarithm; 0 inside.
+    double excess() const
+    {
+        return std::isfinite(value) && value > 0
+            ? std::max({ 0.0, std::log(human.least / value), std::log(value / human.most) })
+            : std::numeric_limits<double>::infinity();
+    }
+    std::string text() const
+    {
+        return std::string("the ratio ") + what + " is " + fixed_text(value, 2) + ", a human has "
+            + fixed_text(human.least, 2) + " to " + fixed_text(human.most, 2);
+    }
+};
+
+std::array<NamedRatio, 7> ratios_of(const Skeleton& s)
 {
     const double arm = s.length(lhumerus) + s.length(lradius), leg = s.length(lfemur) + s.length(ltibia);
     const double trunk = (s.tail(thorax) - s.root).norm();
     const double hip_width = (s.tail(lhipjoint) - s.tail(rhipjoint)).norm();
     const double shoulder_width = (s.tail(lclavicle) - s.tail(rclavicle)).norm();
     const double collarbone = std::max(s.length(lclavicle), s.length(rclavicle));
-    check_proportion("upper arm to forearm", s.length(lhumerus) / s.length(lradius), k_upper_arm_to_forearm);
-    check_proportion("thigh to shin", s.length(lfemur) / s.length(ltibia), k_thigh_to_shin);
-    check_proportion("arm to leg", arm / leg, k_arm_to_leg);
-    check_proportion("trunk to leg", trunk / leg, k_trunk_to_leg);
-    check_proportion("hip width to leg", hip_width / leg, k_hip_width_to_leg);
-    check_proportion("shoulder width to leg", shoulder_width / leg, k_shoulder_width_to_leg);
-    check_proportion("collarbone to leg", collarbone / leg, k_collarbone_to_leg);
+    return { { { "upper arm to forearm", s.length(lhumerus) / s.length(lradius), k_upper_arm_to_forearm },
+               { "thigh to shin", s.length(lfemur) / s.length(ltibia), k_thigh_to_shin },
+               { "arm to leg", arm / leg, k_arm_to_leg },
+               { "trunk to leg", trunk / leg, k_trunk_to_leg },
+               { "hip width to leg", hip_width / leg, k_hip_width_to_leg },
+               { "shoulder width to leg", shoulder_width / leg, k_shoulder_width_to_leg },
+               { "collarbone to leg", collarbone / leg, k_collarbone_to_leg } } };
+}
+
+void check_proportions(const Skeleton& skeleton)
+{
+    for (const NamedRatio& ratio : ratios_of(skeleton))
+        if (!(ratio.value >= ratio.human.least && ratio.value <= ratio.human.most))  // not a number fails too
+            throw InvalidInput(ErrorCode::not_human,
+                               "body: " + ratio.text()
+                                   + "; give a human body whose limbs do not merge, or give joints");
 }
 
 // Of the body's height: a joint of a skeleton by hand may lie just outside of the skin.
@@ -133,6 +161,34 @@ void check_shape(const TriangleMesh& closed)
                            "body: it is too compact for a human, with an isoperimetric quotient of "
                                + fixed_text(quotient, 2) + " (a human's is at most " + fixed_text(k_most_compact, 2)
                                + "); give a human body");
+}
+
+HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleton)
+{
+    double squares = 0, most = 0;
+    std::string worst;
+    const auto count = [&](double deviation, const std::string& what) {
+        squares += deviation * deviation;
+        if (deviation > most) {
+            most = deviation;
+            worst = what;
+        }
+    };
+    for (const NamedRatio& ratio : ratios_of(skeleton))
+        count(ratio.excess() / k_ratio_excess, ratio.text());
+    for (const int left : { lfemur, ltibia, lhumerus, lradius }) {
+        const double l = skeleton.length(left), r = skeleton.length(mirror_of(left));
+        count(std::max(0.0, std::abs(l - r) / std::max(l, r) - k_side_tolerance) / k_sides_excess,
+              std::string(bone_name(left)) + " is " + fixed_text(l, 2) + " m long and "
+                  + std::string(bone_name(mirror_of(left))) + " " + fixed_text(r, 2) + " m");
+    }
+    const double inside = share_inside(closed, skeleton);
+    count(std::max(0.0, k_inside_share - inside) / k_outside_excess,
+          "only " + fixed_text(inside, 2) + " of the skeleton lies inside it");
+    if (!std::isfinite(squares) || inside < k_figure_inside_share)
+        throw InvalidInput(ErrorCode::not_human,
+                           "body: " + worst + "; give one figure whose limbs do not merge, or give joints");
+    return { std::exp(-0.5 * squares), worst };
 }
 
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)

@@ -204,6 +204,51 @@ inline constexpr Proportion k_upper_arm_to_forearm { 0.6, 1.7 }, k_thigh_to_shin
     k_arm_to_leg { 0.4, 0.85 }, k_trunk_to_leg { 0.4, 1.25 }, k_hip_width_to_leg { 0.05, 0.5 },
     k_shoulder_width_to_leg { 0.15, 0.8 }, k_collarbone_to_leg { 0.1, 0.65 };
 
+// ---- figures of any proportions (figure_graph.cpp, figure_joints.cpp, human_likeness.cpp) ----------------------------
+// "variants": what scripts/vary_bodies.py makes of ten bodies; every other body for choosing, the rest for judging.
+
+/// fitted: by time. Ends among which head, hands and feet are chosen, and ways of opening loops that are tried.
+inline constexpr std::size_t k_most_ends = 9;
+inline constexpr int k_most_figure_ways = 40;
+/// fitted: guesses, on the variants. Standard deviations of the logarithms of length and thickness ratios of a pair,
+/// and of the distance between the places where it leaves the trunk, a share of the figure's length.
+inline constexpr double k_pair_length_spread = 0.15, k_pair_thickness_spread = 0.25, k_pair_fork_spread = 0.08;
+/// fitted: guesses. Standard deviations of the logarithms of ratios to the leg's length.
+inline constexpr double k_arm_ratio_spread = 0.5, k_trunk_ratio_spread = 0.6, k_head_ratio_spread = 0.8;
+/// fitted: guesses, on the variants. Thickness ratio of arms to legs, and the standard deviation of its logarithm.
+inline constexpr double k_arm_thickness = 0.62, k_thickness_spread = 0.4;
+/// fitted: guesses. Length of an end that is no limb, a share of the figure's, and the most that one costs.
+inline constexpr double k_rest_spread = 0.15, k_most_rest_cost = 6;
+/// fitted: guesses. Costs of a missing head, and of lying down.
+inline constexpr double k_no_head_cost = 8, k_lying_cost = 2;
+/// fitted: guess. Shortest limb, a share of the figure's length.
+inline constexpr double k_shortest_limb = 0.08;
+/// fitted: guess. A choice that costs more has no arms or no legs.
+inline constexpr double k_most_figure_cost = 20;
+
+/// fitted: guess. A trunk this short, a share of the figure's length, does not show where up is.
+inline constexpr double k_short_trunk = 0.08;
+/// fitted: guesses. Of a limb that is divided: number of cuts, and the latest place where it begins, a share of its
+/// curve.
+inline constexpr int k_cuts_of_limb = 45;
+inline constexpr double k_latest_root = 0.45;
+/// fitted: guesses. Largest logarithms of the ratio of a pair's lengths and of the ratio of a limb's bones, and least
+/// and largest share of its curve that a limb's bones have; else the limb is divided.
+inline constexpr double k_largest_pair_difference = 0.18, k_largest_bone_ratio = 0.5, k_least_limb_share = 0.45,
+                        k_most_limb_share = 1.3;
+/// fitted: guesses, on the variants. Distance of the hips: a share of that of the knees, up to a share of the leg.
+inline constexpr double k_hips_to_knees = 0.7, k_widest_hips = 0.5;
+/// fitted: guess. Base of the neck above the shoulders, at most, a share of the stature by the arms.
+inline constexpr double k_neck_over_arm = 0.03;
+
+// ---- human likeness (human_likeness.cpp) ----------------------------------------------------------------------------
+
+/// fitted: guesses. Standard deviations by which a logarithm of a ratio may leave a human's interval, a share of the
+/// skeleton outside of the body, and a difference of sides beyond the tolerance.
+inline constexpr double k_ratio_excess = 0.35, k_outside_excess = 0.1, k_sides_excess = 0.15;
+/// fitted: guess. Least share of the samples on bones inside a figure that is rigged at all.
+inline constexpr double k_figure_inside_share = 0.6;
+
 // ---- attempts (rig_body.cpp) --------------------------------------------------------------------------------------
 
 /// fitted: guess, on the dirty bodies. Number of proxy vertices of the second and third attempt, as shares of the

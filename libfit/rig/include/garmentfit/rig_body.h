@@ -12,6 +12,8 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "garmentfit/mesh.h"
 #include "garmentfit/progress.h"
@@ -29,10 +31,19 @@ struct GivenJoints {
     GARMENTFIT_API bool is_complete() const;
 };
 
+/// Which bodies are rigged.
+enum class Humanlike {
+    any,  ///< whatever has two arms, two legs and a trunk; Rig::human_probability says how human it is
+    strict  ///< human bodies only, others are refused
+};
+/// "any", "strict" in the order of Humanlike.
+GARMENTFIT_API const std::vector<std::string_view>& humanlike_names();
+
 struct RigOptions {
     /// Approximate number of vertices of the decimated surface in which joints are found.
     int proxy_vertices = 8000;  // fitted: guess, on the bodies of docs/rig.md; part of the interface
     bool swap_sides = false;  ///< exchanges left and right, where the classification is wrong
+    Humanlike humanlike = Humanlike::any;  ///< which bodies are rigged and which refused
     std::optional<Vec3> front {};  ///< rough direction of the chest, if known: replaces the classification
     GivenJoints joints {};  ///< corrections; joints between them adapt
 };

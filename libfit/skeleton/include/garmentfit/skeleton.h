@@ -9,6 +9,7 @@
 //           so the identity Pose is the rest pose. world = after a Pose was applied.
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -113,6 +114,9 @@ struct Rig {
     Vec3 front = Vec3::UnitZ();  ///< of the trunk, unit: where the chest faces
     /// Evidence for left and right: 0 = low confidence, 1 = all cues agree. Not a probability.
     double side_confidence = 0;
+    /// That the body is a human one: 1 where its proportions are a human's, near 0 for cartoons.
+    double human_probability = 1;
+    std::string not_human {};  ///< what is furthest from human, with numbers; empty where nothing is
     /// m, radius of the limb around each bone, from bone_radii; 0 = unknown, then estimated from the leg's length.
     std::array<double, bone_count> radii {};
 };

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figure_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "curve_loops.h"
+#include "garmentfit/error.h"
+#include "garmentfit/number_text.h"
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+using namespace rig_tuning;
+
+constexpr std::size_t k_fewest_ends = 4;  // derived: hands and feet
+
+// literature: [deleva_1996_segments], as between the ends in body_graph.cpp: along the curves from the spine to the
+// fingers and from the pelvis to the toes, shares of stature.
+constexpr double k_arm_curve = 0.45, k_leg_curve = 0.61, k_trunk_curve_length = 0.28, k_head_curve_length = 0.16;
+
+double squared(double x) { return x * x; }
+
+/// The ends of one tree, with all that the choice among them needs.
+struct Candidates {
+    std::vector<int> nodes;  ///< leaves
+    Eigen::MatrixXd distance;  ///< m along the curves
+    std::vector<double> thickness;  ///< m
+    std::vector<Vec3> places;
+
+    int count() const { return int(nodes.size()); }
+    /// From `a` to where its path leaves the one from `b` to `c`, m.
+    double beyond(int a, int b, int c) const { return 0.5 * (distance(a, b) + distance(a, c) - distance(b, c)); }
+};
+
+/// Mean distance of the skin from each node, m; 0 for a node without skin.
+std::vector<double> radii_of_nodes(const CurveSkeleton& skeleton, const TriangleMesh& proxy)
+{
+    std::vector<double> sums(skeleton.nodes.size(), 0), counts(skeleton.nodes.size(), 0);
+    for (std::size_t v = 0; v < skeleton.node_of_vertex.size(); ++v)
+        if (const int node = skeleton.node_of_vertex[v]; node >= 0) {
+            sums[node] += (Vec3(proxy.positions.row(Eigen::Index(v))) - skeleton.nodes[node]).norm();
+            ++counts[node];
+        }
+    for (std::size_t n = 0; n < sums.size(); ++n)
+        sums[n] = counts[n] > 0 ? sums[n] / counts[n] : 0;
+    return sums;
+}
+
+/// Median radius along a branch, without the part within the trunk and the end.
+double thickness_of(const std::vector<int>& branch, const std::vector<double>& radii)
+{
+    std::vector<double> values;
+    for (std::size_t i = branch.size() / 6; i < branch.size() * 2 / 3 + 1 && i < branch.size(); ++i)
+        if (radii[branch[i]] > 0)
+            values.push_back(radii[branch[i]]);
+    if (values.empty())
+        return radii[branch.front()];
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+}
+
+/// Removes the shortest branches until few enough ends remain to try all choices.
+void prune_to_few(CurveTree& tree)
+{
+    const auto shorter = [&](int a, int b) { return tree.length(tree.branch(a)) < tree.length(tree.branch(b)); };
+    for (std::vector<int> leaves = tree.leaves(); leaves.size() > k_most_ends; leaves = tree.leaves())
+        tree.remove(tree.branch(*std::min_element(leaves.begin(), leaves.end(), shorter)));
+}
+
+Candidates candidates_of(const CurveTree& tree, const CurveSkeleton& skeleton, const std::vector<double>& radii)
+{
+    Candidates c;
+    c.nodes = tree.leaves();
+    c.distance = Eigen::MatrixXd::Zero(c.count(), c.count());
+    for (int i = 0; i < c.count(); ++i) {
+        for (int j = 0; j < i; ++j)
+            c.distance(i, j) = c.distance(j, i) = tree.length(tree.path(c.nodes[i], c.nodes[j]));
+        c.thickness.push_back(thickness_of(tree.branch(c.nodes[i]), radii));
+        c.places.push_back(skeleton.nodes[c.nodes[i]]);
+    }
+    return c;
+}
+
+/// Rows of Candidates; head is -1 where there is none.
+struct Choice {
+    int head = -1, hand[2] {}, foot[2] {};
+    double arm = 0, leg = 0;  ///< m, means of the pairs
+    double size = 0;  ///< m, along the curves from the feet to the top
+    double cost = std::numeric_limits<double>::max();
+};
+
+/// Of what the choice leaves over: tails, wings, hair. Short ends such as fingers cost little.
+double cost_of_rest(const Candidates& c, const Choice& choice)
+{
+    const int chosen[] { choice.hand[0], choice.hand[1], choice.foot[0], choice.foot[1], choice.head };
+    double cost = 0;
+    for (int u = 0; u < c.count(); ++u) {
+        double off = std::numeric_limits<double>::max();
+        for (const int a : chosen)
+            for (const int b : chosen)
+                if (a >= 0 && b >= 0 && a != b)
+                    off = std::min(off, u == a || u == b ? 0 : c.beyond(u, a, b));
+        cost += std::min(squared(off / choice.size / k_rest_spread), k_most_rest_cost);
+    }
+    return cost;
+}
+
+double cost_of_pair(const Candidates& c, const int (&pair)[2], double length0, double length1)
+{
+    const double floor = 1e-9;  // unit: avoids the logarithm of 0
+    return squared(std::log((length0 + floor) / (length1 + floor)) / k_pair_length_spread)
+        + squared(std::log((c.thickness[pair[0]] + floor) / (c.thickness[pair[1]] + floor)) / k_pair_thickness_spread);
+}
+
+/// Fills sizes and cost.
+void rate(const Candidates& c, Choice& choice)
+{
+    const int h0 = choice.hand[0], h1 = choice.hand[1], f0 = choice.foot[0], f1 = choice.foot[1];
+    const int top = choice.head >= 0 ? choice.head : h0;
+    const double leg0 = c.beyond(f0, f1, top), leg1 = c.beyond(f1, f0, top);
+    const double arm0 = choice.head >= 0 ? c.beyond(h0, f0, top) : c.beyond(h0, h1, f0),
+                 arm1 = choice.head >= 0 ? c.beyond(h1, f0, top) : c.beyond(h1, h0, f0);
+    const double head0 = choice.head >= 0 ? c.distance(h0, top) - arm0 : 0,
+                 head1 = choice.head >= 0 ? c.distance(h1, top) - arm1 : 0;
+    const double head = 0.5 * (head0 + head1);
+    choice.leg = 0.5 * (leg0 + leg1);
+    choice.arm = 0.5 * (arm0 + arm1);
+    const double trunk = (choice.head >= 0 ? c.distance(f0, top) - leg0 - head : c.distance(f0, h0) - leg0 - arm0);
+    choice.size = choice.leg + std::max(trunk, 0.0) + head;
+    if (std::min({ leg0, leg1, arm0, arm1 }) < k_shortest_limb * choice.size
+        || trunk < -k_pair_fork_spread * choice.size)
+        return;  // no limb, or arms below the legs
+    const auto ratio = [&](double length, double to, double usual, double spread) {
+        return squared(std::log(std::max(length, 0.02 * choice.size) / to / usual) / spread);
+    };
+    const Vec3 feet = 0.5 * (c.places[f0] + c.places[f1]),
+               above = choice.head >= 0 ? c.places[choice.head] : Vec3(0.5 * (c.places[h0] + c.places[h1]));
+    double cost = cost_of_pair(c, choice.hand, arm0, arm1) + cost_of_pair(c, choice.foot, leg0, leg1);
+    cost += squared((head0 - head1) / choice.size / k_pair_fork_spread);
+    cost += ratio(choice.arm, choice.leg, k_arm_curve / k_leg_curve, k_arm_ratio_spread);
+    cost += ratio(trunk, choice.leg, k_trunk_curve_length / k_leg_curve, k_trunk_ratio_spread);
+    cost += choice.head >= 0 ? ratio(head, choice.leg, k_head_curve_length / k_leg_curve, k_head_ratio_spread)
+                             : k_no_head_cost;
+    const double arms_thick = c.thickness[h0] + c.thickness[h1], legs_thick = c.thickness[f0] + c.thickness[f1];
+    cost += squared(std::log(std::max(arms_thick, 1e-9) / std::max(legs_thick, 1e-9) / k_arm_thickness)
+                    / k_thickness_spread);
+    cost += k_lying_cost * (1 - (above - feet).normalized().y());
+    choice.cost = 0.5 * (cost + cost_of_rest(c, choice));
+}
+
+Choice best_choice(const Candidates& c)
+{
+    Choice best;
+    const int n = c.count();
+    for (int h0 = 0; h0 < n; ++h0)
+        for (int h1 = 0; h1 < h0; ++h1)
+            for (int f0 = 0; f0 < n; ++f0)
+                for (int f1 = 0; f1 < f0; ++f1) {
+                    if (f0 == h0 || f0 == h1 || f1 == h0 || f1 == h1)
+                        continue;
+                    for (int head = -1; head < n; ++head) {
+                        if (head == h0 || head == h1 || head == f0 || head == f1)
+                            continue;
+                        Choice choice { head, { h0, h1 }, { f0, f1 } };
+                        rate(c, choice);
+                        if (choice.cost < best.cost)
+                            best = choice;
+                    }
+                }
+    return best;
+}
+
+Figure figure_of(const CurveTree& tree, const Candidates& c, const Choice& choice, const CurveSkeleton& skeleton)
+{
+    const auto node = [&](int row) { return row < 0 ? -1 : c.nodes[row]; };
+    Figure figure;
+    figure.graph = graph_of(
+        tree,
+        { node(choice.head), node(choice.hand[0]), node(choice.hand[1]), node(choice.foot[0]), node(choice.foot[1]) },
+        skeleton);
+    figure.arm_size = choice.arm / k_arm_curve;
+    figure.leg_size = choice.leg / k_leg_curve;
+    figure.graph.size = figure.graph.size_by_legs
+        = choice.size / (k_leg_curve + k_trunk_curve_length + k_head_curve_length);
+    figure.cost = choice.cost;
+    return figure;
+}
+
+}  // namespace
+
+Figure figure_graph(const CurveSkeleton& skeleton, const TriangleMesh& proxy)
+{
+    const std::vector<double> radii = radii_of_nodes(skeleton, proxy);
+    std::optional<Figure> best;
+    std::size_t most_ends = 0;
+    int ways_left = k_most_figure_ways;
+    for (const CurveSkeleton& way : open_loops(skeleton)) {
+        if (ways_left-- == 0)
+            break;
+        CurveTree tree(way);
+        prune_to_few(tree);
+        const Candidates c = candidates_of(tree, way, radii);
+        most_ends = std::max(most_ends, c.nodes.size());
+        if (c.nodes.size() < k_fewest_ends)
+            continue;
+        const Choice choice = best_choice(c);
+        if (choice.cost < k_most_figure_cost && (!best || choice.cost < best->cost))
+            try {
+                best = figure_of(tree, c, choice, skeleton);
+            } catch (const InvalidInput&) {
+                // arms that do not leave the spine: another way of opening the loops may be right
+            }
+    }
+    if (!best)
+        throw InvalidInput(ErrorCode::not_human,
+                           "body: " + std::to_string(most_ends)
+                               + " ends found, among them no two arms and two legs; give one figure whose limbs do not"
+                                 " merge, or give joints");
+    return *std::move(best);
+}
+
+}  // namespace garmentfit
