@@ -11,6 +11,8 @@ namespace garmentfit {
 /// Dimensionless, 0 undecided to 1 certain. Guesses of a smaller confidence get a warning.
 /// fitted: guess, on the twelve pairs of the house data
 inline constexpr double k_low_confidence = 0.2;
+/// Probability that a body is human, below which a warning says that it is not. fitted: guess.
+inline constexpr double k_far_from_human = 0.6;
 
 /// Guesses of a smaller probability get a warning. derived: of what is said with more, four in five at least are right
 /// (libfit/fit/evidence.h)

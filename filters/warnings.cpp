@@ -115,9 +115,17 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
 
 std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set)
 {
-    if (!scene.rig || scene.rig->side_confidence >= k_low_confidence)
-        return {};
-    return { std::string("which side of the body is left") + k_guess + "; if it is wrong, " + set("swap_sides") };
+    std::vector<std::string> warnings;
+    if (!scene.rig)
+        return warnings;
+    if (scene.rig->side_confidence < k_low_confidence)
+        warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
+                           + set("swap_sides"));
+    if (scene.rig->human_probability < k_far_from_human)
+        warnings.push_back("the body is far from human" + percent_text(scene.rig->human_probability) + ": "
+                           + scene.rig->not_human
+                           + "; look at its joints, and correct them (joints) if they are wrong");
+    return warnings;
 }
 
 std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,

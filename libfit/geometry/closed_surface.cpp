@@ -21,6 +21,7 @@
 
 #include "cgal_mesh.h"
 #include "garmentfit/error.h"
+#include "nearest.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -290,9 +291,14 @@ bool is_solid(const CgalMesh& mesh)
     return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
 }
 
+/// Wraps a body in parts, wider and wider gaps until nothing large lies apart.
 CgalMesh wrap_body(const TriangleMesh& surface)
 {
-    Body body = main_body(to_cgal(wrap_surface(surface)));
+    Body body = main_body(to_cgal(wrap_surface(surface, k_wrap_alpha)));
+    for (const double alpha : k_wide_wrap_alphas)
+        if (body.rival > 0)
+            if (Body wider = main_body(to_cgal(wrap_surface(surface, alpha))); wider.rival == 0)
+                body = std::move(wider);
     if (body.rival > 0)
         throw InvalidInput(ErrorCode::separate_pieces,
                            "body: it is in pieces that lie apart, the second "
@@ -309,7 +315,41 @@ TriangleMesh orient_outwards(TriangleMesh mesh)
     return mesh;
 }
 
+/// Of samples of the surface, the share that lies in a closed one or near it, m.
+double share_covered(const TriangleMesh& surface, const TriangleMesh& closed, double near)
+{
+    const TriangleTree tree(closed);
+    const Eigen::Index step = std::max<Eigen::Index>(1, surface.triangles.rows() / k_cover_samples);
+    double covered = 0, all = 0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); f += step) {
+        const Vec3 middle = surface.positions(surface.triangles.row(f), Eigen::all).colwise().mean();
+        const double weight = area_vector(surface.positions, surface.triangles, f).norm();
+        all += weight;
+        if (tree.distance(middle) < near || winding_number(closed, middle) > 0.5)
+            covered += weight;
+    }
+    return all > 0 ? covered / all : 0;
+}
+
 }  // namespace
+
+std::vector<TriangleMesh> join_parts(const TriangleMesh& surface)
+{
+    std::vector<TriangleMesh> joined;
+    const double near = k_cover_distance * diagonal(surface.positions);
+    for (const double alpha : k_join_alphas)
+        try {
+            const CgalMesh mesh = main_body(to_cgal(wrap_surface(surface, alpha))).mesh;
+            if (!is_solid(mesh))
+                continue;
+            TriangleMesh closed = orient_outwards(from_cgal(mesh));
+            if (share_covered(surface, closed, near) > k_least_cover)
+                joined.push_back(std::move(closed));
+        } catch (const CGAL::Failure_exception&) {
+            // a wider wrap may do
+        }
+    return joined;
+}
 
 TriangleMesh close_surface(const TriangleMesh& surface, bool& repaired)
 {

@@ -76,6 +76,16 @@ inline constexpr double k_longest_bridge = 8;
 /// off the surface. fitted: guess, on torn copies of the bodies in tests/bodies.
 inline constexpr double k_wrap_alpha = 0.012, k_wrap_offset = 0.001;
 
+/// The same for bodies in parts that lie further apart, in turn. fitted: guess, on bodies cut into shells.
+inline constexpr double k_wide_wrap_alphas[] = { 0.025, 0.05 };
+/// The same, tried in turn where no human is found in a body in parts: narrow ones keep arms off the trunk. fitted:
+/// guess, on figures of 2 to 94 parts.
+inline constexpr double k_join_alphas[] = { 0.005, 0.025 };
+/// Samples of a surface, how near a closed surface has to be, a share of the diagonal, and the least share of samples
+/// there, where it counts as joined. fitted: guess.
+inline constexpr int k_cover_samples = 400;
+inline constexpr double k_cover_distance = 0.01, k_least_cover = 0.9;
+
 // ---- sewn_pieces.cpp -----------------------------------------------------------------------------------------------
 // "The wild data" are fifteen garments of strangers, made for other bodies and programs; six of them have 2 to 21
 // pieces, 49 of them small. Score: how many pieces are taken for what a look at them says.

@@ -12,7 +12,7 @@
 
 namespace garmentfit {
 
-TriangleMesh wrap_surface(const TriangleMesh& surface)
+TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha)
 {
     std::vector<CgalKernel::Point_3> points;
     for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
@@ -23,7 +23,7 @@ TriangleMesh wrap_surface(const TriangleMesh& surface)
                               std::size_t(surface.triangles(f, 2)) });
     const double size = diagonal(surface.positions);
     CgalMesh mesh;
-    CGAL::alpha_wrap_3(points, triangles, k_wrap_alpha * size, k_wrap_offset * size, mesh);
+    CGAL::alpha_wrap_3(points, triangles, alpha * size, k_wrap_offset * size, mesh);
     return from_cgal(mesh);
 }
 

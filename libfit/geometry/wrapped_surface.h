@@ -5,8 +5,8 @@
 
 namespace garmentfit {
 
-/// Returns a closed surface around any triangles [portaneri_2022_alpha_wrap]. It spans holes narrower than about 1 % of
-/// the diagonal. Takes a few seconds.
-TriangleMesh wrap_surface(const TriangleMesh& surface);
+/// Returns a closed surface around any triangles [portaneri_2022_alpha_wrap]. It spans holes narrower than about
+/// twice `alpha`, a share of the diagonal. Takes a few seconds.
+TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha);
 
 }  // namespace garmentfit

@@ -227,6 +227,7 @@ BodyGraph body_graph(const CurveSkeleton& skeleton)
     const Ends ends { labels.headless() ? -1 : labels.ends[0], end[0], end[1], end[2], end[3] };
     BodyGraph graph = graph_of(tree, ends, skeleton);
     graph.size = labels.size;
+    graph.spread = labels.spread;
     graph.size_by_legs = graph.headless ? graph.size : size_by_legs(tree, ends.head, ends.foot0, ends.foot1);
     return graph;
 }

@@ -21,6 +21,7 @@ struct BodyGraph {
     std::vector<int> trunk;  ///< from the pelvis to where the arms leave
     bool headless = false;  ///< the head's curve is only the node where the arms leave
     double size = 0;  ///< m, roughly the stature, from lengths along the curves
+    double spread = 0;  ///< of the logarithms of the lengths between the ends from a human's: their standard deviation
     double size_by_legs = 0;  ///< m, the same from the lengths between head and feet alone
 
     /// Curve of each node (0, 1 = arms, 2, 3 = legs, 4 = head, 5 = trunk) and row of that curve. Fingers belong to the

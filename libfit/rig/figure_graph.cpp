@@ -9,7 +9,7 @@
 
 #include "curve_loops.h"
 #include "garmentfit/error.h"
-#include "garmentfit/number_text.h"
+#include "surface_measures.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -64,12 +64,17 @@ double thickness_of(const std::vector<int>& branch, const std::vector<double>& r
     return values[values.size() / 2];
 }
 
-/// Removes the shortest branches until few enough ends remain to try all choices.
-void prune_to_few(CurveTree& tree)
+/// Removes the shortest branches until few enough ends remain to try all choices, and fingers and toes after them.
+void prune_to_few(CurveTree& tree, double size)
 {
-    const auto shorter = [&](int a, int b) { return tree.length(tree.branch(a)) < tree.length(tree.branch(b)); };
-    for (std::vector<int> leaves = tree.leaves(); leaves.size() > k_most_ends; leaves = tree.leaves())
-        tree.remove(tree.branch(*std::min_element(leaves.begin(), leaves.end(), shorter)));
+    const auto length = [&](int leaf) { return tree.length(tree.branch(leaf)); };
+    for (std::vector<int> leaves = tree.leaves(); leaves.size() > k_fewest_ends + 1; leaves = tree.leaves()) {
+        const int shortest
+            = *std::min_element(leaves.begin(), leaves.end(), [&](int a, int b) { return length(a) < length(b); });
+        if (leaves.size() <= k_most_ends && length(shortest) > k_longest_finger * size)
+            return;
+        tree.remove(tree.branch(shortest));
+    }
 }
 
 Candidates candidates_of(const CurveTree& tree, const CurveSkeleton& skeleton, const std::vector<double>& radii)
@@ -94,6 +99,14 @@ struct Choice {
     double cost = std::numeric_limits<double>::max();
 };
 
+/// 1 for an end as far from the left limbs as from the right ones, such as a tail's, to 0 for one at a side.
+double share_in_middle(const Candidates& c, const Choice& choice, int end)
+{
+    const auto far = [&](int other) { return (c.places[end] - c.places[other]).norm() / choice.size; };
+    return std::exp(-squared((far(choice.hand[0]) - far(choice.hand[1])) / k_middle_spread)
+                    - squared((far(choice.foot[0]) - far(choice.foot[1])) / k_middle_spread));
+}
+
 /// Of what the choice leaves over: tails, wings, hair. Short ends such as fingers cost little.
 double cost_of_rest(const Candidates& c, const Choice& choice)
 {
@@ -105,7 +118,8 @@ double cost_of_rest(const Candidates& c, const Choice& choice)
             for (const int b : chosen)
                 if (a >= 0 && b >= 0 && a != b)
                     off = std::min(off, u == a || u == b ? 0 : c.beyond(u, a, b));
-        cost += std::min(squared(off / choice.size / k_rest_spread), k_most_rest_cost);
+        cost += std::min(squared(off / choice.size / k_rest_spread), k_most_rest_cost)
+            * (1 - k_tail_discount * share_in_middle(c, choice, u));
     }
     return cost;
 }
@@ -115,6 +129,13 @@ double cost_of_pair(const Candidates& c, const int (&pair)[2], double length0, d
     const double floor = 1e-9;  // unit: avoids the logarithm of 0
     return squared(std::log((length0 + floor) / (length1 + floor)) / k_pair_length_spread)
         + squared(std::log((c.thickness[pair[0]] + floor) / (c.thickness[pair[1]] + floor)) / k_pair_thickness_spread);
+}
+
+/// A pair's ends are about as far from a place in the middle as each other. Limits what a pose may cost.
+double cost_of_places(const Candidates& c, const int (&pair)[2], const Vec3& middle, double size)
+{
+    const double difference = (c.places[pair[0]] - middle).norm() - (c.places[pair[1]] - middle).norm();
+    return std::min(squared(difference / size / k_place_spread), k_most_place_cost);
 }
 
 /// Fills sizes and cost.
@@ -135,12 +156,16 @@ void rate(const Candidates& c, Choice& choice)
     if (std::min({ leg0, leg1, arm0, arm1 }) < k_shortest_limb * choice.size
         || trunk < -k_pair_fork_spread * choice.size)
         return;  // no limb, or arms below the legs
+    if (c.beyond(h0, h1, f0) < k_own_share * arm0 || c.beyond(h1, h0, f0) < k_own_share * arm1)
+        return;  // two fingers of one hand
     const auto ratio = [&](double length, double to, double usual, double spread) {
         return squared(std::log(std::max(length, 0.02 * choice.size) / to / usual) / spread);
     };
     const Vec3 feet = 0.5 * (c.places[f0] + c.places[f1]),
                above = choice.head >= 0 ? c.places[choice.head] : Vec3(0.5 * (c.places[h0] + c.places[h1]));
     double cost = cost_of_pair(c, choice.hand, arm0, arm1) + cost_of_pair(c, choice.foot, leg0, leg1);
+    cost += cost_of_places(c, choice.hand, above, choice.size) + cost_of_places(c, choice.hand, feet, choice.size)
+        + cost_of_places(c, choice.foot, above, choice.size);
     cost += squared((head0 - head1) / choice.size / k_pair_fork_spread);
     cost += ratio(choice.arm, choice.leg, k_arm_curve / k_leg_curve, k_arm_ratio_spread);
     cost += ratio(trunk, choice.leg, k_trunk_curve_length / k_leg_curve, k_trunk_ratio_spread);
@@ -149,6 +174,10 @@ void rate(const Candidates& c, Choice& choice)
     const double arms_thick = c.thickness[h0] + c.thickness[h1], legs_thick = c.thickness[f0] + c.thickness[f1];
     cost += squared(std::log(std::max(arms_thick, 1e-9) / std::max(legs_thick, 1e-9) / k_arm_thickness)
                     / k_thickness_spread);
+    double lowest = feet.y();
+    for (const Vec3& place : c.places)
+        lowest = std::min(lowest, place.y());
+    cost += std::min(squared((feet.y() - lowest) / choice.size / k_lowest_spread), k_most_lowest_cost);
     cost += k_lying_cost * (1 - (above - feet).normalized().y());
     choice.cost = 0.5 * (cost + cost_of_rest(c, choice));
 }
@@ -203,7 +232,7 @@ Figure figure_graph(const CurveSkeleton& skeleton, const TriangleMesh& proxy)
         if (ways_left-- == 0)
             break;
         CurveTree tree(way);
-        prune_to_few(tree);
+        prune_to_few(tree, diagonal(proxy.positions));
         const Candidates c = candidates_of(tree, way, radii);
         most_ends = std::max(most_ends, c.nodes.size());
         if (c.nodes.size() < k_fewest_ends)

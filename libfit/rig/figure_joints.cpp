@@ -131,6 +131,8 @@ BodyJoints label_figure(const TriangleMesh& proxy, const CurveSkeleton& skeleton
         adjust_arms(arms, joints.legs, arm_graph);
         return arms;
     });
+    if (figure.graph.headless)
+        require_hands_or_feet(joints);
     const Vec3 shoulders = 0.5 * (joints.arms[0].root + joints.arms[1].root);
     Centreline spine = trace_spine(whole, slicer, joints.pelvis, up);
     const double shoulder_arc = spine.arcs[spine.nearest_row(shoulders)],

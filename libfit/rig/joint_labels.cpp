@@ -46,19 +46,6 @@ Vec3 mean_point(const Centreline& line, double from, double to)
     return sum;
 }
 
-/// Closed clothes without a body look like a body without a head, but their sleeves and legs end narrow.
-void require_hands_or_feet(const BodyJoints& joints)
-{
-    int found = 0;
-    for (const LimbJoints& limb : { joints.arms[0], joints.arms[1], joints.legs[0], joints.legs[1] })
-        found += limb.widens;
-    if (found < k_fewest_without_head)
-        throw InvalidInput(
-            ErrorCode::not_human,
-            "body: no head found, and " + std::to_string(found) + " of 4 limbs widen to a hand or foot (at least "
-                + std::to_string(k_fewest_without_head) + "), so these are clothes without a body; give a human body");
-}
-
 /// Places legs, pelvis and the stature, which depend on each other. @return the line of the spine
 Centreline place_legs_and_spine(const LabelledSurface& surface, const Slicer& slicer, const Vec3& up,
                                 BodyJoints& joints)
@@ -91,6 +78,18 @@ void place_neck(const Centreline& spine, bool headless, BodyJoints& joints)
 }
 
 }  // namespace
+
+void require_hands_or_feet(const BodyJoints& joints)
+{
+    int found = 0;
+    for (const LimbJoints& limb : { joints.arms[0], joints.arms[1], joints.legs[0], joints.legs[1] })
+        found += limb.widens;
+    if (found < k_fewest_without_head)
+        throw InvalidInput(
+            ErrorCode::not_human,
+            "body: no head found, and " + std::to_string(found) + " of 4 limbs widen to a hand or foot (at least "
+                + std::to_string(k_fewest_without_head) + "), so these are clothes without a body; give a human body");
+}
 
 BodyJoints label_joints(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph)
 {

@@ -21,4 +21,8 @@ struct BodyJoints {
 /// @throws InvalidInput when a limb has no outline of its own, or a body without head has no hands or feet.
 BodyJoints label_joints(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const BodyGraph& graph);
 
+/// Closed clothes without a body look like a body without a head, but their sleeves and legs end narrow.
+/// @throws InvalidInput when too few limbs widen to a hand or foot.
+void require_hands_or_feet(const BodyJoints& joints);
+
 }  // namespace garmentfit

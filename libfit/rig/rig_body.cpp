@@ -4,10 +4,12 @@
 #include <algorithm>
 
 #include "body_graph.h"
+#include "closed_surface.h"
 #include "curve_skeleton.h"
 #include "figure_graph.h"
 #include "figure_joints.h"
 #include "garmentfit/error.h"
+#include "garmentfit/number_text.h"
 #include "given_joints.h"
 #include "heat_weights.h"
 #include "joint_labels.h"
@@ -134,16 +136,20 @@ VisibleRig name_sides(const CurveSkeleton& curves, const BodyGraph& graph, const
     return found;
 }
 
+/// Refuses what may be a figure of other proportions; the figures are then looked at.
+class Doubtful : public InvalidInput {
+    using InvalidInput::InvalidInput;
+};
+
+/// @throws InvalidInput when it is no human; Doubtful, unless `strict`, when the names of its ends are uncertain.
 VisibleRig find_bones(const Contracted& body, const RigOptions& options)
 {
     const BodyGraph graph = body_graph(body.curves);
+    if (options.humanlike == Humanlike::any && graph.spread > k_doubtful_spread)
+        throw Doubtful(ErrorCode::not_human,
+                       "body: the lengths between head, hands and feet differ from a human's by a spread of "
+                           + fixed_text(graph.spread, 2));
     return name_sides(body.curves, graph, label_joints(body.proxy, body.curves, graph), options);
-}
-
-VisibleRig find_bones_of_figure(const Contracted& body, const RigOptions& options)
-{
-    const Figure figure = figure_graph(body.curves, body.proxy);
-    return name_sides(body.curves, figure.graph, label_figure(body.proxy, body.curves, figure), options);
 }
 
 /// For joints that are all given: nothing is searched, and every vertex may belong to every bone.
@@ -188,35 +194,40 @@ struct Attempt {
     double from, to;  ///< part of the progress
 };
 
+constexpr double k_human_search = 0.97;  // unit: share of the progress bar; the rest is the search for a figure
+
 // unit: shares of the progress bar; those of the proxy are fitted, see tuning.h.
 // At touching hands or deep bends the flow may fail with one triangulation and succeed with another.
-constexpr Attempt k_attempts[] = { { 1, 0, 0.9 }, { k_coarser_proxy, 0.9, 0.95 }, { k_finer_proxy, 0.95, 1 } };
+constexpr Attempt k_attempts[]
+    = { { 1, 0, 0.9 }, { k_coarser_proxy, 0.9, 0.95 }, { k_finer_proxy, 0.95, k_human_search } };
 
 /// What was contracted so far, one for each attempt.
 using Attempts = std::vector<Contracted>;
 
-/// @throws InvalidInput of the first attempt, when no attempt gives a valid rig.
+Contracted contract(const TriangleMesh& closed, int proxy_vertices, const Progress& progress)
+{
+    Contracted contracted { proxy_surface(closed, proxy_vertices), {} };
+    progress.at(0.15);
+    contracted.curves = curve_skeleton(contracted.proxy, progress.part(0.15, 1));
+    return contracted;
+}
+
+/// @throws InvalidInput of the first attempt, when no attempt gives a valid rig, or at the first doubt.
 Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, Attempts& tried, const Progress& progress)
 {
     std::optional<InvalidInput> refusal;
     for (const Attempt& attempt : k_attempts)
         try {
             const Progress part = progress.part(attempt.from, attempt.to);
-            Contracted contracted { proxy_surface(body.closed, int(attempt.proxy * options.proxy_vertices)), {} };
-            part.at(0.15);
-            VisibleRig found;
-            if (options.joints.is_complete())
-                found = take_given_bones(contracted.proxy, options.joints);
-            else {
-                contracted.curves = curve_skeleton(contracted.proxy, part.part(0.15, 0.8));
-                tried.push_back(contracted);
-                found = find_bones(contracted, options);
-            }
+            tried.push_back(contract(body.closed, int(attempt.proxy * options.proxy_vertices), part.part(0, 0.8)));
+            VisibleRig found = find_bones(tried.back(), options);
             part.at(0.8);
-            check_rig(contracted.proxy, found.rig.skeleton);
-            Rig rig = weigh(std::move(found), contracted.proxy, body, part.part(0.8, 1));
+            check_rig(tried.back().proxy, found.rig.skeleton);
+            Rig rig = weigh(std::move(found), tried.back().proxy, body, part.part(0.8, 1));
             progress.at(1);
             return rig;
+        } catch (const Doubtful&) {
+            throw;
         } catch (const InvalidInput& reason) {
             if (!refusal)
                 refusal = reason;
@@ -224,39 +235,114 @@ Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, Attempts& t
     throw *refusal;
 }
 
-/// Of all attempts, the rig that is most likely one of a human. @throws `refusal` when there is none.
-Rig likeliest_figure(const BodyMesh& body, const RigOptions& options, const Attempts& tried,
-                     const InvalidInput& refusal)
+Rig rig_by_given_joints(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
-    std::optional<VisibleRig> best;
-    const TriangleMesh* proxy = nullptr;
-    for (const Contracted& contracted : tried)
+    std::optional<InvalidInput> refusal;
+    for (const Attempt& attempt : k_attempts)
         try {
-            VisibleRig found = find_bones_of_figure(contracted, options);
-            const HumanLikeness human = human_likeness(contracted.proxy, found.rig.skeleton);
+            const TriangleMesh proxy = proxy_surface(body.closed, int(attempt.proxy * options.proxy_vertices));
+            VisibleRig given = take_given_bones(proxy, options.joints);
+            progress.at(attempt.to * 0.8);
+            check_rig(proxy, given.rig.skeleton);
+            return weigh(std::move(given), proxy, body, progress.part(attempt.to * 0.8, 1));
+        } catch (const InvalidInput& reason) {
+            if (!refusal)
+                refusal = reason;
+        }
+    throw *refusal;
+}
+
+/// Limbs whose joints were not seen but placed as a human's.
+int count_divided(const BodyJoints& joints)
+{
+    int count = 0;
+    for (const LimbJoints& limb : { joints.arms[0], joints.arms[1], joints.legs[0], joints.legs[1] })
+        count += !limb.whole && !limb.widens;
+    return count;
+}
+
+/// Finds the likeliest figure among several contracted surfaces.
+class FigureSearch {
+public:
+    explicit FigureSearch(const RigOptions& options) : options_(options) { }
+
+    void look_at(Contracted body)
+    {
+        try {
+            const Figure figure = figure_graph(body.curves, body.proxy);
+            const BodyJoints joints = label_figure(body.proxy, body.curves, figure);
+            VisibleRig found = name_sides(body.curves, figure.graph, joints, options_);
+            const HumanLikeness human = human_likeness(body.proxy, found.rig.skeleton);
+            const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints);
+            if (best_ && score <= score_)
+                return;
             found.rig.human_probability = human.probability;
             found.rig.not_human = human.furthest;
-            if (!best || human.probability > best->rig.human_probability) {
-                best = std::move(found);
-                proxy = &contracted.proxy;
-            }
-        } catch (const InvalidInput&) {
+            score_ = score;
+            best_ = std::move(found);
+            proxy_ = std::move(body.proxy);
+        } catch (const InvalidInput& reason) {
             // another triangulation may do
         }
-    if (!best)
+    }
+
+    bool is_sure() const { return best_ && score_ > k_sure_figure; }
+    bool has_found() const { return best_.has_value(); }
+
+    /// @pre has_found()
+    Rig weigh_best(const BodyMesh& body, const Progress& progress)
+    {
+        return weigh(*std::move(best_), proxy_, body, progress);
+    }
+
+private:
+    const RigOptions& options_;
+    std::optional<VisibleRig> best_;
+    TriangleMesh proxy_;
+    double score_ = 0;
+};
+
+/// A figure in what was contracted for a human, in finer and coarser copies, or, of a body in parts, in other ways to
+/// join them. @throws `refusal` when there is none.
+Rig find_figure(const BodyMesh& body, const RigOptions& options, const Attempts& tried, const InvalidInput& refusal,
+                const Progress& progress)
+{
+    FigureSearch search(options);
+    const auto look_at = [&](const TriangleMesh& closed, double proxy, double from, double to) {
+        try {
+            search.look_at(contract(closed, int(proxy * options.proxy_vertices), progress.part(from, to)));
+        } catch (const InvalidInput&) {
+            // this surface does not contract to curves
+        }
+    };
+    for (const Contracted& contracted : tried)
+        search.look_at(contracted);
+    for (std::size_t i = tried.size(); i < std::size(k_attempts) && !search.is_sure(); ++i)
+        look_at(body.closed, k_attempts[i].proxy, 0.1 * double(i), 0.1 * double(i + 1));
+    if (body.repaired && !search.is_sure()) {
+        progress.at(0.3);
+        double done = 0.4;
+        for (const TriangleMesh& joined : join_parts(body.surface)) {
+            look_at(joined, 1, done, done + 0.2);
+            done += 0.2;
+        }
+    }
+    if (!search.has_found())
         throw refusal;
-    return weigh(*std::move(best), *proxy, body, {});
+    return search.weigh_best(body, progress.part(0.8, 1));
 }
 
 Rig rig_at_origin(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
+    if (options.joints.is_complete())
+        return rig_by_given_joints(body, options, progress);
     Attempts tried;
     try {
         return first_valid_rig(body, options, tried, progress);
     } catch (const InvalidInput& refusal) {
-        if (options.humanlike == Humanlike::strict || options.joints.is_complete())
+        if (options.humanlike == Humanlike::strict)
             throw;
-        return likeliest_figure(body, options, tried, refusal);
+        return find_figure(body, options, tried, refusal, progress.part(k_human_search, 1));
     }
 }
 

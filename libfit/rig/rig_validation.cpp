@@ -188,7 +188,7 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
     if (!std::isfinite(squares) || inside < k_figure_inside_share)
         throw InvalidInput(ErrorCode::not_human,
                            "body: " + worst + "; give one figure whose limbs do not merge, or give joints");
-    return { std::exp(-0.5 * squares), worst };
+    return { squares, std::exp(-0.5 * squares), worst };
 }
 
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)

@@ -17,6 +17,7 @@ void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
 
 /// How human a skeleton in a body is.
 struct HumanLikeness {
+    double squares = 0;  ///< sum of squared deviations beyond a human's limits, in standard deviations
     double probability = 1;  ///< 1 where check_rig passes
     std::string furthest;  ///< what is furthest from human, with numbers; empty where nothing is
 };

@@ -204,7 +204,7 @@ inline constexpr Proportion k_upper_arm_to_forearm { 0.6, 1.7 }, k_thigh_to_shin
     k_arm_to_leg { 0.4, 0.85 }, k_trunk_to_leg { 0.4, 1.25 }, k_hip_width_to_leg { 0.05, 0.5 },
     k_shoulder_width_to_leg { 0.15, 0.8 }, k_collarbone_to_leg { 0.1, 0.65 };
 
-// ---- figures of any proportions (figure_graph.cpp, figure_joints.cpp, human_likeness.cpp) ----------------------------
+// ---- figures of any proportions (figure_graph.cpp, figure_joints.cpp, rig_validation.cpp) ----------------------------
 // "variants": what scripts/vary_bodies.py makes of ten bodies; every other body for choosing, the rest for judging.
 
 /// fitted: by time. Ends among which head, hands and feet are chosen, and ways of opening loops that are tried.
@@ -218,9 +218,20 @@ inline constexpr double k_arm_ratio_spread = 0.5, k_trunk_ratio_spread = 0.6, k_
 /// fitted: guesses, on the variants. Thickness ratio of arms to legs, and the standard deviation of its logarithm.
 inline constexpr double k_arm_thickness = 0.62, k_thickness_spread = 0.4;
 /// fitted: guesses. Length of an end that is no limb, a share of the figure's, and the most that one costs.
-inline constexpr double k_rest_spread = 0.15, k_most_rest_cost = 6;
+inline constexpr double k_rest_spread = 0.13, k_most_rest_cost = 9;
+/// fitted: guesses, on the variants. Share of that cost that an end in the middle, such as a tail's, is spared, and the
+/// difference of its distances from the ends of a pair, a share of the figure's length.
+inline constexpr double k_tail_discount = 0.7, k_middle_spread = 0.12;
+/// fitted: guesses. Difference between the distances of a pair's ends from the middle, a share of the figure's length,
+/// and the most that one costs: a walking figure is not symmetric.
+inline constexpr double k_place_spread = 0.1, k_most_place_cost = 4;
+/// fitted: guesses. Height of the feet above the lowest end, a share of the figure's length, and the most that it
+/// costs: a figure may lie or stand on its head.
+inline constexpr double k_lowest_spread = 0.15, k_most_lowest_cost = 9;
 /// fitted: guesses. Costs of a missing head, and of lying down.
 inline constexpr double k_no_head_cost = 8, k_lying_cost = 2;
+/// fitted: guesses. Longest finger, a share of the diagonal, and share of an arm that is not the other one's too.
+inline constexpr double k_longest_finger = 0.045, k_own_share = 0.7;
 /// fitted: guess. Shortest limb, a share of the figure's length.
 inline constexpr double k_shortest_limb = 0.08;
 /// fitted: guess. A choice that costs more has no arms or no legs.
@@ -241,7 +252,15 @@ inline constexpr double k_hips_to_knees = 0.7, k_widest_hips = 0.5;
 /// fitted: guess. Base of the neck above the shoulders, at most, a share of the stature by the arms.
 inline constexpr double k_neck_over_arm = 0.03;
 
-// ---- human likeness (human_likeness.cpp) ----------------------------------------------------------------------------
+/// fitted: on the variants. A spread of lengths from which a human may be a figure of other proportions: bodies that are
+/// rigged well as humans have at most 0.136, cartoons from 0.15.
+inline constexpr double k_doubtful_spread = 0.145;
+/// fitted: guess. Score that each limb costs whose joints did not show.
+inline constexpr double k_divided_cost = 0.4;
+/// fitted: guess. A figure with this score (minus its costs) needs no other way to join its parts.
+inline constexpr double k_sure_figure = -1.5;
+
+// ---- human likeness (rig_validation.cpp) -----------------------------------------------------------------------------
 
 /// fitted: guesses. Standard deviations by which a logarithm of a ratio may leave a human's interval, a share of the
 /// skeleton outside of the body, and a difference of sides beyond the tolerance.

@@ -39,8 +39,8 @@ std::size_t count_of(const Options& options)
 TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
 {
     // front and joints are places in the body's own axes: a host reads them where it reads the body
-    [[maybe_unused]] const auto [proxy_vertices, swap_sides, front, joints] = RigOptions();
-    EXPECT_EQ(count_of(RigOptions()), 2u);
+    [[maybe_unused]] const auto [proxy_vertices, swap_sides, humanlike, front, joints] = RigOptions();
+    EXPECT_EQ(count_of(RigOptions()), 3u);
     // the front is an axis of the garment's file; how many ways of wearing are skipped is for Dress Body to say
     [[maybe_unused]] const auto [type, method, iterations, nearest, garment_front, as_placed, skipped] = FitOptions();
     EXPECT_EQ(count_of(FitOptions()), 5u);

@@ -29,6 +29,7 @@
 #define vtkFitRigParametersMacro()                                                                                     \
     vtkFitNumberMacro(ProxyVertices, int, proxy_vertices);                                                             \
     vtkFitSwitchMacro(SwapSides, swap_sides);                                                                          \
+    vtkFitChoiceMacro(Humanlike, humanlike);                                                                           \
     vtkFitNumberMacro(Height, double, height)
 
 #define vtkFitFitParametersMacro()                                                                                     \

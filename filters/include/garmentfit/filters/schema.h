@@ -28,6 +28,11 @@ void describe(Options& o, Visitor&& visit)
     visit(o.swap_sides,
           About { "swap_sides", "Swap sides", "", 0, 1,
                   "Exchange left and right, where the program mistook one for the other" });
+    visit(o.humanlike,
+          About { "humanlike", "Humanlike", "", 0, 0,
+                  "Which bodies are rigged: any (whatever has two arms, two legs and a trunk, with a warning where it "
+                  "is far from human), or strict (human bodies only; others are refused)",
+                  &humanlike_names() });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, FitOptions>* = nullptr>
