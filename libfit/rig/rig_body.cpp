@@ -2,6 +2,7 @@
 #include "garmentfit/rig_body.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "body_graph.h"
 #include "closed_surface.h"
@@ -141,15 +142,19 @@ class Doubtful : public InvalidInput {
     using InvalidInput::InvalidInput;
 };
 
-/// @throws InvalidInput when it is no human; Doubtful, unless `strict`, when the names of its ends are uncertain.
+/// @throws InvalidInput when it is no human; Doubtful, unless `strict`, when lengths are not a human's though no hand
+/// or foot is missing.
 VisibleRig find_bones(const Contracted& body, const RigOptions& options)
 {
     const BodyGraph graph = body_graph(body.curves);
-    if (options.humanlike == Humanlike::any && graph.spread > k_doubtful_spread)
+    const BodyJoints joints = label_joints(body.proxy, body.curves, graph);
+    if (options.humanlike == Humanlike::any && graph.spread > k_doubtful_spread && are_whole(joints.arms)
+        && are_whole(joints.legs))
         throw Doubtful(ErrorCode::not_human,
                        "body: the lengths between head, hands and feet differ from a human's by a spread of "
-                           + fixed_text(graph.spread, 2));
-    return name_sides(body.curves, graph, label_joints(body.proxy, body.curves, graph), options);
+                           + fixed_text(graph.spread, 2) + " (usually at most " + fixed_text(k_doubtful_spread, 2)
+                           + ")");
+    return name_sides(body.curves, graph, joints, options);
 }
 
 /// For joints that are all given: nothing is searched, and every vertex may belong to every bone.
@@ -261,6 +266,8 @@ int count_divided(const BodyJoints& joints)
     return count;
 }
 
+constexpr const char* k_other_lengths = "the lengths between head, hands and feet are not a human's";
+
 /// Finds the likeliest figure among several contracted surfaces.
 class FigureSearch {
 public:
@@ -276,8 +283,8 @@ public:
             const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints);
             if (best_ && score <= score_)
                 return;
-            found.rig.human_probability = human.probability;
-            found.rig.not_human = human.furthest;
+            found.rig.human_probability = human.probability * std::exp(-figure.cost);
+            found.rig.not_human = human.furthest.empty() ? k_other_lengths : human.furthest;
             score_ = score;
             best_ = std::move(found);
             proxy_ = std::move(body.proxy);

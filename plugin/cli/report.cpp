@@ -60,6 +60,7 @@ Json body_of(const Session& session)
         json["skeleton"] = session.skeleton;
         json["front"] = vector_of(body.frame.frame.rotation().transpose() * rig->front);
         json["front_confidence"] = rig->side_confidence;
+        json["human_probability"] = rig->human_probability;
     }
     return json;
 }

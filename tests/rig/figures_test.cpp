@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Bodies that have two arms, two legs and a trunk, but not a human's proportions.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+#include "garmentfit/error.h"
+#include "garmentfit/io.h"
+#include "garmentfit/rig_body.h"
+
+namespace {
+
+using namespace garmentfit;
+
+constexpr double k_clearly_human = 0.6;  // below it, hosts warn
+
+const RigOptions k_strict { .humanlike = Humanlike::strict };
+
+/// How many times as long and thick parts are as in the human.
+struct Factors {
+    double head = 1, arms = 1, legs = 1;
+
+    double of(int bone) const
+    {
+        for (const int arm : { lhumerus, lradius, rhumerus, rradius })
+            if (bone == arm)
+                return arms;
+        for (const int leg : { lfemur, ltibia, rfemur, rtibia })
+            if (bone == leg)
+                return legs;
+        return bone == upperneck ? head : 1;
+    }
+};
+
+/// Scales each part about its joint and moves what hangs on it along.
+class Cartoon {
+public:
+    Cartoon(const TriangleMesh& human, const Rig& rig, const Factors& factors) :
+        mesh_(human), skeleton_(rig.skeleton), factors_(factors), from_(rig.skeleton)
+    {
+        for (int b = 0; b < bone_count; ++b)  // parents come before children
+            skeleton_.tails[b] = place(b, from_.tail(b));
+        for (Eigen::Index v = 0; v < human.positions.rows(); ++v) {
+            Vec3 sum = Vec3::Zero();
+            for (int k = 0; k < 4; ++k)
+                sum += rig.weights.weights(v, k) * place(rig.weights.bones(v, k), human.positions.row(v));
+            mesh_.positions.row(v) = sum;
+        }
+    }
+
+    const TriangleMesh& mesh() const { return mesh_; }
+
+    /// Of the twelve joints of the limbs from where they were moved, a share of the height.
+    double mean_error(const Skeleton& found) const
+    {
+        const double height = mesh_.positions.col(1).maxCoeff() - mesh_.positions.col(1).minCoeff();
+        double sum = 0;
+        for (const int bone : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius })
+            for (const int side : { bone, mirror_of(bone) })
+                sum += (found.tail(side) - skeleton_.tail(side)).norm() / height / 12;
+        return sum;
+    }
+
+private:
+    Vec3 place(int bone, const Vec3& point) const
+    {
+        return skeleton_.head(bone) + factors_.of(bone) * (point - from_.head(bone));
+    }
+
+    TriangleMesh mesh_;
+    Skeleton skeleton_;
+    Factors factors_;
+    Skeleton from_;
+};
+
+TriangleMesh human(const std::string& name)
+{
+    const MeshFile file = MeshFile::read(GARMENTFIT_BODIES "/" + name + ".ply");
+    return { file.positions(), file.triangles() };
+}
+
+TEST(Slow, CartoonsAreRiggedAndSaidToBeFarFromHuman)
+{
+    constexpr Factors k_chibi { 2.5, 0.7, 0.45 }, k_ape { 1, 1.5, 0.5 };
+    for (const char* name : { "man_a_pose", "woman_t_pose" }) {
+        const TriangleMesh mesh = human(name);
+        const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles));
+        EXPECT_EQ(rig.human_probability, 1);
+        EXPECT_TRUE(rig.not_human.empty());
+        for (const Factors& factors : { k_chibi, k_ape }) {
+            SCOPED_TRACE(std::string(name) + ", head " + std::to_string(factors.head));
+            const Cartoon cartoon(mesh, rig, factors);
+            const Rig found = rig_body(make_body(cartoon.mesh().positions, cartoon.mesh().triangles));
+            EXPECT_LT(cartoon.mean_error(found.skeleton), 0.04);
+            EXPECT_LT(found.human_probability, k_clearly_human);
+            EXPECT_FALSE(found.not_human.empty());
+        }
+    }
+}
+
+TEST(Slow, StrictRefusesApes)
+{
+    const TriangleMesh mesh = human("man_a_pose");
+    const BodyMesh man = make_body(mesh.positions, mesh.triangles);
+    const Cartoon ape(mesh, rig_body(man, k_strict), { 1, 1.5, 0.5 });
+    fixtures::expect_invalid([&] { rig_body(make_body(ape.mesh().positions, ape.mesh().triangles), k_strict); },
+                             "a human has");
+}
+
+double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double radius)
+{
+    return (p - a - std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0) * (b - a)).norm() - radius;
+}
+
+TEST(Slow, TailsAreNotLegs)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    const auto fox = [&](const Vec3& p) {
+        const double tail = std::min(capsule(p, { 0, 0.95, -0.08 }, { 0, 0.75, -0.35 }, 0.05),
+                                     capsule(p, { 0, 0.75, -0.35 }, { 0, 0.85, -0.75 }, 0.05));
+        return std::min(fixtures::person_distance(person.skeleton, p), tail);
+    };
+    const TriangleMesh mesh = fixtures::polygonise(fox, Vec3(-1, -0.2, -1), Vec3(1, 2, 0.5), 0.025);
+    const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles));
+    for (const int bone : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius })
+        for (const int side : { bone, mirror_of(bone) })
+            EXPECT_LT((rig.skeleton.tail(side) - person.skeleton.tail(side)).norm(), 0.1) << bone_name(side);
+}
+
+}  // namespace
