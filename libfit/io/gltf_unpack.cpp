@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,6 +47,36 @@ bool is_packed(const ordered_json& json)
                        [](const ordered_json& accessor) { return accessor.contains("sparse"); });
 }
 
+constexpr std::array<const char*, 2> k_of_vertices { "POSITION", "NORMAL" };
+
+/// Accessors of the vertices that a node shows; none of a node that is mangled, which is found later.
+std::set<std::size_t> shown_by(const ordered_json& json, const ordered_json& node)
+{
+    std::set<std::size_t> shown;
+    if (!node.contains("mesh") || !json.contains("meshes") || node["mesh"].get<std::size_t>() >= json["meshes"].size())
+        return shown;
+    for (const ordered_json& primitive : json["meshes"][node["mesh"].get<std::size_t>()].at("primitives"))
+        for (const char* name : k_of_vertices)
+            if (primitive.contains("attributes") && primitive["attributes"].contains(name))
+                shown.insert(primitive["attributes"][name].get<std::size_t>());
+    return shown;
+}
+
+/// Nodes that show vertices which one before them shows, too.
+std::vector<std::size_t> instances_in(const ordered_json& json)
+{
+    std::set<std::size_t> shown;
+    std::vector<std::size_t> instances;
+    const ordered_json nodes = json.value("nodes", ordered_json::array());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::set<std::size_t> own = shown_by(json, nodes[i]);
+        if (std::any_of(own.begin(), own.end(), [&](std::size_t accessor) { return shown.contains(accessor); }))
+            instances.push_back(i);
+        shown.insert(own.begin(), own.end());
+    }
+    return instances;
+}
+
 class Unpacker {
 public:
     Unpacker(const FileBytes& file, GltfContainer container, const std::filesystem::path& folder) :
@@ -64,6 +95,7 @@ public:
             for (ordered_json& accessor : json_["accessors"])
                 make_dense(accessor);
         make_floats();
+        separate_instances();
         for (const char* list : { "extensionsUsed", "extensionsRequired" })
             forget_extensions(list);
         return in_one_buffer();
@@ -209,7 +241,7 @@ private:
     {
         std::string bytes;
         for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f)
-            for (const draco::PointIndex point : mesh.face(f)) {
+            for (const draco::PointIndex& point : mesh.face(f)) {
                 const std::uint32_t index = point.value();
                 bytes.append(reinterpret_cast<const char*>(&index), sizeof index);
             }
@@ -384,6 +416,44 @@ private:
         accessor["max"] = high;
     }
 
+    // ---- instances
+
+    /// Each node gets its own vertices, so that each can be dressed and moved by itself.
+    void separate_instances()
+    {
+        for (const std::size_t node : instances_in(json_))
+            json_["nodes"][node]["mesh"] = add_copy_of_mesh(json_["nodes"][node]["mesh"]);
+    }
+
+    std::size_t add_copy_of_mesh(std::size_t index)
+    {
+        ordered_json mesh = json_.at("meshes").at(index);
+        std::map<std::size_t, std::size_t> copies;  // accessors: primitives that share vertices go on to
+        for (ordered_json& primitive : mesh.at("primitives"))
+            for (const char* name : k_of_vertices)
+                if (primitive.contains("attributes") && primitive["attributes"].contains(name)) {
+                    ordered_json& accessor = primitive["attributes"][name];
+                    const auto [copy, is_new] = copies.try_emplace(accessor.get<std::size_t>());
+                    if (is_new)
+                        copy->second = add_copy_of_accessor(copy->first);
+                    accessor = copy->second;
+                }
+        json_["meshes"].push_back(std::move(mesh));
+        return json_["meshes"].size() - 1;
+    }
+
+    std::size_t add_copy_of_accessor(std::size_t index)
+    {
+        ordered_json accessor = json_.at("accessors").at(index);
+        std::string bytes = dense_bytes(accessor);
+        copied_bytes_ += bytes.size();
+        if (copied_bytes_ > k_most_bytes)
+            file_.fail("meshes that several nodes show would take more than 2 GB; export fewer copies");
+        place(accessor, std::move(bytes));
+        json_["accessors"].push_back(std::move(accessor));
+        return json_["accessors"].size() - 1;
+    }
+
     // ---- the result
 
     void forget_extensions(const char* list)
@@ -433,6 +503,7 @@ private:
     GltfContainer container_;
     ordered_json& json_;
     std::vector<std::string> buffers_;
+    std::size_t copied_bytes_ = 0;
 };
 
 }  // namespace
@@ -441,7 +512,7 @@ GltfContainer read_plain_gltf(const FileBytes& file, const std::filesystem::path
 {
     GltfContainer container = read_gltf_container(file);
     try {
-        if (!is_packed(container.json))
+        if (!is_packed(container.json) && instances_in(container.json).empty())
             return container;
         return Unpacker(file, std::move(container), folder).run();
     } catch (const ordered_json::exception&) {

@@ -209,6 +209,27 @@ TEST_F(PackedGltf, IsReadAndWrittenWhereDracoPackedIt)
     expect_written_in_plain(packed);
 }
 
+TEST_F(PackedGltf, InstancesHaveTheirOwnVertices)
+{
+    add_buffer(plain);
+    json["meshes"].push_back(json["meshes"][0]);  // another mesh of the same vertices
+    json["nodes"].push_back({ { "mesh", 1 }, { "translation", { 0, 0, 5 } } });
+    json["nodes"].push_back({ { "mesh", 0 } });
+    for (const int node : { 2, 3 })
+        json["scenes"][0]["nodes"].push_back(node);
+    const MeshFile thrice = read(), once = whole();
+    const Eigen::Index n = once.positions().rows();
+    ASSERT_EQ(thrice.positions().rows(), 3 * n);
+    ASSERT_EQ(thrice.triangles().rows(), 3 * once.triangles().rows());
+    EXPECT_EQ(thrice.positions().topRows(n), once.positions());
+    EXPECT_EQ(thrice.positions().row(n), Eigen::RowVector3d(0, 0, 5));
+    EXPECT_EQ(thrice.positions().row(2 * n), Eigen::RowVector3d(0, 0, 0));
+    Positions moved = thrice.positions();
+    moved.bottomRows(n).col(1).array() += 0.25;
+    thrice.write(folder / "out.gltf", moved);
+    EXPECT_LT((MeshFile::read(folder / "out.gltf").positions() - moved).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST_F(PackedGltf, IsRefusedInWordsWhereItIsMangled)
 {
     const auto expect = [&](const char* words, const std::function<void()>& mangle) {
