@@ -167,4 +167,14 @@ void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments)
     known.scene.draped = dressing_from(known.scene, dressed_pose_from(find_in(body)), left, worn, known.garment_names);
 }
 
+KnownScene scene_of_dressed(vtkPolyData& body, vtkDataObject& garments)
+{
+    const Filter& reads_all = filter_of("recover");
+    Parameters usual;
+    KnownScene known = scene_of_body(reads_all, body, {}, usual);
+    read_garments(known, reads_all, garments, {}, usual);
+    read_worn(known, body, garments);
+    return known;
+}
+
 }  // namespace garmentfit

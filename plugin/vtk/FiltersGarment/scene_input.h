@@ -37,6 +37,8 @@ void read_garments(KnownScene& known, const Filter& filter, vtkDataObject& garme
                    const Parameters& parameters);
 /// Reads body and garments in the pose that the garments are worn in.
 void read_worn(KnownScene& known, vtkPolyData& body, vtkDataObject& garments);
+/// The whole scene as the outputs of a filter that dresses show it; the dressing, certified again, is `draped`.
+KnownScene scene_of_dressed(vtkPolyData& body, vtkDataObject& garments);
 
 }  // namespace garmentfit
 

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The wrapped filters: every parameter of the schema, and round trips through VTK's own files."""
+import json
 import math
 import os
+import struct
 import sys
 import tempfile
 import unittest
 
-from vtkmodules.vtkCommonCore import VTK_DOUBLE
+from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_STRING, vtkFloatArray
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as pipeline
 from vtkmodules.vtkIOPLY import vtkPLYReader
@@ -148,6 +150,115 @@ class Files(unittest.TestCase):
         given = self.body.GetOutput().GetPoints().GetData()
         self.assertTrue(all(own.GetTuple(i) == given.GetTuple(i) for i in range(given.GetNumberOfTuples())))
         self.assertFalse(self.fit.GetOutputInformation(0).Has(pipeline.TIME_STEPS()))
+
+
+class Outfits(unittest.TestCase):
+    """A dressed body from VTK's files to one skinned GLB."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.garment = reader("skirt.ply")
+        cls.garment.Update()
+        uvs = vtkFloatArray()
+        uvs.SetNumberOfComponents(2)
+        uvs.SetNumberOfTuples(cls.garment.GetOutput().GetNumberOfPoints())
+        uvs.Fill(0.25)
+        cls.garment.GetOutput().GetPointData().SetTCoords(uvs)
+        cls.dress = fit.vtkDressBody()
+        cls.body = reader("walking_woman.ply")
+        cls.dress.SetInputConnection(0, cls.body.GetOutputPort())
+        cls.dress.SetInputData(1, cls.garment.GetOutput())
+        cls.dress.SetTypeByName("skirt")
+        cls.dress.SetQualityByName("draft")
+        cls.dress.Update()
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.writer = fit.vtkOutfitWriter()
+        self.writer.SetFileName(os.path.join(self.folder.name, "new", "outfit.glb"))
+        self.messages = []
+        self.writer.AddObserver("ErrorEvent", self.keep_message)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def keep_message(self, _, event, message=""):
+        self.messages.append(message)
+
+    keep_message.CallDataType = VTK_STRING
+
+    def outfit(self):
+        with open(self.writer.GetFileName(), "rb") as file:
+            length_of_json = struct.unpack("<5I", file.read(20))[3]
+            return json.loads(file.read(length_of_json))
+
+    def expect_refusal(self, words):
+        self.assertEqual(self.writer.Write(), 0)
+        self.assertNotEqual(self.writer.GetErrorCode(), 0)
+        self.assertIn(words, self.messages[-1])
+        self.assertFalse(os.path.exists(self.writer.GetFileName()))
+
+    def test_body_and_garment_are_written_with_skins_and_uvs(self):
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetInputConnection(1, self.dress.GetOutputPort(1))
+        self.writer.SetBones("mixamo")
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        outfit = self.outfit()
+        self.assertEqual(len(outfit["meshes"]), 2)
+        self.assertIn("mixamorig:Hips", [node.get("name") for node in outfit["nodes"]])
+        body, skirt = (mesh["primitives"][0]["attributes"] for mesh in outfit["meshes"])
+        for attributes in (body, skirt):
+            self.assertIn("JOINTS_0", attributes)
+        self.assertNotIn("TEXCOORD_0", body)
+        self.assertIn("TEXCOORD_0", skirt)
+
+    def test_what_was_kept_in_files_is_written_alike(self):
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetInputConnection(1, self.dress.GetOutputPort(1))
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        with open(self.writer.GetFileName(), "rb") as file:
+            direct = file.read()
+        backs = []
+        for port in range(2):
+            path = os.path.join(self.folder.name, f"{port}.vtp")
+            keep, back = vtkXMLPolyDataWriter(), vtkXMLPolyDataReader()
+            keep.SetInputConnection(self.dress.GetOutputPort(port))
+            keep.SetFileName(path)
+            keep.SetDataModeToBinary()
+            keep.Write()
+            back.SetFileName(path)
+            self.writer.SetInputConnection(port, back.GetOutputPort())
+            backs.append(back)
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        with open(self.writer.GetFileName(), "rb") as file:
+            self.assertEqual(file.read(), direct)
+
+    def test_garments_may_be_several_blocks(self):
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, self.dress.GetOutputDataObject(1))
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetInputData(1, blocks)
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        self.assertEqual(len(self.outfit()["meshes"]), 2)
+
+    def test_what_cannot_be_written_is_said_in_one_line(self):
+        self.writer.SetInputConnection(0, self.body.GetOutputPort())
+        self.writer.SetInputConnection(1, self.dress.GetOutputPort(1))
+        self.expect_refusal("Rig")
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetBones("cat")
+        self.expect_refusal("give one of garmentfit, vrm")
+        self.writer.SetBones("smpl")
+        self.writer.SetFileName(os.path.join(self.folder.name, "outfit.obj"))
+        self.expect_refusal("give a name that ends in .glb or .vrm")
+        self.writer.SetFileName(os.path.join(self.folder.name, "outfit.glb"))
+        posed, rig = fit.vtkFitSkeleton(), fit.vtkRigBody()
+        rig.SetInputConnection(self.body.GetOutputPort())
+        posed.SetInputConnection(0, rig.GetOutputPort())
+        posed.SetInputData(1, self.garment.GetOutput())
+        posed.SetTypeByName("skirt")
+        self.writer.SetInputConnection(0, posed.GetOutputPort())
+        self.expect_refusal("in its own pose")
 
 
 if __name__ == "__main__":
