@@ -134,12 +134,15 @@ void read_frames(Choice& choice, const RichParameterList& list, const MenuEntry&
 /// MeshLab's file dialog starts with an empty name, whatever the default.
 std::filesystem::path read_file_name(const RichParameterList& list, const MenuEntry& entry, const MeshModel& body)
 {
-    const QString name = entry.task == Task::save_rig ? list.getSaveFileName(k_file) : list.getOpenFileName(k_file);
-    const std::filesystem::path path
-        = name.isEmpty() ? rig_file_beside(body) : std::filesystem::path(name.toStdString());
+    const bool is_outfit = entry.task == Task::save_outfit;
+    const QString name = entry.task == Task::load_rig ? list.getOpenFileName(k_file) : list.getSaveFileName(k_file);
+    if (!name.isEmpty())
+        return std::filesystem::path(name.toStdString());
+    const std::filesystem::path path = is_outfit ? outfit_beside(body) : rig_file_beside(body);
     if (path.empty())
         throw InvalidInput(ErrorCode::wrong_call,
-                           "file: " + name_of(body) + " has no file yet; give a file name that ends in .rig.json");
+                           "file: " + name_of(body) + " has no file yet; give a file name that ends in "
+                               + (is_outfit ? ".glb" : ".rig.json"));
     return path;
 }
 
@@ -157,7 +160,12 @@ Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDo
         choice.garments = { read_layer(list, k_garments[0], document) };
         choice.worn = read_layer(list, k_worn, document);
     }
-    if (entry.task == Task::save_rig || entry.task == Task::load_rig)
+    if (entry.task == Task::save_outfit) {
+        choice.outfit_bones
+            = bone_name_sets()[read_number<std::size_t>(list, k_outfit_bones, bone_name_sets().size())].second;
+        choice.hide_covered_skin = list.getBool(k_hide_covered_skin);
+    }
+    if (entry.task == Task::save_rig || entry.task == Task::load_rig || entry.task == Task::save_outfit)
         choice.file = read_file_name(list, entry, *choice.body);
     read_frames(choice, list, entry);
     describe_entry(entry, choice.parameters, ReadFromDialog(list));

@@ -10,6 +10,7 @@
 
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/filters/outfit.h"
 #include "host_api.h"
 #include "menu.h"
 
@@ -31,6 +32,8 @@ struct Choice {
     Bone shown_bone = thorax;
     ShownMap shown_map = ShownMap::ease;
     std::filesystem::path file;
+    BoneNames outfit_bones = BoneNames::garmentfit;
+    bool hide_covered_skin = false;
 };
 
 /// @throws InvalidInput where a layer does not exist or is chosen twice.

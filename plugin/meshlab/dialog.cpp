@@ -6,6 +6,7 @@
 #include "fields.h"
 #include "fitting.h"
 #include "garmentfit/filters/frame_choice.h"
+#include "garmentfit/filters/outfit.h"
 #include "garmentfit/units.h"
 #include "layers.h"
 
@@ -183,6 +184,19 @@ void add_file(RichParameterList& list, const MenuEntry& entry, const MeshModel& 
                                         "file beside the body's file"));
 }
 
+void add_outfit(RichParameterList& list, const MeshModel& body)
+{
+    std::vector<std::string_view> bones;
+    for (const auto& [name, set] : bone_name_sets())
+        bones.push_back(name);
+    add_choice(list, k_outfit_bones, bones, "Bones",
+               "Names and number of the joints, as that program has them; a .vrm file has those of VRM");
+    list.addParam(RichBool(k_hide_covered_skin, false, "Hide covered skin",
+                           "Leave out faces of the body that the garments cover in poses of everyday movement"));
+    list.addParam(SaveFileParameter(k_file, QString::fromStdString(outfit_beside(body).string()), "*.glb", "Outfit",
+                                    "A .glb or .vrm file; without a name: man.outfit.glb beside man.ply"));
+}
+
 void add_shown(RichParameterList& list, const MenuEntry& entry)
 {
     if (entry.makes_rig())
@@ -214,6 +228,8 @@ RichParameterList dialog_for(const MenuEntry& entry, ShownDocument& document)
                                       "The layer with the same garment on the body, in the body's input pose"));
     }
     add_file(list, entry, *defaults.layers[0]);
+    if (entry.task == Task::save_outfit)
+        add_outfit(list, *defaults.layers[0]);
     add_frames(list, entry);
     const Parameters parameters;
     describe_entry(entry, parameters, AddToDialog(list, defaults, Group::everyday));

@@ -15,7 +15,7 @@ namespace garmentfit::meshlab {
 
 inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit = "unit", k_up = "up", k_front = "front",
                      k_garment_unit = "garment_unit", k_garment_up = "garment_up", k_bone = "shown_bone",
-                     k_map = "shown_map";
+                     k_map = "shown_map", k_outfit_bones = "bones", k_hide_covered_skin = "hide_covered_skin";
 inline const QString k_garment_fronts[] = { "garment_front", "second_garment_front", "third_garment_front" };
 inline const QString k_garments[] = { "garment", "second_garment", "third_garment" };
 inline const QString k_types[] = { "type", "second_type", "third_type" };

@@ -67,6 +67,12 @@ Registry& registry()
     return fittings;
 }
 
+std::filesystem::path beside(const MeshModel& layer, const char* ending)
+{
+    const std::filesystem::path file = layer.fullName().toStdString();
+    return file.empty() ? file : std::filesystem::path(file).replace_extension(ending);
+}
+
 }  // namespace
 
 bool Fitting::is_of_body(const TriangleMesh& body) const { return is_same(scene.body->surface, body, body_frame); }
@@ -102,11 +108,9 @@ SharedFitting find_fitting(const MeshDocument& document, const std::function<boo
     return nullptr;
 }
 
-std::filesystem::path rig_file_beside(const MeshModel& body)
-{
-    const std::filesystem::path file = body.fullName().toStdString();
-    return file.empty() ? file : std::filesystem::path(file).replace_extension(".rig.json");
-}
+std::filesystem::path rig_file_beside(const MeshModel& body) { return beside(body, ".rig.json"); }
+
+std::filesystem::path outfit_beside(const MeshModel& body) { return beside(body, ".outfit.glb"); }
 
 Fitting fitting_from_file(const std::filesystem::path& path, const std::string& body_name, const TriangleMesh& body)
 {

@@ -24,6 +24,7 @@ struct Fitting {
     Frame body_frame;
     std::vector<std::string> garment_names;
     std::vector<Frame> garment_frames;
+    std::vector<std::filesystem::path> garment_files;  ///< empty for a layer without a file
 
     /// Whether the vertices and faces, in world axes and units, are the scene's.
     bool is_of_body(const TriangleMesh& body) const;
@@ -43,6 +44,9 @@ SharedFitting find_fitting(const MeshDocument& document, const std::function<boo
 
 /// "/home/me/man.rig.json" for "/home/me/man.ply"; empty for a layer without a file.
 std::filesystem::path rig_file_beside(const MeshModel& body);
+
+/// "/home/me/man.outfit.glb" for "/home/me/man.ply"; empty for a layer without a file.
+std::filesystem::path outfit_beside(const MeshModel& body);
 
 /// Reads a rig file. @throws InvalidInput where it is the rig of another body.
 Fitting fitting_from_file(const std::filesystem::path& path, const std::string& body_name, const TriangleMesh& body);

@@ -39,6 +39,7 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
     scene.rig = std::move(fitting.scene.rig);
     fitting.garment_names.clear();
     fitting.garment_frames.clear();
+    fitting.garment_files.clear();
     for (std::size_t i = 0; i < choice.garments.size(); ++i)
         with_name(*choice.garments[i], [&] {
             const TriangleMesh mesh = mesh_of(*choice.garments[i]);
@@ -55,6 +56,7 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
                                        choice.fabrics[i] });
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
+            fitting.garment_files.push_back(choice.garments[i]->fullName().toStdString());
             report.warn(warnings_about_frame(fitting.garment_names.back(), guess, "garment_", set_by_name));
         });
     fitting.scene = std::move(scene);
@@ -72,6 +74,7 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
                                + "; run Garment Fitting: Fit Skeleton with the same garments first");
     for (std::size_t i = 0; i < choice.garments.size(); ++i) {
         const TriangleMesh mesh = mesh_of(*choice.garments[i]);
+        fitting.garment_files.push_back(choice.garments[i]->fullName().toStdString());
         fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
             return GarmentInput { make_garment(fitting.garment_frames[i].to_metres(mesh.positions), mesh.triangles),
                                   fitting.scene.fits[i].type,

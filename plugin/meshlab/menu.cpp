@@ -58,6 +58,12 @@ std::vector<MenuEntry> make_menu()
           "Reads a rig that Save Rig or the program garmentfit wrote for this body, and makes the layers of Rig Body.",
           Task::load_rig, nullptr });
     entries.push_back(
+        { entry_name("Save Outfit"), "save_garment_fitting_outfit",
+          "Writes a dressed body and its garments as one GLB or VRM that other programs can pose: one skeleton, and "
+          "skin weights for body and garments. UVs, materials and textures come from the files of the layers. Needs a "
+          "garment that Recover Pose or Dress Body put on.",
+          Task::save_outfit, nullptr });
+    entries.push_back(
         { entry_name("Body Measurements and Ease"), "get_garment_fitting_measurements",
           std::string("Measures how a garment sits on a body in the body's input pose. Writes the girths of "
                       "both to the log, and makes a layer with ease, strain and pressure as vertex "

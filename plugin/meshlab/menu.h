@@ -13,7 +13,7 @@ namespace garmentfit::meshlab {
 
 constexpr std::string_view k_title = "Garment Fitting: ";  ///< prefix of every name
 
-enum class Task { run_stages, save_rig, load_rig, measure };
+enum class Task { run_stages, save_rig, load_rig, save_outfit, measure };
 
 struct MenuEntry {
     std::string name;  ///< "Garment Fitting: Rig Body": in the menu and in .mlx scripts
@@ -29,7 +29,7 @@ struct MenuEntry {
     bool makes_maps() const;  ///< of ease, strain and pressure, of which one is shown
 };
 
-/// The five filters of the common table and three that only MeshLab has, in the order of the menu.
+/// The five filters of the common table and four that only MeshLab has, in the order of the menu.
 const std::vector<MenuEntry>& menu();
 
 }  // namespace garmentfit::meshlab

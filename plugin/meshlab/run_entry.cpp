@@ -7,8 +7,10 @@
 #include "garmentfit/certificate.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/outfit.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/fit_map.h"
+#include "garmentfit/io.h"
 #include "inputs.h"
 #include "layers.h"
 #include "results.h"
@@ -72,6 +74,52 @@ Report load_rig(const Choice& choice, MeshDocument& document)
     return report;
 }
 
+/// What a file says of the look of a layer that was opened from it and still has its triangles.
+Appearance look_of_file(const std::filesystem::path& path, const Triangles& triangles, Report& report)
+{
+    if (path.empty() || !std::filesystem::exists(path))
+        return {};
+    try {
+        const MeshFile file = MeshFile::read(path);
+        if (file.triangles() != triangles) {
+            report.lines.push_back(path.filename().string()
+                                   + " has other triangles than its layer, so its UVs and textures are left out");
+            return {};
+        }
+        const Appearance look = file.appearance();
+        report.warn(look.warnings);
+        return look;
+    } catch (const InvalidInput& error) {  // MeshLab reads more formats
+        report.lines.push_back("without UVs and textures of " + path.filename().string() + ": " + error.what());
+        return {};
+    }
+}
+
+Report save_outfit(const Choice& choice, const MeshDocument& document)
+{
+    const TriangleMesh body = mesh_of(*choice.body);
+    const SharedFitting fitting = find_fitting(
+        document, [&](const Fitting& one) { return one.scene.recovered.has_value() && one.is_of_body(body); });
+    if (!fitting)
+        throw InvalidInput(
+            ErrorCode::missing_input,
+            name_of(*choice.body)
+                + " wears nothing in its own pose, or was changed since; run Garment Fitting: Dress Body "
+                  "or Recover Pose first");
+    Report report;
+    std::vector<OutfitPart> garments;
+    for (std::size_t i = 0; i < fitting->scene.garments.size(); ++i)
+        garments.push_back(
+            { fitting->garment_names[i],
+              look_of_file(fitting->garment_files.at(i), fitting->scene.garments[i].mesh.triangles, report) });
+    const OutfitPart wearer { fitting->body_name,
+                              look_of_file(choice.body->fullName().toStdString(), body.triangles, report) };
+    write_outfit(fitting->scene, wearer, garments, { choice.file, choice.outfit_bones, choice.hide_covered_skin });
+    report.lines.push_back("wrote " + fitting->body_name + " and " + std::to_string(garments.size())
+                           + (garments.size() == 1 ? " garment to " : " garments to ") + choice.file.string());
+    return report;
+}
+
 /// @throws InvalidInput where the two layers are not the same garment.
 WornGarment worn_garment(const Choice& choice, const Fitting& fitting, const TriangleMesh& body)
 {
@@ -117,6 +165,7 @@ Report run_entry(const MenuEntry& entry, const RichParameterList& list, MeshDocu
     switch (entry.task) {
     case Task::save_rig: return save_rig(entry, choice, document);
     case Task::load_rig: return load_rig(choice, document);
+    case Task::save_outfit: return save_outfit(choice, document);
     case Task::measure: return measure(entry, choice, document);
     case Task::run_stages: break;
     }

@@ -122,10 +122,9 @@ std::vector<std::string> states_of(const MeshDocument& document)
     return states;
 }
 
-const std::vector<std::string> k_filters {
-    "Rig Body",   "Fit Skeleton", "Drape Garment", "Recover Pose",
-    "Dress Body", "Save Rig",     "Load Rig",      "Body Measurements and Ease"
-};
+const std::vector<std::string> k_filters { "Rig Body",     "Fit Skeleton", "Drape Garment",
+                                           "Recover Pose", "Dress Body",   "Save Rig",
+                                           "Load Rig",     "Save Outfit",  "Body Measurements and Ease" };
 
 class MeshLab : public fixtures::TemporaryFolder {
 protected:
@@ -437,6 +436,35 @@ TEST_F(MeshLab, FindsTheRigBesideTheBodysFile)
     ASSERT_EQ(skeleton.label(), again.label());
     for (int joint = 0; joint < skeleton.cm.vn; ++joint)
         EXPECT_EQ(point_of(skeleton, joint), point_of(again, joint));
+}
+
+TEST_F(MeshLab, SavesADressedBodyAsAnOutfit)
+{
+    fs::copy(k_body, folder / "woman.ply");
+    fs::copy(k_skirt, folder / "skirt.ply");
+    meshlab::open_layer(document, folder / "woman.ply");
+    meshlab::open_layer(document, folder / "skirt.ply");
+    expect_refusal("Save Outfit", dialog_of("Save Outfit", document), "wears nothing in its own pose");
+    RichParameterList dress = dialog_of("Dress Body", document);
+    dress.setValue("quality", EnumValue(int(Quality::draft)));
+    const Ended dressed = run("Dress Body", document, dress);
+    ASSERT_TRUE(dressed.well) << dressed.message;
+
+    const std::size_t layers = names_of(document).size();
+    RichParameterList list = dialog_of("Save Outfit", document);
+    list.setValue("bones", EnumValue(2));
+    const Ended ended = run("Save Outfit", document, list);
+    ASSERT_TRUE(ended.well) << ended.message;
+    EXPECT_EQ(names_of(document).size(), layers);
+    std::ifstream file(folder / "woman.outfit.glb", std::ios::binary);
+    const std::string bytes { std::istreambuf_iterator<char>(file), {} };
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_NE(bytes.find("mixamorig:Hips"), std::string::npos);
+
+    list.setValue("file", FileValue(QString::fromStdString((folder / "outfit.obj").string())));
+    expect_refusal("Save Outfit", list, "give a name that ends in .glb or .vrm");
+    document.meshList[0]->cm.vert[0].P()[0] += 0.01F;
+    expect_refusal("Save Outfit", dialog_of("Save Outfit", document), "was changed since");
 }
 
 TEST_F(MeshLab, DrapesInAPoseFittedBeforeTheRigWasSaved)

@@ -38,6 +38,7 @@ const std::vector<Script> k_scripts {
     { "dress_body", { "Dress Body" } },
     { "save_rig", { "Rig Body", "Save Rig" } },
     { "load_rig", { "Load Rig" } },
+    { "save_outfit", { "Dress Body", "Save Outfit" } },
     { "measurements", { "Dress Body", "Body Measurements and Ease" } },
 };
 
