@@ -333,9 +333,9 @@ double share_covered(const TriangleMesh& surface, const TriangleMesh& closed, do
 
 }  // namespace
 
-std::vector<TriangleMesh> join_parts(const TriangleMesh& surface)
+std::vector<JoinedParts> join_parts(const TriangleMesh& surface)
 {
-    std::vector<TriangleMesh> joined;
+    std::vector<JoinedParts> joined;
     const double near = k_cover_distance * diagonal(surface.positions);
     for (const double alpha : k_join_alphas)
         try {
@@ -344,7 +344,7 @@ std::vector<TriangleMesh> join_parts(const TriangleMesh& surface)
                 continue;
             TriangleMesh closed = orient_outwards(from_cgal(mesh));
             if (share_covered(surface, closed, near) > k_least_cover)
-                joined.push_back(std::move(closed));
+                joined.push_back({ std::move(closed), alpha > k_wrap_alpha });
         } catch (const CGAL::Failure_exception&) {
             // a wider wrap may do
         }

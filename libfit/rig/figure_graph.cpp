@@ -138,8 +138,8 @@ double cost_of_places(const Candidates& c, const int (&pair)[2], const Vec3& mid
     return std::min(squared(difference / size / k_place_spread), k_most_place_cost);
 }
 
-/// Fills sizes and cost.
-void rate(const Candidates& c, Choice& choice)
+/// Fills sizes and cost; a cost of more than `most` may be left out.
+void rate(const Candidates& c, double most, Choice& choice)
 {
     const int h0 = choice.hand[0], h1 = choice.hand[1], f0 = choice.foot[0], f1 = choice.foot[1];
     const int top = choice.head >= 0 ? choice.head : h0;
@@ -169,8 +169,10 @@ void rate(const Candidates& c, Choice& choice)
     cost += squared((head0 - head1) / choice.size / k_pair_fork_spread);
     cost += ratio(choice.arm, choice.leg, k_arm_curve / k_leg_curve, k_arm_ratio_spread);
     cost += ratio(trunk, choice.leg, k_trunk_curve_length / k_leg_curve, k_trunk_ratio_spread);
-    cost += choice.head >= 0 ? ratio(head, choice.leg, k_head_curve_length / k_leg_curve, k_head_ratio_spread)
-                             : k_no_head_cost;
+    const double usual_head = k_head_curve_length / k_leg_curve;
+    cost += choice.head < 0 ? k_no_head_cost
+                            : ratio(head, choice.leg, usual_head,
+                                    head < usual_head * choice.leg ? k_small_head_spread : k_head_ratio_spread);
     const double arms_thick = c.thickness[h0] + c.thickness[h1], legs_thick = c.thickness[f0] + c.thickness[f1];
     cost += squared(std::log(std::max(arms_thick, 1e-9) / std::max(legs_thick, 1e-9) / k_arm_thickness)
                     / k_thickness_spread);
@@ -179,7 +181,8 @@ void rate(const Candidates& c, Choice& choice)
         lowest = std::min(lowest, place.y());
     cost += std::min(squared((feet.y() - lowest) / choice.size / k_lowest_spread), k_most_lowest_cost);
     cost += k_lying_cost * (1 - (above - feet).normalized().y());
-    choice.cost = 0.5 * (cost + cost_of_rest(c, choice));
+    if (0.5 * cost < most)  // the rest takes most of the time
+        choice.cost = 0.5 * (cost + cost_of_rest(c, choice));
 }
 
 Choice best_choice(const Candidates& c)
@@ -196,7 +199,7 @@ Choice best_choice(const Candidates& c)
                         if (head == h0 || head == h1 || head == f0 || head == f1)
                             continue;
                         Choice choice { head, { h0, h1 }, { f0, f1 } };
-                        rate(c, choice);
+                        rate(c, best.cost, choice);
                         if (choice.cost < best.cost)
                             best = choice;
                     }

@@ -273,14 +273,15 @@ class FigureSearch {
 public:
     explicit FigureSearch(const RigOptions& options) : options_(options) { }
 
-    void look_at(Contracted body)
+    /// @param doubt  costs of the surface
+    void look_at(Contracted body, double doubt = 0)
     {
         try {
             const Figure figure = figure_graph(body.curves, body.proxy);
             const BodyJoints joints = label_figure(body.proxy, body.curves, figure);
             VisibleRig found = name_sides(body.curves, figure.graph, joints, options_);
             const HumanLikeness human = human_likeness(body.proxy, found.rig.skeleton);
-            const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints);
+            const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints) - doubt;
             if (best_ && score <= score_)
                 return;
             found.rig.human_probability = human.probability * std::exp(-figure.cost);
@@ -315,9 +316,9 @@ Rig find_figure(const BodyMesh& body, const RigOptions& options, const Attempts&
                 const Progress& progress)
 {
     FigureSearch search(options);
-    const auto look_at = [&](const TriangleMesh& closed, double proxy, double from, double to) {
+    const auto look_at = [&](const TriangleMesh& closed, double proxy, double from, double to, double doubt = 0) {
         try {
-            search.look_at(contract(closed, int(proxy * options.proxy_vertices), progress.part(from, to)));
+            search.look_at(contract(closed, int(proxy * options.proxy_vertices), progress.part(from, to)), doubt);
         } catch (const InvalidInput&) {
             // this surface does not contract to curves
         }
@@ -329,8 +330,8 @@ Rig find_figure(const BodyMesh& body, const RigOptions& options, const Attempts&
     if (body.repaired && !search.is_sure()) {
         progress.at(0.3);
         double done = 0.4;
-        for (const TriangleMesh& joined : join_parts(body.surface)) {
-            look_at(joined, 1, done, done + 0.2);
+        for (const auto& [closed, is_wide] : join_parts(body.surface)) {
+            look_at(closed, 1, done, done + 0.2, is_wide ? k_wide_wrap_cost : 0);
             done += 0.2;
         }
     }

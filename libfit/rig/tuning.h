@@ -209,12 +209,14 @@ inline constexpr Proportion k_upper_arm_to_forearm { 0.6, 1.7 }, k_thigh_to_shin
 
 /// fitted: by time. Ends among which head, hands and feet are chosen, and ways of opening loops that are tried.
 inline constexpr std::size_t k_most_ends = 9;
-inline constexpr int k_most_figure_ways = 40;
+inline constexpr int k_most_figure_ways = 300;
 /// fitted: guesses, on the variants. Standard deviations of the logarithms of length and thickness ratios of a pair,
 /// and of the distance between the places where it leaves the trunk, a share of the figure's length.
 inline constexpr double k_pair_length_spread = 0.15, k_pair_thickness_spread = 0.25, k_pair_fork_spread = 0.08;
-/// fitted: guesses. Standard deviations of the logarithms of ratios to the leg's length.
-inline constexpr double k_arm_ratio_spread = 0.5, k_trunk_ratio_spread = 0.6, k_head_ratio_spread = 0.8;
+/// fitted: guesses. Standard deviations of the logarithms of ratios to the leg's length. Heads of cartoons are large, not
+/// small.
+inline constexpr double k_arm_ratio_spread = 0.5, k_trunk_ratio_spread = 0.6, k_head_ratio_spread = 0.8,
+                        k_small_head_spread = 0.35;
 /// fitted: guesses, on the variants. Thickness ratio of arms to legs, and the standard deviation of its logarithm.
 inline constexpr double k_arm_thickness = 0.62, k_thickness_spread = 0.4;
 /// fitted: guesses. Length of an end that is no limb, a share of the figure's, and the most that one costs.
@@ -257,6 +259,8 @@ inline constexpr double k_neck_over_arm = 0.03;
 inline constexpr double k_doubtful_spread = 0.145;
 /// fitted: guess. Score that each limb costs whose joints did not show.
 inline constexpr double k_divided_cost = 0.4;
+/// fitted: guess. Score that a wide wrap costs: it joins arms with the trunk, too.
+inline constexpr double k_wide_wrap_cost = 1;
 /// fitted: guess. A figure with this score (minus its costs) needs no other way to join its parts.
 inline constexpr double k_sure_figure = -1.5;
 
