@@ -3,7 +3,7 @@
 """Make bodies that are far from the usual ones out of bodies with known joints: parts cut off, cartoon proportions,
 many shells, things glued on. Deterministic.
 
-  vary_bodies.py BODIES_DIR OUT_DIR [--half learn|judge]
+  vary_bodies.py BODIES_DIR OUT_DIR [--rest BODY...] [--only BODY...]
 
 BODIES_DIR has meshes and JSON files with `joints`, `end_sites` and `weights` (joints of MakeHuman's game rig). Each
 variant gets OUT_DIR/<half>/<body>__<variant>.ply and a .json with its `joints` and `stature`. Every other body belongs

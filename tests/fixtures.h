@@ -230,6 +230,12 @@ inline Skeleton person_skeleton(const PersonOptions& options)
     return s;
 }
 
+/// From a point to the segment from `a` to `b`.
+inline double segment_distance(const Vec3& p, const Vec3& a, const Vec3& b)
+{
+    return (p - a - std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0) * (b - a)).norm();
+}
+
 /// Negative inside: a smooth union of capsules with radii that change along them, round a skeleton.
 inline double person_distance(const Skeleton& s, const Vec3& p)
 {

@@ -291,14 +291,21 @@ bool is_solid(const CgalMesh& mesh)
     return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
 }
 
+Body wrapped_body(const TriangleMesh& surface, double alpha)
+{
+    return main_body(to_cgal(wrap_surface(surface, alpha)));
+}
+
 /// Wraps a body in parts, wider and wider gaps until nothing large lies apart.
 CgalMesh wrap_body(const TriangleMesh& surface)
 {
-    Body body = main_body(to_cgal(wrap_surface(surface, k_wrap_alpha)));
-    for (const double alpha : k_wide_wrap_alphas)
-        if (body.rival > 0)
-            if (Body wider = main_body(to_cgal(wrap_surface(surface, alpha))); wider.rival == 0)
-                body = std::move(wider);
+    Body body = wrapped_body(surface, k_wrap_alpha);
+    for (const double alpha : k_wide_wrap_alphas) {
+        if (body.rival == 0)
+            break;
+        if (Body wider = wrapped_body(surface, alpha); wider.rival == 0)
+            body = std::move(wider);
+    }
     if (body.rival > 0)
         throw InvalidInput(ErrorCode::separate_pieces,
                            "body: it is in pieces that lie apart, the second "
@@ -339,7 +346,7 @@ std::vector<JoinedParts> join_parts(const TriangleMesh& surface)
     const double near = k_cover_distance * diagonal(surface.positions);
     for (const double alpha : k_join_alphas)
         try {
-            const CgalMesh mesh = main_body(to_cgal(wrap_surface(surface, alpha))).mesh;
+            const CgalMesh mesh = wrapped_body(surface, alpha).mesh;
             if (!is_solid(mesh))
                 continue;
             TriangleMesh closed = orient_outwards(from_cgal(mesh));

@@ -10,9 +10,9 @@
 
 namespace garmentfit {
 
-/// The container as it is where nothing is packed or shown twice; else one with a single buffer in which all geometry stands as the
-/// core of glTF 2.0 has it, vertices in their order. A mesh that several nodes show is copied, so that each shows its
-/// own vertices. Other members of the file keep their indices.
+/// The container as it is where nothing is packed or shown twice; else one with a single buffer in which all geometry
+/// stands as the core of glTF 2.0 has it, vertices in their order. A mesh that several nodes show is copied, so that
+/// each shows its own vertices. Other members of the file keep their indices.
 /// @param folder  of buffers beside the file
 /// @throws InvalidInput: as read_gltf_container; packed data that are mangled, or have more than 2 GB once unpacked
 GltfContainer read_plain_gltf(const FileBytes& file, const std::filesystem::path& folder);

@@ -23,6 +23,8 @@ constexpr std::size_t k_fewest_ends = 4;  // derived: hands and feet
 // fingers and from the pelvis to the toes, shares of stature.
 constexpr double k_arm_curve = 0.45, k_leg_curve = 0.61, k_trunk_curve_length = 0.28, k_head_curve_length = 0.16;
 
+constexpr double k_no_length = 1e-9;  // unit: m, avoids the logarithm of 0
+
 double squared(double x) { return x * x; }
 
 /// The ends of one tree, with all that the choice among them needs.
@@ -126,9 +128,11 @@ double cost_of_rest(const Candidates& c, const Choice& choice)
 
 double cost_of_pair(const Candidates& c, const int (&pair)[2], double length0, double length1)
 {
-    const double floor = 1e-9;  // unit: avoids the logarithm of 0
-    return squared(std::log((length0 + floor) / (length1 + floor)) / k_pair_length_spread)
-        + squared(std::log((c.thickness[pair[0]] + floor) / (c.thickness[pair[1]] + floor)) / k_pair_thickness_spread);
+    const auto deviation = [](double one, double other, double spread) {
+        return squared(std::log((one + k_no_length) / (other + k_no_length)) / spread);
+    };
+    return deviation(length0, length1, k_pair_length_spread)
+        + deviation(c.thickness[pair[0]], c.thickness[pair[1]], k_pair_thickness_spread);
 }
 
 /// A pair's ends are about as far from a place in the middle as each other. Limits what a pose may cost.
@@ -174,7 +178,7 @@ void rate(const Candidates& c, double most, Choice& choice)
                             : ratio(head, choice.leg, usual_head,
                                     head < usual_head * choice.leg ? k_small_head_spread : k_head_ratio_spread);
     const double arms_thick = c.thickness[h0] + c.thickness[h1], legs_thick = c.thickness[f0] + c.thickness[f1];
-    cost += squared(std::log(std::max(arms_thick, 1e-9) / std::max(legs_thick, 1e-9) / k_arm_thickness)
+    cost += squared(std::log(std::max(arms_thick, k_no_length) / std::max(legs_thick, k_no_length) / k_arm_thickness)
                     / k_thickness_spread);
     double lowest = feet.y();
     for (const Vec3& place : c.places)
@@ -230,10 +234,7 @@ Figure figure_graph(const CurveSkeleton& skeleton, const TriangleMesh& proxy)
     const std::vector<double> radii = radii_of_nodes(skeleton, proxy);
     std::optional<Figure> best;
     std::size_t most_ends = 0;
-    int ways_left = k_most_figure_ways;
     for (const CurveSkeleton& way : open_loops(skeleton)) {
-        if (ways_left-- == 0)
-            break;
         CurveTree tree(way);
         prune_to_few(tree, diagonal(proxy.positions));
         const Candidates c = candidates_of(tree, way, radii);

@@ -32,14 +32,20 @@ Vec3 find_up(const LabelledSurface& surface)
     return (trunk.norm() > k_short_trunk * whole.norm() ? trunk : whole).normalized();
 }
 
+double length_of_curve(const LabelledSurface& surface, int curve)
+{
+    const std::vector<Vec3> nodes = surface.curve(curve);
+    double sum = 0;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+        sum += (nodes[i] - nodes[i - 1]).norm();
+    return sum;
+}
+
 /// A limb whose joints are where a human's are, as shares of its free length.
 LimbJoints divide_limb(const LabelledSurface& surface, const Slicer& slicer, int curve, const Shares& at)
 {
-    const std::vector<Vec3> nodes = surface.curve(curve);
-    double length = 0;
-    for (std::size_t i = 1; i < nodes.size(); ++i)
-        length += (nodes[i] - nodes[i - 1]).norm();
-    const Centreline line = centreline(slicer, nodes, length / k_cuts_of_limb, surface.foreign_to(curve));
+    const Centreline line = centreline(slicer, surface.curve(curve), length_of_curve(surface, curve) / k_cuts_of_limb,
+                                       surface.foreign_to(curve));
     const double most = k_latest_root * line.length();
     const double root = std::min(line.arcs[line.first_free], most), rest = line.length() - root;
     LimbJoints joints;
@@ -64,15 +70,6 @@ bool are_likely(const std::array<LimbJoints, 2>& limbs, const std::array<double,
             return false;
     }
     return true;
-}
-
-double length_of_curve(const LabelledSurface& surface, int curve)
-{
-    const std::vector<Vec3> nodes = surface.curve(curve);
-    double sum = 0;
-    for (std::size_t i = 1; i < nodes.size(); ++i)
-        sum += (nodes[i] - nodes[i - 1]).norm();
-    return sum;
 }
 
 /// The pair as `place` finds it, or divided as a human's.

@@ -217,20 +217,15 @@ Contracted contract(const TriangleMesh& closed, int proxy_vertices, const Progre
     return contracted;
 }
 
-/// @throws InvalidInput of the first attempt, when no attempt gives a valid rig, or at the first doubt.
-Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, Attempts& tried, const Progress& progress)
+/// What `make` returns for the first attempt that it accepts. @throws InvalidInput of the first attempt, when it refuses
+/// all, or at the first doubt.
+template <class Make>
+Rig first_valid_rig(const Make& make)
 {
     std::optional<InvalidInput> refusal;
     for (const Attempt& attempt : k_attempts)
         try {
-            const Progress part = progress.part(attempt.from, attempt.to);
-            tried.push_back(contract(body.closed, int(attempt.proxy * options.proxy_vertices), part.part(0, 0.8)));
-            VisibleRig found = find_bones(tried.back(), options);
-            part.at(0.8);
-            check_rig(tried.back().proxy, found.rig.skeleton);
-            Rig rig = weigh(std::move(found), tried.back().proxy, body, part.part(0.8, 1));
-            progress.at(1);
-            return rig;
+            return make(attempt);
         } catch (const Doubtful&) {
             throw;
         } catch (const InvalidInput& reason) {
@@ -240,21 +235,30 @@ Rig first_valid_rig(const BodyMesh& body, const RigOptions& options, Attempts& t
     throw *refusal;
 }
 
+/// @param tried  gets what was contracted on the way
+Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Attempts& tried, const Progress& progress)
+{
+    return first_valid_rig([&](const Attempt& attempt) {
+        const Progress part = progress.part(attempt.from, attempt.to);
+        tried.push_back(contract(body.closed, int(attempt.proxy * options.proxy_vertices), part.part(0, 0.8)));
+        VisibleRig found = find_bones(tried.back(), options);
+        part.at(0.8);
+        check_rig(tried.back().proxy, found.rig.skeleton);
+        Rig rig = weigh(std::move(found), tried.back().proxy, body, part.part(0.8, 1));
+        progress.at(1);
+        return rig;
+    });
+}
+
 Rig rig_by_given_joints(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
-    std::optional<InvalidInput> refusal;
-    for (const Attempt& attempt : k_attempts)
-        try {
-            const TriangleMesh proxy = proxy_surface(body.closed, int(attempt.proxy * options.proxy_vertices));
-            VisibleRig given = take_given_bones(proxy, options.joints);
-            progress.at(attempt.to * 0.8);
-            check_rig(proxy, given.rig.skeleton);
-            return weigh(std::move(given), proxy, body, progress.part(attempt.to * 0.8, 1));
-        } catch (const InvalidInput& reason) {
-            if (!refusal)
-                refusal = reason;
-        }
-    throw *refusal;
+    return first_valid_rig([&](const Attempt& attempt) {
+        const TriangleMesh proxy = proxy_surface(body.closed, int(attempt.proxy * options.proxy_vertices));
+        VisibleRig given = take_given_bones(proxy, options.joints);
+        progress.at(attempt.to * 0.8);
+        check_rig(proxy, given.rig.skeleton);
+        return weigh(std::move(given), proxy, body, progress.part(attempt.to * 0.8, 1));
+    });
 }
 
 /// Limbs whose joints were not seen but placed as a human's.
@@ -284,12 +288,12 @@ public:
             const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints) - doubt;
             if (best_ && score <= score_)
                 return;
-            found.rig.human_probability = human.probability * std::exp(-figure.cost);
+            found.rig.human_probability = std::exp(-0.5 * human.squares - figure.cost);
             found.rig.not_human = human.furthest.empty() ? k_other_lengths : human.furthest;
             score_ = score;
             best_ = std::move(found);
             proxy_ = std::move(body.proxy);
-        } catch (const InvalidInput& reason) {
+        } catch (const InvalidInput&) {
             // another triangulation may do
         }
     }
@@ -346,7 +350,7 @@ Rig rig_at_origin(const BodyMesh& body, const RigOptions& options, const Progres
         return rig_by_given_joints(body, options, progress);
     Attempts tried;
     try {
-        return first_valid_rig(body, options, tried, progress);
+        return rig_as_human(body, options, tried, progress);
     } catch (const InvalidInput& refusal) {
         if (options.humanlike == Humanlike::strict)
             throw;

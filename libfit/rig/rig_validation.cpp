@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
@@ -47,16 +48,36 @@ void check_inside(const TriangleMesh& closed, const Skeleton& skeleton)
                                + "); give a human body whose limbs do not merge, or give joints");
 }
 
+/// A bone on both sides.
+struct BonePair {
+    int left_bone;
+    double left, right;  ///< m
+
+    bool is_unequal() const { return std::abs(left - right) > k_side_tolerance * std::max(left, right); }
+    std::string left_name() const { return std::string(bone_name(left_bone)); }
+    std::string right_name() const { return std::string(bone_name(mirror_of(left_bone))); }
+    std::string text() const
+    {
+        return left_name() + " is " + fixed_text(left, 2) + " m long and " + right_name() + " " + fixed_text(right, 2)
+            + " m";
+    }
+};
+
+std::vector<BonePair> limb_bones(const Skeleton& skeleton)
+{
+    std::vector<BonePair> pairs;
+    for (const int left : { lfemur, ltibia, lhumerus, lradius })
+        pairs.push_back({ left, skeleton.length(left), skeleton.length(mirror_of(left)) });
+    return pairs;
+}
+
 void check_sides(const Skeleton& skeleton)
 {
-    for (const int left : { lfemur, ltibia, lhumerus, lradius }) {
-        const double l = skeleton.length(left), r = skeleton.length(mirror_of(left));
-        if (std::abs(l - r) > k_side_tolerance * std::max(l, r))
+    for (const BonePair& pair : limb_bones(skeleton))
+        if (pair.is_unequal())
             throw InvalidInput(ErrorCode::not_human,
-                               "body: " + std::string(bone_name(left)) + " is " + fixed_text(l, 2) + " m long and "
-                                   + std::string(bone_name(mirror_of(left))) + " " + fixed_text(r, 2)
-                                   + " m; give a whole human body whose limbs do not merge, or give joints");
-    }
+                               "body: " + pair.text()
+                                   + "; give a whole human body whose limbs do not merge, or give joints");
 }
 
 /// A ratio of lengths, and the interval in which a human's lies.
@@ -130,14 +151,11 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
     const Positions& skin = body.surface.positions;
     const double height = (skin.colwise().maxCoeff() - skin.colwise().minCoeff()).maxCoeff();
     const TriangleTree tree(body.surface);
-    for (const int bone : { lfemur, ltibia, lhumerus, lradius }) {
-        const double l = skeleton.length(bone), r = skeleton.length(mirror_of(bone));
-        if (!(std::min(l, r) > k_shortest_own_bone * height))
-            refuse(std::string(bone_name(bone)) + " or " + std::string(bone_name(mirror_of(bone)))
-                   + " has hardly any length");
-        if (std::abs(l - r) > k_side_tolerance * std::max(l, r))
-            refuse(std::string(bone_name(bone)) + " is " + fixed_text(l, 2) + " m long and "
-                   + std::string(bone_name(mirror_of(bone))) + " " + fixed_text(r, 2) + " m");
+    for (const BonePair& pair : limb_bones(skeleton)) {
+        if (!(std::min(pair.left, pair.right) > k_shortest_own_bone * height))
+            refuse(pair.left_name() + " or " + pair.right_name() + " has hardly any length");
+        if (pair.is_unequal())
+            refuse(pair.text());
     }
     const Vec3 hips = skeleton.tail(lhipjoint) - skeleton.tail(rhipjoint),
                shoulders = skeleton.tail(lclavicle) - skeleton.tail(rclavicle);
@@ -176,11 +194,9 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
     };
     for (const NamedRatio& ratio : ratios_of(skeleton))
         count(ratio.excess() / k_ratio_excess, ratio.text());
-    for (const int left : { lfemur, ltibia, lhumerus, lradius }) {
-        const double l = skeleton.length(left), r = skeleton.length(mirror_of(left));
-        count(std::max(0.0, std::abs(l - r) / std::max(l, r) - k_side_tolerance) / k_sides_excess,
-              std::string(bone_name(left)) + " is " + fixed_text(l, 2) + " m long and "
-                  + std::string(bone_name(mirror_of(left))) + " " + fixed_text(r, 2) + " m");
+    for (const BonePair& pair : limb_bones(skeleton)) {
+        const double difference = std::abs(pair.left - pair.right) / std::max(pair.left, pair.right);
+        count(std::max(0.0, difference - k_side_tolerance) / k_sides_excess, pair.text());
     }
     const double inside = share_inside(closed, skeleton);
     count(std::max(0.0, k_inside_share - inside) / k_outside_excess,
@@ -188,7 +204,7 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
     if (!std::isfinite(squares) || inside < k_figure_inside_share)
         throw InvalidInput(ErrorCode::not_human,
                            "body: " + worst + "; give one figure whose limbs do not merge, or give joints");
-    return { squares, std::exp(-0.5 * squares), worst };
+    return { squares, worst };
 }
 
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)

@@ -17,12 +17,11 @@ void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
 
 /// How human a skeleton in a body is.
 struct HumanLikeness {
-    double squares = 0;  ///< sum of squared deviations beyond a human's limits, in standard deviations
-    double probability = 1;  ///< 1 where check_rig passes
+    double squares = 0;  ///< of deviations beyond a human's limits, in standard deviations; 0 where check_rig passes
     std::string furthest;  ///< what is furthest from human, with numbers; empty where nothing is
 };
 
-/// The tests of check_rig as a probability, by guessed spreads. @throws InvalidInput (not_human) when lengths are not
+/// The tests of check_rig by degrees, with guessed spreads. @throws InvalidInput (not_human) when lengths are not
 /// finite or little of the skeleton is inside: then it is no skeleton of this body.
 HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleton);
 

@@ -204,17 +204,16 @@ inline constexpr Proportion k_upper_arm_to_forearm { 0.6, 1.7 }, k_thigh_to_shin
     k_arm_to_leg { 0.4, 0.85 }, k_trunk_to_leg { 0.4, 1.25 }, k_hip_width_to_leg { 0.05, 0.5 },
     k_shoulder_width_to_leg { 0.15, 0.8 }, k_collarbone_to_leg { 0.1, 0.65 };
 
-// ---- figures of any proportions (figure_graph.cpp, figure_joints.cpp, rig_validation.cpp) ----------------------------
+// ---- figures of any proportions (figure_graph.cpp, figure_joints.cpp) ------------------------------------------------
 // "variants": what scripts/vary_bodies.py makes of ten bodies; every other body for choosing, the rest for judging.
 
-/// fitted: by time. Ends among which head, hands and feet are chosen, and ways of opening loops that are tried.
+/// fitted: by time. Ends among which head, hands and feet are chosen.
 inline constexpr std::size_t k_most_ends = 9;
-inline constexpr int k_most_figure_ways = 300;
 /// fitted: guesses, on the variants. Standard deviations of the logarithms of length and thickness ratios of a pair,
 /// and of the distance between the places where it leaves the trunk, a share of the figure's length.
 inline constexpr double k_pair_length_spread = 0.15, k_pair_thickness_spread = 0.25, k_pair_fork_spread = 0.08;
-/// fitted: guesses. Standard deviations of the logarithms of ratios to the leg's length. Heads of cartoons are large, not
-/// small.
+/// fitted: guesses. Standard deviations of the logarithms of ratios to the leg's length. Heads of cartoons are large,
+/// not small.
 inline constexpr double k_arm_ratio_spread = 0.5, k_trunk_ratio_spread = 0.6, k_head_ratio_spread = 0.8,
                         k_small_head_spread = 0.35;
 /// fitted: guesses, on the variants. Thickness ratio of arms to legs, and the standard deviation of its logarithm.
@@ -254,8 +253,8 @@ inline constexpr double k_hips_to_knees = 0.7, k_widest_hips = 0.5;
 /// fitted: guess. Base of the neck above the shoulders, at most, a share of the stature by the arms.
 inline constexpr double k_neck_over_arm = 0.03;
 
-/// fitted: on the variants. A spread of lengths from which a human may be a figure of other proportions: bodies that are
-/// rigged well as humans have at most 0.136, cartoons from 0.15.
+/// fitted: on the variants. A spread of lengths from which a human may be a figure of other proportions: bodies that
+/// are rigged well as humans have at most 0.136, cartoons from 0.15.
 inline constexpr double k_doubtful_spread = 0.145;
 /// fitted: guess. Score that each limb costs whose joints did not show.
 inline constexpr double k_divided_cost = 0.4;

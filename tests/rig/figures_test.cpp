@@ -3,15 +3,11 @@
 // Bodies that have two arms, two legs and a trunk, but not a human's proportions.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
-#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 
@@ -114,18 +110,13 @@ TEST(Slow, StrictRefusesApes)
                              "a human has");
 }
 
-double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double radius)
-{
-    return (p - a - std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0) * (b - a)).norm() - radius;
-}
-
 TEST(Slow, TailsAreNotLegs)
 {
     const fixtures::Person person = fixtures::capsule_person();
     const auto fox = [&](const Vec3& p) {
-        const double tail = std::min(capsule(p, { 0, 0.95, -0.08 }, { 0, 0.75, -0.35 }, 0.05),
-                                     capsule(p, { 0, 0.75, -0.35 }, { 0, 0.85, -0.75 }, 0.05));
-        return std::min(fixtures::person_distance(person.skeleton, p), tail);
+        const double tail = std::min(fixtures::segment_distance(p, { 0, 0.95, -0.08 }, { 0, 0.75, -0.35 }),
+                                     fixtures::segment_distance(p, { 0, 0.75, -0.35 }, { 0, 0.85, -0.75 }));
+        return std::min(fixtures::person_distance(person.skeleton, p), tail - 0.05);
     };
     const TriangleMesh mesh = fixtures::polygonise(fox, Vec3(-1, -0.2, -1), Vec3(1, 2, 0.5), 0.025);
     const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles));

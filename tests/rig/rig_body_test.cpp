@@ -18,6 +18,7 @@ using fixtures::capsule_person;
 using fixtures::expect_invalid;
 using fixtures::Person;
 using fixtures::PersonOptions;
+using fixtures::segment_distance;
 
 constexpr double k_stature = 1.75;  // m, of the person at scale 1
 
@@ -258,8 +259,8 @@ TEST(RigBody, SeparatesAHandFromTheHipThatItIsMergedWith)
 {
     const Person person = capsule_person({ .arm_angle = 60, .elbow_angle = 15 });
     const auto bridge = [&](const Vec3& p) {  // from the left hand to the thigh beside it
-        const Vec3 a = person.skeleton.tips[lhand_tip], b(0.12, a.y(), 0), axis = b - a;
-        return (p - a - std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0) * axis).norm() - 0.035;
+        const Vec3 hand = person.skeleton.tips[lhand_tip];
+        return segment_distance(p, hand, { 0.12, hand.y(), 0 }) - 0.035;
     };
     const auto both = [&](const Vec3& p) { return std::min(fixtures::person_distance(person.skeleton, p), bridge(p)); };
     const TriangleMesh merged = fixtures::polygonise(both, Vec3(-1.1, -0.2, -0.5), Vec3(1.1, 2.1, 0.5), 0.02);
@@ -326,11 +327,6 @@ TEST(RigBody, ReportsGrowingProgressUpToOne)
 TriangleMesh shape(const std::function<double(const Vec3&)>& distance)
 {
     return fixtures::polygonise(distance, Vec3::Constant(-1.1), Vec3::Constant(1.1), 0.08);
-}
-
-double segment_distance(const Vec3& p, const Vec3& a, const Vec3& b)
-{
-    return (p - a - std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0) * (b - a)).norm();
 }
 
 TEST(RigBody, RefusesBallsAndCubesAsBlocks)

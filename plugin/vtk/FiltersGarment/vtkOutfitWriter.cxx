@@ -67,8 +67,6 @@ void vtkOutfitWriter::WriteData()
         if (!body || !garments)
             throw InvalidInput(ErrorCode::missing_input, "connect a dressed body to port 0 and its garments to port 1");
         const OutfitRequest request { this->FileName, bone_names_called(this->Bones), this->HideCoveredSkin };
-        if (const std::string fault = fault_of_outfit_name(request.path); !fault.empty())
-            throw InvalidInput(ErrorCode::wrong_call, fault);
         require_own_pose(*body);
         KnownScene known = scene_of_dressed(*body, *garments);
         std::vector<OutfitPart> parts;
