@@ -71,6 +71,11 @@ inline constexpr double k_ball_tolerance = 0.9;
 /// Share of a bridge that is drawn to the crease boundary; the rest is a soap film, so that no face loses its area.
 /// Fitted: guess, on the same five pairs.
 inline constexpr double k_bridge_tautness = 0.9;
+/// In radii of the ball: skin this near across a crease is the other side of its opening. Fitted: the ball's diameter,
+/// 2, was too little between the thighs of a body of 7,000 vertices with shorts and trousers; 2.5 was enough.
+inline constexpr double k_opening_width = 3;
+/// In radii of the ball; how far apart the depths of a crease are measured. Fitted: guess.
+inline constexpr double k_depth_spacing = 0.5;
 /// m; cloth further from a crease at the start does not get into it along the pose path. Fitted: guess; without a
 /// limit, mouths and toes were smoothed away.
 inline constexpr double k_crease_reach = 0.15;

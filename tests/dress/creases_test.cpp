@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 
 namespace garmentfit {
 namespace {
@@ -38,6 +42,67 @@ TriangleMesh table_with_slit()
     return mesh;
 }
 
+/// The surface of those cells of a grid that are solid.
+TriangleMesh surface_of_cells(const std::array<std::vector<double>, 3>& lines,
+                              const std::function<bool(const Vec3&)>& is_solid)
+{
+    const auto solid_at = [&](const std::array<int, 3>& cell) {
+        Vec3 centre;
+        for (int k = 0; k < 3; ++k) {
+            if (cell[k] < 0 || cell[k] + 1 >= int(lines[k].size()))
+                return false;
+            centre[k] = (lines[k][cell[k]] + lines[k][cell[k] + 1]) / 2;
+        }
+        return is_solid(centre);
+    };
+    std::map<std::array<int, 3>, int> vertices;
+    std::vector<std::array<int, 3>> faces;
+    const auto vertex = [&](const std::array<int, 3>& corner) {
+        return vertices.try_emplace(corner, int(vertices.size())).first->second;
+    };
+    std::array<int, 3> cell {};
+    for (cell[0] = 0; cell[0] < int(lines[0].size()); ++cell[0])
+        for (cell[1] = 0; cell[1] < int(lines[1].size()); ++cell[1])
+            for (cell[2] = 0; cell[2] < int(lines[2].size()); ++cell[2])
+                for (int k = 0; k < 3; ++k) {  // the face between this cell and the one before it along an axis
+                    std::array<int, 3> before = cell;
+                    --before[k];
+                    const bool solid = solid_at(cell);
+                    if (solid == solid_at(before))
+                        continue;
+                    std::array<int, 3> b = cell, c = cell, d = cell;
+                    ++b[(k + 1) % 3];
+                    ++c[(k + 1) % 3], ++c[(k + 2) % 3];
+                    ++d[(k + 2) % 3];
+                    std::array<int, 4> corners { vertex(cell), vertex(b), vertex(c), vertex(d) };
+                    if (solid)
+                        std::reverse(corners.begin(), corners.end());
+                    faces.push_back({ corners[0], corners[1], corners[2] });
+                    faces.push_back({ corners[0], corners[2], corners[3] });
+                }
+    TriangleMesh mesh { Positions(Eigen::Index(vertices.size()), 3), Triangles(Eigen::Index(faces.size()), 3) };
+    for (const auto& [corner, v] : vertices)
+        mesh.positions.row(v) << lines[0][corner[0]], lines[1][corner[1]], lines[2][corner[2]];
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        mesh.triangles.row(Eigen::Index(f)) << faces[f][0], faces[f][1], faces[f][2];
+    return mesh;
+}
+
+constexpr double k_crotch = 0.14, k_half_depth = 0.06;  // m
+
+/// Two legs side by side, 6 mm apart: the slit between them is deeper than its front is far from its back.
+TriangleMesh legs_side_by_side()
+{
+    std::vector<double> across { -0.15, -0.12, -0.09, -0.06, -0.03, -0.003, 0.003, 0.03, 0.06, 0.09, 0.12, 0.15 };
+    std::vector<double> up, along;
+    for (int i = 0; i <= 12; ++i)
+        up.push_back(0.02 * i);
+    for (int i = 0; i <= 6; ++i)
+        along.push_back(0.02 * i - k_half_depth);
+    return surface_of_cells({ across, up, along },
+                            [](const Vec3& at) { return std::abs(at.x()) > 0.003 || at.y() > k_crotch; });
+}
+
 std::vector<char> all_of(const TriangleMesh& mesh, char near) { return std::vector<char>(mesh.positions.rows(), near); }
 
 TEST(Creases, AreBridgedAcrossTheirBoundary)
@@ -50,6 +115,22 @@ TEST(Creases, AreBridgedAcrossTheirBoundary)
             EXPECT_EQ(bridged.row(v), table.positions.row(v)) << "vertex " << v << " is beside the slit";
         }
     }
+}
+
+TEST(Creases, BetweenLegsAreBridgedWhereTheyEndBelow)
+{
+    const TriangleMesh legs = legs_side_by_side();
+    const Positions bridged = Creases(legs, all_of(legs, 1)).bridged_surface();
+    int inner = 0;
+    for (Eigen::Index v = 0; v < bridged.rows(); ++v) {
+        const Vec3 place = legs.positions.row(v);
+        if (std::abs(place.x()) > 0.01 || place.y() > k_crotch || std::abs(place.z()) > 0.6 * k_half_depth)
+            continue;
+        ++inner;
+        EXPECT_LT(bridged(v, 1), 0.03) << "cloth may stay above " << place.transpose();
+        EXPECT_GE(bridged(v, 0) * place.x(), 0) << "the legs changed sides at " << place.transpose();
+    }
+    EXPECT_GE(inner, 30);
 }
 
 TEST(Creases, WithoutClothNearThemAreLeftAlone)
