@@ -83,10 +83,12 @@ public:
     {
     }
 
+    bool is_tight(const ClothMotion& motion) const { return stretch_of(motion) > allowed_; }
+
     /// Enlarges the garment where the body stretches it too far. @return false if that takes more than is allowed
     bool enlarge_if_tight(ClothMotion& motion)
     {
-        const double stretch = tightness_.largest_stretch(motion.cloth());
+        const double stretch = stretch_of(motion);
         if (stretch <= allowed_)
             return true;
         const double larger = size_ * (1 + stretch) / (1 + k_enlarged_stretch_share * allowed_);
@@ -103,12 +105,26 @@ public:
     GarmentMesh garment() const { return { size_ * given_.positions, given_.triangles }; }
 
 private:
+    double stretch_of(const ClothMotion& motion) const { return tightness_.largest_stretch(motion.cloth()); }
+
     const GarmentMesh& given_;
     Tightness tightness_;
     double allowed_;  // stretch
     double largest_enlargement_;
     double size_ = 1;
 };
+
+/// Lets tight cloth slide to where it is wide enough, if it does.
+void relax_if_tight(ClothMotion& motion, const MotionStep& step, const Grading& grading)
+{
+    if (!grading.is_tight(motion))
+        return;
+    const Positions before = motion.state();
+    for (int k = 0; k < k_relaxing_steps && grading.is_tight(motion); ++k)
+        motion.advance(step);
+    if (grading.is_tight(motion))
+        motion.restore(before);  // what it lacks is told from where it went first
+}
 
 struct Growth {
     double scale;  ///< 1, or less where the cloth would stretch too far, or the deadline passed
@@ -130,6 +146,7 @@ Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading,
         const Positions target = inside.at(scale);
         step.obstacle_target = &target;
         motion.advance(step);
+        relax_if_tight(motion, step, grading);
         if (!grading.enlarge_if_tight(motion))
             return { scale < 1 ? scale : k_just_below, false };
         reached = scale;
