@@ -11,6 +11,8 @@
 namespace garmentfit {
 namespace {
 
+constexpr const char* k_own_bones = "own";
+
 std::vector<std::string> names_of(const std::vector<OutfitPart>& parts)
 {
     std::vector<std::string> names;
@@ -57,6 +59,34 @@ std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, con
     return find_covered_skin(meshes[0].surface, rig, clothes);
 }
 
+bool is_on_avatar(const OutfitRequest& request)
+{
+    return !request.bones && request.avatar && (request.path.extension() != ".vrm" || is_vrm(request.avatar->path));
+}
+
+void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments, const OutfitRequest& request,
+                     const std::vector<char>& covered)
+{
+    const Dressing& dressing = *scene.recovered;
+    const TriangleMesh skin { dressing.body, scene.body->surface.triangles };
+    const JointWeights weights = read_joint_weights(request.avatar->path);
+    if (weights.rows() != skin.positions.rows())
+        throw InvalidInput(ErrorCode::rig_mismatch,
+                           request.avatar->path.string() + ": has weights of " + std::to_string(weights.rows())
+                               + " vertices, the body has " + std::to_string(skin.positions.rows())
+                               + "; give the file that the body was read from");
+    std::vector<AvatarGarment> clothes;
+    for (const std::size_t i : dressing.worn()) {
+        const GarmentMesh& garment = scene.garments[i].mesh;
+        const Positions& worn = dressing.garments[i].positions;
+        clothes.push_back({ garments.at(i).name,
+                            { request.avatar->frame.to_file(worn), garment.triangles },
+                            garment_weights(skin, weights, garment, worn),
+                            garments.at(i).look });
+    }
+    write_dressed_avatar(request.path, request.avatar->path, clothes, covered);
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets()
@@ -69,15 +99,23 @@ const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets()
     return sets;
 }
 
-BoneNames bone_names_called(const std::string& name)
+std::optional<BoneNames> bone_names_called(const std::string& name)
 {
-    std::string known;
+    if (name == k_own_bones)
+        return std::nullopt;
+    std::string known = k_own_bones;
     for (const auto& [each, names] : bone_name_sets()) {
         if (each == name)
             return names;
-        known += (known.empty() ? "" : ", ") + each;
+        known += ", " + each;
     }
     throw InvalidInput(ErrorCode::unknown_name, "there are no bones called \"" + name + "\"; give one of " + known);
+}
+
+std::optional<AvatarFile> avatar_in(const MeshFile& body, const Frame& frame)
+{
+    const bool is_gltf = body.format() == "glb" || body.format() == "gltf";
+    return is_gltf && has_skin(body.path()) ? std::optional(AvatarFile { body.path(), frame }) : std::nullopt;
 }
 
 std::string fault_of_outfit_name(const std::filesystem::path& path)
@@ -90,15 +128,21 @@ void write_outfit(const Scene& scene, const OutfitPart& body, const std::vector<
                   const OutfitRequest& request)
 {
     check(scene, garments, request.path);
-    std::vector<SkinnedMesh> meshes = skinned_meshes(scene, body, garments);
-    if (request.hide_covered_skin)
-        meshes[0].covered = covered_by_clothes(meshes, *scene.rig);
-    meshes[0].hides_covered = request.hide_covered_skin;
     if (request.path.has_parent_path())
         std::filesystem::create_directories(request.path.parent_path());
-    write_outfit_glb(
-        request.path, *scene.rig, meshes,
-        { request.path.extension() == ".vrm" ? BoneNames::vrm : request.bones, request.path.stem().string() });
+    const bool on_avatar = is_on_avatar(request);
+    std::vector<SkinnedMesh> meshes;
+    if (!on_avatar || request.hide_covered_skin)
+        meshes = skinned_meshes(scene, body, garments);
+    const std::vector<char> covered
+        = request.hide_covered_skin ? covered_by_clothes(meshes, *scene.rig) : std::vector<char>();
+    if (on_avatar)
+        return write_on_avatar(scene, garments, request, covered);
+    meshes[0].covered = covered;
+    meshes[0].hides_covered = request.hide_covered_skin;
+    const BoneNames bones = request.bones.value_or(BoneNames::garmentfit);
+    write_outfit_glb(request.path, *scene.rig, meshes,
+                     { request.path.extension() == ".vrm" ? BoneNames::vrm : bones, request.path.stem().string() });
 }
 
 }  // namespace garmentfit

@@ -17,7 +17,7 @@ public:
     GlbModel();
 
     /// Appends values of one kind to the buffer.
-    /// @tparam Number  float, std::uint8_t or std::uint32_t: how they are stored
+    /// @tparam Number  float, std::uint8_t, std::uint16_t or std::uint32_t: how they are stored
     /// @param rows     one element each; of TINYGLTF_TYPE_SCALAR every entry is one
     /// @param target   0 for what is no vertex data
     /// @return the accessor's index
@@ -57,6 +57,8 @@ private:
             return TINYGLTF_COMPONENT_TYPE_FLOAT;
         else if constexpr (std::is_same_v<Number, std::uint32_t>)
             return TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        else if constexpr (std::is_same_v<Number, std::uint16_t>)
+            return TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
         else if constexpr (std::is_same_v<Number, std::uint8_t>)
             return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
     }

@@ -142,6 +142,28 @@ std::string bytes_of(const GltfContainer& container)
     return "glTF" + word_bytes(2) + word_bytes(k_header_bytes + chunks.size()) + chunks;
 }
 
+std::string merge_buffers(const FileBytes& file, ordered_json& json, const std::vector<std::string>& buffers)
+{
+    std::string all;
+    std::vector<std::size_t> begins;
+    for (const std::string& bytes : buffers) {
+        all = pad(std::move(all), '\0');
+        begins.push_back(all.size());
+        all += bytes;
+    }
+    if (json.contains("bufferViews"))
+        for (ordered_json& view : json["bufferViews"]) {
+            const std::size_t buffer = view.at("buffer");
+            if (buffer >= begins.size())
+                file.fail("a bufferView refers to buffer " + std::to_string(buffer)
+                          + "; it is truncated or mangled, export or copy it again");
+            view["byteOffset"] = begins[buffer] + view.value("byteOffset", std::size_t(0));
+            view["buffer"] = 0;
+        }
+    json["buffers"] = ordered_json::array({ { { "byteLength", all.size() } } });
+    return all;
+}
+
 std::string data_uri(std::string_view mime_type, std::string_view bytes)
 {
     constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -37,6 +37,10 @@ GltfContainer read_gltf_container(const FileBytes& file);
 
 std::string bytes_of(const GltfContainer& container);
 
+/// Makes all views refer to a single buffer. @return its bytes, which the caller stores
+/// @throws InvalidInput: a view of a buffer that there is not
+std::string merge_buffers(const FileBytes& file, nlohmann::ordered_json& json, const std::vector<std::string>& buffers);
+
 std::string data_uri(std::string_view mime_type, std::string_view bytes);
 
 /// Copies pictures from beside the file into it, so that it can be written to another folder.

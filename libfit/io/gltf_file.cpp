@@ -43,7 +43,7 @@ public:
         for (const GltfSurface& surface : scene_.surfaces()) {
             const Block& block = block_of(surface);
             const Eigen::Index before = fans_.rows();
-            add_faces(*surface.primitive, indices_of(*surface.primitive, block), block);
+            add_faces(*surface.primitive, block);
             parts.push_back({ surface.primitive, block.first_row, fans_.rows() - before });
         }
     }
@@ -94,55 +94,14 @@ private:
         rows_ += static_cast<Eigen::Index>(block.positions.count);
     }
 
-    std::vector<int> indices_of(const tinygltf::Primitive& primitive, const Block& block) const
-    {
-        std::vector<int> indices;
-        if (primitive.indices < 0) {
-            for (std::size_t i = 0; i < block.positions.count; ++i)
-                indices.push_back(static_cast<int>(i));
-            return indices;
-        }
-        const Column column = column_of(file_, model_, primitive.indices, "indices");
-        const tinygltf::Accessor& accessor = model_.accessors[primitive.indices];
-        const std::size_t bytes = tinygltf::GetComponentSizeInBytes(accessor.componentType);
-        const bool is_unsigned = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
-            || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
-            || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-        if (!is_unsigned || accessor.type != TINYGLTF_TYPE_SCALAR)
-            file_.fail("indices (accessor " + std::to_string(column.accessor)
-                       + ") are not unsigned integers; export the file again");
-        for (std::size_t i = 0; i < column.count; ++i) {
-            std::uint32_t index = 0;
-            std::memcpy(&index, model_.buffers[column.buffer].data.data() + column.offset(i), bytes);
-            if (index >= block.positions.count)
-                file_.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i)
-                               + ", refers to vertex " + std::to_string(index) + ", but there are "
-                               + std::to_string(block.positions.count) + ", counted from 0; export the file again",
-                           ErrorCode::bad_index);
-            indices.push_back(static_cast<int>(index));
-        }
-        return indices;
-    }
-
-    void add_faces(const tinygltf::Primitive& primitive, const std::vector<int>& indices, const Block& block)
+    void add_faces(const tinygltf::Primitive& primitive, const Block& block)
     {
         const bool is_mirrored = block.world_from_local.linear().determinant() < 0;
-        const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+        const int first = static_cast<int>(block.first_row);
+        for (auto [a, b, c] : triangles_of(file_, model_, primitive, block.positions.count)) {
             if (is_mirrored)
                 std::swap(b, c);
-            const int first = static_cast<int>(block.first_row);
-            fans_.add({ first + indices[a], first + indices[b], first + indices[c] });
-        };
-        const std::size_t step
-            = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP || primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ? 1 : 3;
-        for (std::size_t i = 0; i + 2 < indices.size(); i += step) {
-            if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN)
-                add(0, i + 1, i + 2);
-            else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP
-                     && i % 2 == 1)  // every other one is wound the other way
-                add(i, i + 2, i + 1);
-            else
-                add(i, i + 1, i + 2);
+            fans_.add({ first + a, first + b, first + c });
         }
     }
 

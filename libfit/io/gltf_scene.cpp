@@ -2,6 +2,7 @@
 #include "gltf_scene.h"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <utility>
 
@@ -36,7 +37,55 @@ Eigen::Affine3d parent_from_node(const FileBytes& file, const tinygltf::Node& no
     return transform;
 }
 
+std::vector<int> indices_of(const FileBytes& file, const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                            std::size_t vertices)
+{
+    std::vector<int> indices;
+    if (primitive.indices < 0) {
+        for (std::size_t i = 0; i < vertices; ++i)
+            indices.push_back(static_cast<int>(i));
+        return indices;
+    }
+    const Column column = column_of(file, model, primitive.indices, "indices");
+    const tinygltf::Accessor& accessor = model.accessors[primitive.indices];
+    const std::size_t bytes = tinygltf::GetComponentSizeInBytes(accessor.componentType);
+    const bool is_unsigned = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+        || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+        || accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (!is_unsigned || accessor.type != TINYGLTF_TYPE_SCALAR)
+        file.fail("indices (accessor " + std::to_string(column.accessor)
+                  + ") are not unsigned integers; export the file again");
+    for (std::size_t i = 0; i < column.count; ++i) {
+        std::uint32_t index = 0;
+        std::memcpy(&index, model.buffers[column.buffer].data.data() + column.offset(i), bytes);
+        if (index >= vertices)
+            file.fail("indices (accessor " + std::to_string(column.accessor) + "), entry " + std::to_string(i)
+                          + ", refers to vertex " + std::to_string(index) + ", but there are "
+                          + std::to_string(vertices) + ", counted from 0; export the file again",
+                      ErrorCode::bad_index);
+        indices.push_back(static_cast<int>(index));
+    }
+    return indices;
+}
+
 }  // namespace
+
+std::vector<std::array<int, 3>> triangles_of(const FileBytes& file, const tinygltf::Model& model,
+                                             const tinygltf::Primitive& primitive, std::size_t vertices)
+{
+    const std::vector<int> indices = indices_of(file, model, primitive, vertices);
+    const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN,
+               is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
+    std::vector<std::array<int, 3>> triangles;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += is_fan || is_strip ? 1 : 3) {
+        const std::size_t first = is_fan ? 0 : i;
+        if (is_strip && i % 2 == 1)  // every other one is wound the other way
+            triangles.push_back({ indices[first], indices[i + 2], indices[i + 1] });
+        else
+            triangles.push_back({ indices[first], indices[i + 1], indices[i + 2] });
+    }
+    return triangles;
+}
 
 GltfScene::GltfScene(const FileBytes& file, const tinygltf::Model& model) :
     file_(file), model_(model), parents_(model.nodes.size(), -1),

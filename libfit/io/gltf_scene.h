@@ -4,6 +4,7 @@
 // The nodes of a glTF file's scene and the surfaces that they show: the same ones, in the same order, for all readers.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
 #include "gltf_model.h"
@@ -17,6 +18,11 @@ struct GltfSurface {
     Column positions;
     bool adds_vertices;
 };
+
+/// Of strips and fans, too, all wound as the primitive says. @param vertices  that it has
+/// @throws InvalidInput: indices out of range, or no unsigned integers
+std::vector<std::array<int, 3>> triangles_of(const FileBytes& file, const tinygltf::Model& model,
+                                             const tinygltf::Primitive& primitive, std::size_t vertices);
 
 class GltfScene {
 public:

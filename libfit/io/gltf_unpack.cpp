@@ -475,22 +475,7 @@ private:
         GltfContainer result;
         result.is_binary = container_.is_binary;
         result.is_indented = container_.is_indented;
-        std::string all;
-        std::vector<std::size_t> begins;
-        for (const std::string& bytes : buffers_) {
-            all.resize((all.size() + 3) / 4 * 4, '\0');
-            begins.push_back(all.size());
-            all += bytes;
-        }
-        if (json_.contains("bufferViews"))
-            for (ordered_json& view : json_["bufferViews"]) {
-                const std::size_t buffer = view.at("buffer");
-                if (buffer >= begins.size())
-                    fail("a bufferView refers to buffer " + std::to_string(buffer));
-                view["byteOffset"] = begins[buffer] + view.value("byteOffset", std::size_t(0));
-                view["buffer"] = 0;
-            }
-        json_["buffers"] = ordered_json::array({ { { "byteLength", all.size() } } });
+        std::string all = merge_buffers(file_, json_, buffers_);
         if (!result.is_binary)
             json_["buffers"][0]["uri"] = data_uri("application/octet-stream", all);
         result.json = std::move(json_);

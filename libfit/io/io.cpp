@@ -50,11 +50,13 @@ MeshFile MeshFile::read_points(const std::filesystem::path& path)
 {
     MeshFile mesh;
     mesh.content_ = read_content(read_file(path), path);
+    mesh.path_ = path;
     return mesh;
 }
 
 const Positions& MeshFile::positions() const { return content_->positions; }
 const Triangles& MeshFile::triangles() const { return content_->triangles; }
+const std::filesystem::path& MeshFile::path() const { return path_; }
 const std::string& MeshFile::format() const { return content_->format; }
 
 Appearance MeshFile::appearance() const { return content_->appearance(); }

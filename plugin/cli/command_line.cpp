@@ -155,7 +155,6 @@ void add_fabric_option(CLI::App& command, Call& call)
 
 void add_outfit_options(CLI::App& command, Call& call)
 {
-    static const std::map<std::string, BoneNames> names(bone_name_sets().begin(), bone_name_sets().end());
     command
         .add_option("--outfit", call.outfit.path,
                     "Write body and clothes as one skinned GLB, too, where they are certified: one skeleton, and "
@@ -167,12 +166,13 @@ void add_outfit_options(CLI::App& command, Call& call)
                   "movement, so that they cannot pass through posed cloth")
         ->needs("--outfit");
     command
-        .add_option("--bones", call.outfit.bones,
-                    "With --outfit: the program whose joints and names it has: garmentfit, vrm, mixamo, unreal or "
-                    "smpl. A name that ends in .vrm has those of vrm")
-        ->transform(CLI::CheckedTransformer(names))
+        .add_option_function<std::string>(
+            "--bones", [&call](const std::string& name) { call.outfit.bones = bone_names_called(name); },
+            "With --outfit: whose joints and names it has: own (those of the body's file, with its animations and all "
+            "else, where it is a skinned glTF or GLB; else garmentfit), garmentfit, vrm, mixamo, unreal or smpl. A "
+            "name that ends in .vrm has those of vrm")
         ->type_name("NAME")
-        ->default_str("garmentfit")
+        ->default_str("own")
         ->needs("--outfit");
 }
 

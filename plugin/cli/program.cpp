@@ -125,7 +125,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     folder.publish(outdated(call, session, folder));
     const Dressing* end = final_dressing(session.scene);
     if (!call.outfit.path.empty() && end && end->certified)
-        write_outfit(session, call.outfit);
+        write_outfit(session, call.outfit, call.ignores_skin);
     if (call.json)
         std::cout << report;
     else if (!call.quiet)

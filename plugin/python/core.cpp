@@ -129,7 +129,7 @@ void bind_scene(nb::module_& m)
         .def("copy", [](const PythonScene& s) { return PythonScene(s); })
         .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "type"_a, "unit"_a, "up"_a, "front"_a,
              "sizes"_a, "name"_a, "find"_a = nb::none())
-        .def("set_body_look", &set_body_look, "file"_a)
+        .def("set_body_file", &set_body_file, "file"_a)
         .def("set_garment_look", &set_garment_look, "file"_a)
         .def("write_outfit", &write_outfit_of, "path"_a, "bones"_a, "hide_covered_skin"_a)
         .def("set_worn", &set_worn, "find"_a, "body"_a, "garments"_a)

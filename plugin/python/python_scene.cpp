@@ -221,8 +221,9 @@ void set_worn(PythonScene& s, const nb::object& find, const NumbersIn& body, con
     s.scene.draped = dressing_from(s.scene, dressed_pose_from(find_with(find)), left, worn, s.names);
 }
 
-void set_body_look(PythonScene& scene, const MeshFile& file)
+void set_body_file(PythonScene& scene, const MeshFile& file)
 {
+    scene.body_file = file;
     scene.body_look = std::make_shared<const Appearance>(file.appearance());
 }
 
@@ -242,8 +243,10 @@ void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, co
     for (std::size_t i = 0; i < s.names.size(); ++i)
         garments.push_back(part(std::filesystem::path(s.names[i]).stem().string(),
                                 i < s.garment_looks.size() ? s.garment_looks[i] : nullptr));
-    const OutfitRequest request { path, bone_names_called(bones), hide_covered_skin };
+    OutfitRequest request { path, bone_names_called(bones), hide_covered_skin };
     const nb::gil_scoped_release other_threads_run;
+    if (s.body_file)
+        request.avatar = avatar_in(*s.body_file, s.body_frame);
     write_outfit(s.scene, part("body", s.body_look), garments, request);
 }
 

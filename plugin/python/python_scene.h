@@ -27,6 +27,7 @@ struct PythonScene {
     std::vector<std::string> frame_warnings;  ///< one line for each guess of unit, axes and scale that is uncertain
     std::optional<Vec3> front;
     GivenJoints joints;
+    std::optional<MeshFile> body_file;  ///< none where the body was made of arrays
     std::shared_ptr<const Appearance> body_look;  ///< of the body's file; null where it was made of arrays
     std::vector<std::shared_ptr<const Appearance>> garment_looks;  ///< of each garment, or null
     ClothOptions cloth;  ///< of the last step that moved the garments
@@ -54,7 +55,7 @@ void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);
 
 /// UVs, materials and pictures of the file that the body, or the garment that was added last, was read from.
-void set_body_look(PythonScene& scene, const MeshFile& file);
+void set_body_file(PythonScene& scene, const MeshFile& file);
 void set_garment_look(PythonScene& scene, const MeshFile& file);
 
 /// Body and garments as one skinned file that other programs can pose. Other Python threads run meanwhile.

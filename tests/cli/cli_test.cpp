@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -753,6 +755,30 @@ TEST_F(Slow, CarriesMaterialsAndPicturesAlong)
     ASSERT_EQ(look.materials.size(), 1u);
     EXPECT_EQ(look.materials[0].name, "plaid");
     EXPECT_EQ(look.pictures.size(), 1u);
+}
+
+TEST_F(Slow, KeepsTheFileOfASkinnedBodyInItsOutfit)
+{
+    ASSERT_EQ(run({ "rig", k_body, "-o", folder / "rigged" }).code, 0);
+    const fs::path avatar = folder / "rigged/rigged.glb";
+    const Ended ended = run({ "dress", avatar, k_skirt, "--type", "skirt", "--quality", "draft", "--outfit",
+                              folder / "outfit.glb", "--hide-covered-skin", "-o", folder / "dressed" });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto json_of = [](const fs::path& glb) {
+        const std::string bytes = read_text(glb);
+        std::uint32_t size = 0;
+        std::memcpy(&size, bytes.data() + 12, sizeof size);
+        return nlohmann::json::parse(bytes.substr(20, size));
+    };
+    const auto given = json_of(avatar), outfit = json_of(folder / "outfit.glb");
+    ASSERT_EQ(outfit.at("nodes").size(), given.at("nodes").size() + 1);
+    for (std::size_t i = 0; i < given.at("nodes").size(); ++i)
+        EXPECT_EQ(outfit.at("nodes")[i], given.at("nodes")[i]) << i;
+    EXPECT_EQ(outfit.at("nodes").back().at("name"), "skirt");
+    EXPECT_TRUE(outfit.at("meshes")[0].at("primitives")[0].at("attributes").contains("_COVERED"));
+    const auto worn = garmentfit::MeshFile::read(folder / "dressed" / "skirt.ply"),
+               whole = garmentfit::MeshFile::read(folder / "outfit.glb");
+    EXPECT_LT((whole.positions().bottomRows(worn.positions().rows()) - worn.positions()).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)

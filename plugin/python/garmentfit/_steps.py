@@ -214,12 +214,13 @@ class Dressing(_Result):
         """States on the pose path to the body's input pose: at most `frames`, without those that are not certified."""
         return [Frame(*frame) for frame in self._scene.frames()]
 
-    def write_outfit(self, path: Union[str, "os.PathLike[str]"], *, bones: str = "garmentfit",
+    def write_outfit(self, path: Union[str, "os.PathLike[str]"], *, bones: str = "own",
                      hide_covered_skin: bool = False) -> None:
         """Writes body and clothes as one skinned GLB, or VRM by its name: one skeleton, and weights for all meshes, so
         that other programs can pose them. Meshes from read_mesh keep their UVs, materials and textures.
 
-        bones: the program whose joints and names it has: garmentfit, vrm, mixamo, unreal or smpl.
+        bones: whose joints and names it has: own (those of the body's file, with its animations and all else, where
+            that is a skinned glTF or GLB from read_mesh; else garmentfit), garmentfit, vrm, mixamo, unreal or smpl.
         hide_covered_skin: leaves out faces of the body that the clothes cover in all poses of everyday movement.
         Only of a certified result in the body's own pose (dress, recover_pose).
         """
@@ -242,7 +243,7 @@ def _scene_of(body: MeshLike, unit: str, up: str, front: str,
     known = {name: [float(x) for x in place] for name, place in (joints or {}).items()}
     scene = _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known, dict(parameters))
     if mesh.file is not None:
-        scene.set_body_look(mesh.file)
+        scene.set_body_file(mesh.file)
     return scene
 
 

@@ -232,6 +232,30 @@ def test_an_outfit_is_one_skinned_file(dressed, body, tmp_path):
         len(body.positions)
 
 
+def _write_glb(path, text, rest):
+    chunk = json.dumps(text).encode()
+    chunk += b" " * (-len(chunk) % 4)
+    body = len(chunk).to_bytes(4, "little") + b"JSON" + chunk + rest
+    path.write_bytes(b"glTF" + (2).to_bytes(4, "little") + (12 + len(body)).to_bytes(4, "little") + body)
+
+
+def test_an_outfit_on_a_skinned_body_keeps_its_file(dressed, skirt, tmp_path):
+    dressed.write_outfit(tmp_path / "both.glb", bones="mixamo")
+    avatar = _glb_json(tmp_path / "both.glb")
+    skirt_node = [node.get("name") for node in avatar["nodes"]].index("skirt")
+    avatar["scenes"][0]["nodes"].remove(skirt_node)
+    data = (tmp_path / "both.glb").read_bytes()
+    _write_glb(tmp_path / "avatar.glb", avatar, data[20 + int.from_bytes(data[12:16], "little"):])
+
+    worn = garmentfit.dress(garmentfit.read_mesh(tmp_path / "avatar.glb"), Garment(skirt, "skirt"), **QUICK)
+    worn.write_outfit(tmp_path / "outfit.glb")
+    outfit = _glb_json(tmp_path / "outfit.glb")
+    for of_file in "nodes", "meshes", "skins":
+        assert outfit[of_file][:-1] == avatar[of_file]
+    worn.write_outfit(tmp_path / "other.glb", bones="smpl")
+    assert "left_hip" in [node.get("name") for node in _glb_json(tmp_path / "other.glb")["nodes"]]
+
+
 def test_an_outfit_keeps_materials_of_files(body, skirt, tmp_path):
     shape = "\n".join([f"v {x} {y} {z}" for x, y, z in skirt.positions] + ["vt .5 .5", "usemtl red"]
                       + [f"f {a}/1 {b}/1 {c}/1" for a, b, c in skirt.triangles + 1])
@@ -251,6 +275,6 @@ def test_an_outfit_needs_a_certified_result_in_the_bodys_pose(dressed, body, ski
         draped.write_outfit(tmp_path / "outfit.glb")
     with pytest.raises(garmentfit.InvalidInput, match="ends in .glb or .vrm"):
         dressed.write_outfit(tmp_path / "outfit.fbx")
-    with pytest.raises(garmentfit.InvalidInput, match="one of garmentfit, vrm"):
+    with pytest.raises(garmentfit.InvalidInput, match="one of own, garmentfit, vrm"):
         dressed.write_outfit(tmp_path / "outfit.glb", bones="biped")
     assert not list(tmp_path.iterdir())

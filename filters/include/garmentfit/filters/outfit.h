@@ -4,12 +4,15 @@
 // A dressed body and its clothes in one file that other programs can pose.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
+#include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
+#include "garmentfit/units.h"
 
 namespace garmentfit {
 
@@ -19,23 +22,35 @@ struct OutfitPart {
     Appearance look {};  ///< of the triangles of the mesh in the scene; empty where nothing is known
 };
 
+/// A skinned glTF or GLB that the body was read from.
+struct AvatarFile {
+    std::filesystem::path path;
+    Frame frame;
+};
+
 struct OutfitRequest {
     std::filesystem::path path;  ///< ends in .glb, or in .vrm, which has the joints of VRM whatever `bones` says
-    BoneNames bones = BoneNames::garmentfit;
+    std::optional<BoneNames> bones = {};  ///< none: the avatar's own, or garmentfit without one
     bool hide_covered_skin
         = false;  ///< leaves out faces of the body that clothes cover in all poses of everyday movement
+    std::optional<AvatarFile> avatar = {};  ///< whose file the body was read from, where it has a skin
 };
 
 /// "garmentfit", "vrm", "mixamo", "unreal" and "smpl".
 const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets();
 
-/// @throws InvalidInput naming the sets that there are.
-BoneNames bone_names_called(const std::string& name);
+/// None for "own", the avatar's. @throws InvalidInput naming the sets that there are.
+std::optional<BoneNames> bone_names_called(const std::string& name);
+
+/// The body's file, where it is a skinned glTF or GLB. Reads it again. @throws InvalidInput: it is gone.
+std::optional<AvatarFile> avatar_in(const MeshFile& body, const Frame& frame);
 
 /// "" where an outfit can have this name; else a line that says which one it needs.
 std::string fault_of_outfit_name(const std::filesystem::path& path);
 
 /// Writes body and worn garments, in the body's input pose, as one skinned GLB: one skeleton, weights for all meshes.
+/// On an avatar's own bones the file is the avatar's with the garments added (write_dressed_avatar). A name in .vrm asks
+/// for that, or makes an avatar of VRM 1.0 where its file is none.
 /// Makes the folder where there is none; never leaves a half-written file. Cost: some seconds for 10^4 vertices.
 /// @param body, garments  in the order of the scene, for all of its garments
 /// @throws InvalidInput: the pose is not recovered, the result is not certified, another name, a place that cannot be

@@ -29,6 +29,7 @@ public:
 
     const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
     const Triangles& triangles() const;  ///< polygons cut into fans
+    const std::filesystem::path& path() const;  ///< where it was read from
     const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" or "gltf"
 
     /// Writes the file as it was read, with other positions (n x 3, same order). Writes a temporary file and renames
@@ -46,6 +47,7 @@ public:
 
 private:
     std::shared_ptr<const Content> content_;
+    std::filesystem::path path_;
 };
 
 /// One named column of vertex data for write_ply; `integer` columns are written as int, the others as double.

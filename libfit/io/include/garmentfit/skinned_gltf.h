@@ -9,6 +9,7 @@
 
 #include "garmentfit/appearance.h"
 #include "garmentfit/export.h"
+#include "garmentfit/garment_weights.h"
 #include "garmentfit/skeleton.h"
 
 namespace garmentfit {
@@ -64,5 +65,29 @@ GARMENTFIT_API bool has_skin(const std::filesystem::path& path);
 /// All meshes of the scene are one body: joints of several skins are merged, and a mesh without a skin hangs on the
 /// joint above it. What hangs on none, or has no weight, follows the nearest vertex that has one. @throws InvalidInput: not glTF, no skin, joints that a human needs have no known names.
 GARMENTFIT_API ForeignRig read_skinned_gltf(const std::filesystem::path& path);
+
+/// Weights of an avatar over the joints of its own file: a row for each vertex of MeshFile, a column for each joint of
+/// its skins. What hangs on no joint follows as in read_skinned_gltf. @throws InvalidInput: not glTF, no skin.
+GARMENTFIT_API JointWeights read_joint_weights(const std::filesystem::path& avatar);
+
+/// Whether a glTF or GLB says that it is a VRM avatar, 0.x or 1.0. @throws InvalidInput: missing, not glTF.
+GARMENTFIT_API bool is_vrm(const std::filesystem::path& path);
+
+struct AvatarGarment {
+    std::string name;
+    TriangleMesh surface;  ///< on the avatar as MeshFile shows it, in its units and axes
+    JointWeights weights;  ///< over the columns of read_joint_weights; the four largest of a vertex count
+    Appearance look {};  ///< of the triangles of `surface`
+};
+
+/// Writes an avatar's file with clothes as a GLB. All that the file has stays: nodes, skins, weights, materials,
+/// animations, expressions, extensions. Each garment is a mesh more, with a skin over the avatar's joints, so that it
+/// goes along with all that moves these. Packed geometry is written plain. Never leaves a half-written file.
+/// @param covered  of each vertex of MeshFile, whether the clothes cover it: attribute _COVERED, 1 or 0; faces of which
+///                 all corners are covered are left out. Or empty
+/// @throws InvalidInput: not glTF, no skin, numbers of rows or columns differ, the place cannot be written.
+GARMENTFIT_API void write_dressed_avatar(const std::filesystem::path& path, const std::filesystem::path& avatar,
+                                         const std::vector<AvatarGarment>& garments,
+                                         const std::vector<char>& covered = {});
 
 }  // namespace garmentfit

@@ -247,7 +247,7 @@ class Outfits(unittest.TestCase):
         self.expect_refusal("Rig")
         self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
         self.writer.SetBones("cat")
-        self.expect_refusal("give one of garmentfit, vrm")
+        self.expect_refusal("give one of own, garmentfit, vrm")
         self.writer.SetBones("smpl")
         self.writer.SetFileName(os.path.join(self.folder.name, "outfit.obj"))
         self.expect_refusal("give a name that ends in .glb or .vrm")

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gltf_skin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "garmentfit/error.h"
+#include "gltf_scene.h"
+#include "nearest.h"
+
+namespace garmentfit {
+namespace {
+
+bool has_weight(const std::vector<std::pair<int, double>>& hang)
+{
+    return std::any_of(hang.begin(), hang.end(),
+                       [](const auto& joint) { return joint.second > 0 && std::isfinite(joint.second); });
+}
+
+// Hats beside the skeleton's tree, and vertices that an exporter left out of its weights, follow what they lie at.
+// @throws InvalidInput where no vertex has a weight
+void hang_on_nearest(const FileBytes& file, const Positions& positions, FileSkin& skin)
+{
+    std::vector<int> held, loose;
+    for (std::size_t v = 0; v < skin.hangs.size(); ++v)
+        (has_weight(skin.hangs[v]) ? held : loose).push_back(int(v));
+    if (held.empty())
+        file.fail("has a skin, but no vertex with a positive weight; export the weights, too");
+    skin.loose = int(loose.size());
+    if (loose.empty())
+        return;
+    const NearestPoint nearest(positions(held, Eigen::all));
+    for (const int v : loose)
+        skin.hangs[std::size_t(v)] = skin.hangs[std::size_t(held[std::size_t(nearest.index(positions.row(v)))])];
+}
+
+class SkinReader {
+public:
+    SkinReader(const FileBytes& file, const tinygltf::Model& model) :
+        file_(file), model_(model), scene_(file, model), row_of_(model.nodes.size(), -1)
+    {
+    }
+
+    FileSkin read()
+    {
+        const std::vector<GltfSurface> surfaces = scene_.surfaces();
+        for (const GltfSurface& surface : surfaces)
+            add_joints(surface.node);
+        if (skin_.names.empty())
+            file_.fail("has no skinned mesh; give a rigged body");
+        for (const int node : skin_.nodes)
+            skin_.parents.push_back(joint_above(scene_.parent(node)));
+        for (const GltfSurface& surface : surfaces)
+            if (surface.adds_vertices)
+                read_weights(surface);
+        hang_on_nearest(file_, positions_of(surfaces), skin_);
+        return std::move(skin_);
+    }
+
+private:
+    const tinygltf::Skin* skin_of(int node) const
+    {
+        const int skin = model_.nodes[std::size_t(node)].skin;
+        return skin < 0 ? nullptr : &checked(file_, model_.skins, skin, "skin");
+    }
+
+    void add_joints(int node)
+    {
+        const tinygltf::Skin* skin = skin_of(node);
+        if (!skin)
+            return;
+        const Eigen::Affine3d world_from_mesh = scene_.world_from_mesh(node);
+        for (std::size_t j = 0; j < skin->joints.size(); ++j) {
+            const int joint = skin->joints[j];
+            const std::string& name = checked(file_, model_.nodes, joint, "node").name;
+            if (row_of_[std::size_t(joint)] >= 0)
+                continue;
+            row_of_[std::size_t(joint)] = int(skin_.nodes.size());
+            skin_.nodes.push_back(joint);
+            skin_.names.push_back(name);
+            const Eigen::Affine3d joint_from_mesh = scene_.joint_from_mesh(*skin, j);
+            skin_.joint_from_world.push_back(joint_from_mesh * world_from_mesh.inverse());
+            skin_.places.push_back((world_from_mesh * joint_from_mesh.inverse()).translation());
+            if (!skin_.places.back().allFinite())
+                file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
+        }
+    }
+
+    /// The row of the node, or of the nearest one above it that is a joint; -1 where there is none.
+    int joint_above(int node) const
+    {
+        while (node >= 0 && row_of_[std::size_t(node)] < 0)
+            node = scene_.parent(node);
+        return node < 0 ? -1 : row_of_[std::size_t(node)];
+    }
+
+    /// Eyes, hair and the like may be moved by a joint without a skin of their own.
+    void read_weights(const GltfSurface& surface)
+    {
+        const std::size_t first = skin_.hangs.size();
+        skin_.hangs.resize(first + surface.positions.count);
+        if (const tinygltf::Skin* skin = skin_of(surface.node))
+            for (int set = 0; read_set(surface, *skin, set, first);)
+                ++set;
+        else if (const int joint = joint_above(surface.node); joint >= 0)
+            std::fill(skin_.hangs.begin() + std::ptrdiff_t(first), skin_.hangs.end(),
+                      std::vector<std::pair<int, double>> { { joint, 1.0 } });
+    }
+
+    /// Where the scene shows the vertices of the file, in its units.
+    Positions positions_of(const std::vector<GltfSurface>& surfaces) const
+    {
+        Positions result(Eigen::Index(skin_.hangs.size()), 3);
+        Eigen::Index row = 0;
+        for (const GltfSurface& surface : surfaces) {
+            if (!surface.adds_vertices)
+                continue;
+            const Eigen::Affine3d world_from_mesh = scene_.world_from_mesh(surface.node);
+            for (std::size_t v = 0; v < surface.positions.count; ++v) {
+                const auto at = [&](int k) { return number_at(model_, surface.positions, v, k); };
+                result.row(row++) = (world_from_mesh * Vec3(at(0), at(1), at(2))).transpose();
+            }
+        }
+        return result;
+    }
+
+    int type_of(const Column& column) const { return model_.accessors[std::size_t(column.accessor)].componentType; }
+
+    /// Four joints and weights of each vertex; further sets follow where the file has more.
+    bool read_set(const GltfSurface& surface, const tinygltf::Skin& skin, int set, std::size_t first)
+    {
+        const std::string number = std::to_string(set), joints = "JOINTS_" + number, weights = "WEIGHTS_" + number;
+        const auto joint_at = surface.primitive->attributes.find(joints),
+                   weight_at = surface.primitive->attributes.find(weights), end = surface.primitive->attributes.end();
+        if (joint_at == end || weight_at == end)
+            return false;
+        const Column joint = column_of(file_, model_, joint_at->second, joints.c_str()),
+                     weight = column_of(file_, model_, weight_at->second, weights.c_str());
+        const auto is_four = [&](const Column& column) {
+            return model_.accessors[std::size_t(column.accessor)].type == TINYGLTF_TYPE_VEC4
+                && column.count == surface.positions.count;
+        };
+        const int of_joints = type_of(joint), of_weights = type_of(weight);
+        const bool are_right = (of_joints == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+                                || of_joints == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+            && (of_weights == TINYGLTF_COMPONENT_TYPE_FLOAT || of_weights == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+                || of_weights == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+        if (!are_right)
+            file_.fail("has " + joints + " or " + weights
+                       + " of a type that glTF does not allow for them; export the file again");
+        if (!is_four(joint) || !is_four(weight))
+            file_.fail("has " + joints + " and " + weights
+                       + " that are not four numbers a vertex; export the file again");
+        for (std::size_t v = 0; v < joint.count; ++v)
+            for (int k = 0; k < 4; ++k) {
+                const double index = number_at(model_, joint, v, k);
+                if (!(index >= 0 && index < double(skin.joints.size())))
+                    file_.fail("vertex " + std::to_string(v) + " refers to joint " + std::to_string(int(index)) + " of "
+                               + std::to_string(skin.joints.size()) + "; export the file again");
+                skin_.hangs[first + v].emplace_back(row_of_[std::size_t(skin.joints[std::size_t(index)])],
+                                                    number_at(model_, weight, v, k));
+            }
+        return true;
+    }
+
+    const FileBytes& file_;
+    const tinygltf::Model& model_;
+    const GltfScene scene_;
+    std::vector<int> row_of_;  // of each node its row among the joints, -1 for others
+    FileSkin skin_;
+};
+
+}  // namespace
+
+FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model) { return SkinReader(file, model).read(); }
+
+}  // namespace garmentfit

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The skins of a glTF file as they are: joints by their own names, and the weights of all vertices.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gltf_model.h"
+
+namespace garmentfit {
+
+/// All skins of a file as one: their joints are merged by node.
+struct FileSkin {
+    std::vector<int> nodes;  ///< of each joint
+    std::vector<std::string> names;
+    std::vector<int> parents;  ///< rows of the same; -1 none
+    std::vector<Vec3> places;  ///< in the bind pose
+    std::vector<Eigen::Affine3d, Eigen::aligned_allocator<Eigen::Affine3d>> joint_from_world;  ///< in the bind pose
+    std::vector<std::vector<std::pair<int, double>>> hangs;  ///< of each vertex of MeshFile: joints and weights
+    int loose = 0;  ///< vertices that hung on no joint
+};
+
+/// A mesh without a skin hangs on the joint above it; what hangs on none, or has no weight, follows the nearest vertex
+/// that has one. @throws InvalidInput: no skinned mesh, mangled
+FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model);
+
+}  // namespace garmentfit
