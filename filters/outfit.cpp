@@ -59,11 +59,6 @@ std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, con
     return find_covered_skin(meshes[0].surface, rig, clothes);
 }
 
-bool is_on_avatar(const OutfitRequest& request)
-{
-    return !request.bones && request.avatar && (request.path.extension() != ".vrm" || is_vrm(request.avatar->path));
-}
-
 void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments, const OutfitRequest& request,
                      const std::vector<char>& covered)
 {
@@ -116,6 +111,11 @@ std::optional<AvatarFile> avatar_in(const MeshFile& body, const Frame& frame)
 {
     const bool is_gltf = body.format() == "glb" || body.format() == "gltf";
     return is_gltf && has_skin(body.path()) ? std::optional(AvatarFile { body.path(), frame }) : std::nullopt;
+}
+
+bool is_on_avatar(const OutfitRequest& request)
+{
+    return !request.bones && request.avatar && (request.path.extension() != ".vrm" || is_vrm(request.avatar->path));
 }
 
 std::string fault_of_outfit_name(const std::filesystem::path& path)

@@ -314,7 +314,7 @@ JointWeights read_joint_weights(const std::filesystem::path& path)
 
 bool is_vrm(const std::filesystem::path& path)
 {
-    const ordered_json json = read_gltf_container(read_file(path)).json;
+    const ordered_json json = read_plain_gltf(read_file(path), path.parent_path()).json;
     const ordered_json extensions = json.value("extensions", ordered_json::object());
     return extensions.contains("VRM") || extensions.contains("VRMC_vrm");
 }

@@ -19,6 +19,7 @@
 
 #include "garmentfit/error.h"
 #include "gltf_model.h"
+#include "scene_file.h"
 
 namespace garmentfit {
 namespace {
@@ -495,7 +496,7 @@ private:
 
 GltfContainer read_plain_gltf(const FileBytes& file, const std::filesystem::path& folder)
 {
-    GltfContainer container = read_gltf_container(file);
+    GltfContainer container = read_gltf_container(is_scene_file(file) ? glb_of_scene(file) : file);
     try {
         if (!is_packed(container.json) && instances_in(container.json).empty())
             return container;

@@ -2,7 +2,7 @@
 #pragma once
 
 // Packed glTF as plain glTF: EXT_meshopt_compression, KHR_draco_mesh_compression, KHR_mesh_quantization, sparse
-// accessors and instances. What reads or writes the result need not know of them.
+// accessors and instances, and FBX and COLLADA (scene_file.h). What reads or writes the result need not know of them.
 
 #include <filesystem>
 

@@ -6,6 +6,7 @@
 
 #include "garmentfit/error.h"
 #include "mesh_content.h"
+#include "scene_file.h"
 
 namespace garmentfit {
 namespace {
@@ -25,13 +26,15 @@ ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
         return read_ply(std::move(file));
     if (file.bytes.starts_with("glTF") || extension == ".glb" || extension == ".gltf")
         return read_gltf(std::move(file), path.parent_path());
+    if (is_scene_file(file))
+        return read_gltf(std::move(file), path.parent_path());
     if (is_off(file) || extension == ".off")
         return read_off(std::move(file));
     if (extension == ".obj")
         return read_obj(std::move(file));
     if (extension == ".stl")
         return read_stl(std::move(file));
-    file.fail("unknown format; export it as .obj, .ply, .off, .stl, .glb or .gltf");
+    file.fail("unknown format; export it as .obj, .ply, .off, .stl, .glb, .gltf, .fbx or .dae");
 }
 
 }  // namespace
@@ -52,6 +55,13 @@ MeshFile MeshFile::read_points(const std::filesystem::path& path)
     mesh.content_ = read_content(read_file(path), path);
     mesh.path_ = path;
     return mesh;
+}
+
+std::string MeshFile::written_name() const
+{
+    std::filesystem::path name = path_.filename();
+    const std::string extension = extension_of(path_);
+    return extension == ".fbx" || extension == ".dae" ? name.replace_extension(".glb").string() : name.string();
 }
 
 const Positions& MeshFile::positions() const { return content_->positions; }

@@ -85,7 +85,7 @@ double scale_from(const std::string& text)
 
 void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
 {
-    command.add_option("BODY", call.body, "Body mesh: OBJ, PLY, OFF, STL, glTF, GLB")->required();
+    command.add_option("BODY", call.body, "Body mesh: OBJ, PLY, OFF, STL, glTF, GLB, FBX, DAE")->required();
     command.add_option("--unit", call.body_frame.unit, "Unit of the body's file: auto, m, dm, cm, mm, in, ft")
         ->default_str("auto");
     command.add_option("--up", call.body_frame.up, "Up axis of the body's file: auto, +x, -x, +y, -y, +z, -z")

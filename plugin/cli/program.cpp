@@ -108,8 +108,14 @@ std::vector<std::string> outdated(const Call& call, const Session& session, cons
 void write(const Call& call, Session& session, OutputFolder& folder)
 {
     const auto start = std::chrono::steady_clock::now();
-    if (!call.outfit.path.empty())
-        read_looks(session);
+    OutfitRequest outfit = call.outfit;
+    if (!outfit.path.empty()) {
+        if (!call.ignores_skin)
+            outfit.avatar = avatar_in(session.body.file, session.body.frame.frame);
+        if (!is_on_avatar(outfit))  // else its file is kept as it is
+            read_body_look(session);
+        read_garment_looks(session);
+    }
     write_results(session, call.filter->name, folder.draft());
     add_warnings(session);  // after write_results, which certifies what it wrote
     session.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -124,8 +130,8 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     stop_watching();
     folder.publish(outdated(call, session, folder));
     const Dressing* end = final_dressing(session.scene);
-    if (!call.outfit.path.empty() && end && end->certified)
-        write_outfit(session, call.outfit, call.ignores_skin);
+    if (!outfit.path.empty() && end && end->certified)
+        write_outfit(session, outfit);
     if (call.json)
         std::cout << report;
     else if (!call.quiet)

@@ -277,10 +277,8 @@ void write_results(Session& session, std::string_view command, const fs::path& f
         write_last_state(session, *scene.draped, folder);
 }
 
-void write_outfit(const Session& session, OutfitRequest request, bool ignores_skin)
+void write_outfit(const Session& session, const OutfitRequest& request)
 {
-    if (!ignores_skin)
-        request.avatar = avatar_in(session.body.file, session.body.frame.frame);
     std::vector<OutfitPart> garments;
     for (const GarmentFile& garment : session.garments)
         garments.push_back({ garment.path.stem().string(), garment.look });

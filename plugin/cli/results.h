@@ -21,7 +21,7 @@ void write_results(Session& session, std::string_view command, const std::filesy
 
 /// Body and clothes as one skinned GLB, in the pose of the body's file. Of a session whose pose was recovered.
 /// @throws InvalidInput where it cannot be written.
-void write_outfit(const Session& session, OutfitRequest request, bool ignores_skin);
+void write_outfit(const Session& session, const OutfitRequest& request);
 
 /// Names of files and folders that an earlier run may have written into `folder` under the names of this command's
 /// results: beside the new report they would look like its results. Empty where no earlier run wrote there; never a

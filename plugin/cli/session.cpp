@@ -131,6 +131,14 @@ Positions read_left(const Session& session, const fs::path& path)
     return session.body.frame.frame.to_metres(MeshFile::read(path).positions());
 }
 
+Appearance look_of(Session& session, const std::filesystem::path& path, const MeshFile& file)
+{
+    Appearance look = file.appearance();
+    for (const std::string& warning : look.warnings)
+        session.warnings.push_back(path.filename().string() + ": " + warning);
+    return look;
+}
+
 }  // namespace
 
 std::vector<std::string> Session::garment_names() const
@@ -228,16 +236,12 @@ void read_draped(Session& session, const fs::path& folder)
                                          read_left(session, folder / "body.ply"), worn, session.garment_names());
 }
 
-void read_looks(Session& session)
+void read_body_look(Session& session) { session.body.look = look_of(session, session.body.path, session.body.file); }
+
+void read_garment_looks(Session& session)
 {
-    const auto take = [&](const std::filesystem::path& path, Appearance look) {
-        for (const std::string& warning : look.warnings)
-            session.warnings.push_back(path.filename().string() + ": " + warning);
-        return look;
-    };
-    session.body.look = take(session.body.path, session.body.file.appearance());
     for (GarmentFile& garment : session.garments)
-        garment.look = take(garment.path, garment.file.appearance());
+        garment.look = look_of(session, garment.path, garment.file);
 }
 
 }  // namespace garmentfit::cli

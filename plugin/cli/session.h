@@ -20,7 +20,7 @@ struct BodyFile {
     MeshFile file;
     Triangles triangles;  ///< of the file, or reconstructed from its points
     FrameGuess frame;  ///< confidences are 1 where the user said it
-    Appearance look {};  ///< after read_looks
+    Appearance look {};  ///< after read_body_look
 };
 
 struct GarmentFile {
@@ -28,9 +28,9 @@ struct GarmentFile {
     MeshFile file;  ///< as given, off the body
     FrameGuess frame;  ///< confidences are 1 where the user said it
     std::optional<GarmentChoice> choice = {};  ///< none where a folder of an earlier step was read
-    Appearance look {};  ///< after read_looks
+    Appearance look {};  ///< after read_garment_looks
 
-    std::string name() const { return path.filename().string(); }
+    std::string name() const { return file.written_name(); }
 };
 
 struct Session {
@@ -48,8 +48,9 @@ struct Session {
 void read_body(Session& session, const std::filesystem::path& path, const BodyChoice& choice, bool reconstruct);
 void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const GarmentChoice& choice);
 
-/// UVs, materials and pictures of all files, for an outfit. What cannot be kept is a warning.
-void read_looks(Session& session);
+/// UVs, materials and pictures of files, for an outfit. What cannot be kept is a warning.
+void read_body_look(Session& session);
+void read_garment_looks(Session& session);
 
 /// The skeleton and weights from what `rig` or `fit` wrote, rig.json and rigged.ply beside it, or from a skinned GLB.
 /// @return false where the file has joints only, and the weights are still to be found

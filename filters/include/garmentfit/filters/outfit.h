@@ -45,6 +45,9 @@ std::optional<BoneNames> bone_names_called(const std::string& name);
 /// The body's file, where it is a skinned glTF or GLB. Reads it again. @throws InvalidInput: it is gone.
 std::optional<AvatarFile> avatar_in(const MeshFile& body, const Frame& frame);
 
+/// Whether the outfit is the avatar's file with clothes added, which keeps all that it says of the body.
+bool is_on_avatar(const OutfitRequest& request);
+
 /// "" where an outfit can have this name; else a line that says which one it needs.
 std::string fault_of_outfit_name(const std::filesystem::path& path);
 

@@ -30,7 +30,9 @@ public:
     const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
     const Triangles& triangles() const;  ///< polygons cut into fans
     const std::filesystem::path& path() const;  ///< where it was read from
-    const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" or "gltf"
+    const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" (also of FBX and COLLADA) or "gltf"
+    /// The file's name, for a copy in another folder. FBX and COLLADA are written as GLB, with that ending.
+    std::string written_name() const;
 
     /// Writes the file as it was read, with other positions (n x 3, same order). Writes a temporary file and renames
     /// it, so that no half-written file is left. @throws InvalidInput when the place cannot be written.

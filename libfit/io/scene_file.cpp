@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_file.h"
+
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include "gltf_model.h"
+#include "run_apart.h"
+
+namespace garmentfit {
+namespace {
+
+constexpr std::chrono::seconds k_time_limit { 60 };  // unit: files of 100 MB take less
+constexpr std::size_t k_beginning = 4096;  // unit: what may stand before the first element, comments included
+
+bool is_fbx(std::string_view bytes)
+{
+    const std::string_view beginning = bytes.substr(0, k_beginning);
+    return bytes.starts_with("Kaydara FBX Binary") || beginning.find("FBXHeaderExtension") != std::string_view::npos;
+}
+
+bool is_collada(std::string_view bytes)
+{
+    return bytes.substr(0, k_beginning).find("<COLLADA") != std::string_view::npos;
+}
+
+/// Throws what Assimp throws, and its messages as std::runtime_error.
+std::string convert(const FileBytes& file)
+{
+    Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // else each joint is a chain of nodes
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* scene = importer.ReadFileFromMemory(
+        file.bytes.data(), file.bytes.size(),
+        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_LimitBoneWeights, is_fbx(file.bytes) ? "fbx" : "dae");
+    if (!scene)
+        throw std::runtime_error(importer.GetErrorString());
+    Assimp::Exporter exporter;
+    const aiExportDataBlob* glb = exporter.ExportToBlob(scene, "glb2");
+    if (!glb)
+        throw std::runtime_error(exporter.GetErrorString());
+    return { static_cast<const char*>(glb->data), glb->size };
+}
+
+}  // namespace
+
+bool is_scene_file(const FileBytes& file) { return is_fbx(file.bytes) || is_collada(file.bytes); }
+
+FileBytes glb_of_scene(const FileBytes& file)
+{
+    ApartResult glb = run_apart([&] { return convert(file); }, k_time_limit);
+    if (glb.is_done)
+        return { file.name, std::move(glb.bytes) };
+    const std::string why = glb.out_of_time ? "it takes more than a minute" : first_line(glb.bytes);
+    file.fail("cannot be read as " + std::string(is_fbx(file.bytes) ? "FBX" : "COLLADA")
+              + (why.empty() ? "" : " (" + why + ")") + "; export it again, as GLB where you can");
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_file.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+#include "garmentfit/io.h"
+#include "garmentfit/skinned_gltf.h"
+#include "run_apart.h"
+#include "temporary_folder.h"
+
+namespace {
+
+using namespace garmentfit;
+using namespace std::chrono_literals;
+using fixtures::expect_invalid;
+using SceneFile = fixtures::TemporaryFolder;
+
+/// The same scene in another format.
+void convert(const std::filesystem::path& from, const std::filesystem::path& to, const char* format)
+{
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(from.string(), 0);
+    ASSERT_TRUE(scene) << importer.GetErrorString();
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(scene, format, to.string()), aiReturn_SUCCESS) << exporter.GetErrorString();
+}
+
+/// A square and a triangle of one mesh.
+const std::string k_collada = R"(<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+ <asset><unit name="metre" meter="1"/><up_axis>Y_UP</up_axis></asset>
+ <library_geometries><geometry id="g"><mesh>
+  <source id="p"><float_array id="pa" count="15">0 0 0 1 0 0 1 1 0 0 1 0 0 2 0.5</float_array>
+   <technique_common><accessor source="#pa" count="5" stride="3">
+    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+   </accessor></technique_common></source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <polylist count="2"><input semantic="VERTEX" source="#v" offset="0"/>
+   <vcount>4 3</vcount><p>0 1 2 3 3 2 4</p></polylist>
+ </mesh></geometry></library_geometries>
+ <library_visual_scenes><visual_scene id="s"><node id="n">
+  <translate>0 10 0</translate><instance_geometry url="#g"/>
+ </node></visual_scene></library_visual_scenes>
+ <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>)";
+
+TEST_F(SceneFile, ColladaIsReadWithItsNodesAndWrittenAsGlb)
+{
+    const MeshFile mesh = MeshFile::read(save("square.dae", k_collada));
+    EXPECT_EQ(mesh.positions().rows(), 5);
+    EXPECT_EQ(mesh.triangles().rows(), 3);
+    EXPECT_EQ(mesh.positions().col(1).minCoeff(), 10);
+    EXPECT_EQ(mesh.positions().col(1).maxCoeff(), 12);
+    EXPECT_EQ(mesh.written_name(), "square.glb");
+    const Positions moved = mesh.positions().array() + 1;
+    mesh.write(folder / mesh.written_name(), moved);
+    EXPECT_LT((MeshFile::read(folder / "square.glb").positions() - moved).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_F(SceneFile, ASkinnedBodyKeepsItsSkeleton)
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 60, .elbow_angle = 30 });
+    const Rig rig = fixtures::simple_rig(person);
+    write_outfit_glb(folder / "body.glb", rig, { { "body", person.mesh, rig.weights } },
+                     { .names = BoneNames::smpl });  // hands and feet move skin, and so come along
+    convert(folder / "body.glb", folder / "body.dae", "collada");
+    ASSERT_TRUE(has_skin(folder / "body.dae"));
+    const ForeignRig read = read_skinned_gltf(folder / "body.dae");
+    for (const int bone : { lfemur, ltibia, rfemur, lhumerus, rradius })
+        EXPECT_LT((read.skeleton.head(bone) - person.skeleton.head(bone)).norm(), 1e-4) << bone_name(bone);
+    EXPECT_EQ(read.weights.weights.rows(), MeshFile::read(folder / "body.dae").positions().rows());
+}
+
+TEST_F(SceneFile, WhatIsMangledIsRefused)
+{
+    const std::vector<std::pair<std::string, std::string>> files {
+        { "cut.dae", k_collada.substr(0, 700) },
+        { "empty.dae", "<?xml version=\"1.0\"?><COLLADA></COLLADA>" },
+        { "text.fbx", "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n" },
+        { "binary.fbx", std::string("Kaydara FBX Binary  \0\x1a\0\0\0", 26) },
+    };
+    for (const auto& file : files)
+        expect_invalid([&] { MeshFile::read(save(file.first, file.second)); }, file.first + ": cannot be read as");
+}
+
+TEST(RunApart, ReturnsWhatTheWorkReturnsHoweverLong)
+{
+    const std::string bytes(3'000'000, 'x');
+    const ApartResult result = run_apart([&] { return bytes; }, 20s);
+    EXPECT_TRUE(result.is_done);
+    EXPECT_EQ(result.bytes, bytes);
+}
+
+TEST(RunApart, SurvivesFailuresCrashesAndHangs)
+{
+    const ApartResult failed = run_apart([]() -> std::string { throw std::runtime_error("no such thing"); }, 20s);
+    EXPECT_FALSE(failed.is_done);
+    EXPECT_EQ(failed.bytes, "no such thing");
+    const ApartResult crashed = run_apart([]() -> std::string { std::abort(); }, 20s);
+    EXPECT_FALSE(crashed.is_done);
+    EXPECT_FALSE(crashed.out_of_time);
+    const ApartResult hangs = run_apart(
+        []() -> std::string {
+            std::this_thread::sleep_for(60s);
+            return "";
+        },
+        1s);
+    EXPECT_FALSE(hangs.is_done);
+    EXPECT_TRUE(hangs.out_of_time);
+}
+
+}  // namespace
