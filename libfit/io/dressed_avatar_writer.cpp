@@ -329,10 +329,14 @@ void write_dressed_avatar(const std::filesystem::path& path, const std::filesyst
         throw InvalidInput(ErrorCode::count_mismatch,
                            "dressed avatar: " + std::to_string(covered.size()) + " marks of covered skin for "
                                + std::to_string(skin.hangs.size()) + " vertices; give one for each");
-    make_binary(avatar);
-    if (!covered.empty())
-        hide_covered(avatar, covered);
-    add_garments(avatar.container, skin, garments);
+    try {
+        make_binary(avatar);
+        if (!covered.empty())
+            hide_covered(avatar, covered);
+        add_garments(avatar.container, skin, garments);
+    } catch (const ordered_json::exception& error) {  // a member of an unexpected type
+        avatar.file.fail("is not valid glTF: " + first_line(error.what()) + "; export the file again");
+    }
     write_file(path, bytes_of(avatar.container));
 }
 

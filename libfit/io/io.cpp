@@ -19,6 +19,13 @@ std::string extension_of(const std::filesystem::path& path)
     return extension;
 }
 
+/// FBX and COLLADA are written as GLB.
+bool is_only_read(const std::filesystem::path& path)
+{
+    const std::string extension = extension_of(path);
+    return extension == ".fbx" || extension == ".dae";
+}
+
 ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
 {
     const std::string extension = extension_of(path);
@@ -60,8 +67,7 @@ MeshFile MeshFile::read_points(const std::filesystem::path& path)
 std::string MeshFile::written_name() const
 {
     std::filesystem::path name = path_.filename();
-    const std::string extension = extension_of(path_);
-    return extension == ".fbx" || extension == ".dae" ? name.replace_extension(".glb").string() : name.string();
+    return is_only_read(path_) ? name.replace_extension(".glb").string() : name.string();
 }
 
 const Positions& MeshFile::positions() const { return content_->positions; }
@@ -79,6 +85,9 @@ void MeshFile::write(const std::filesystem::path& path, const Positions& positio
                            path.string() + ": cannot write " + std::to_string(positions.rows())
                                + " positions into a mesh of " + std::to_string(content_->positions.rows())
                                + " vertices; give a position for each vertex");
+    if (is_only_read(path))
+        throw InvalidInput(ErrorCode::unwritable_file,
+                           path.string() + ": FBX and COLLADA are not written; give a name that ends in .glb");
     write_file(path, content_->bytes_with(positions));
 }
 

@@ -110,7 +110,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     const auto start = std::chrono::steady_clock::now();
     OutfitRequest outfit = call.outfit;
     if (!outfit.path.empty()) {
-        if (!call.ignores_skin)
+        if (!outfit.bones && !call.ignores_skin)
             outfit.avatar = avatar_in(session.body.file, session.body.frame.frame);
         if (!is_on_avatar(outfit))  // else its file is kept as it is
             read_body_look(session);

@@ -245,7 +245,7 @@ void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, co
                                 i < s.garment_looks.size() ? s.garment_looks[i] : nullptr));
     OutfitRequest request { path, bone_names_called(bones), hide_covered_skin };
     const nb::gil_scoped_release other_threads_run;
-    if (s.body_file)
+    if (s.body_file && !request.bones)
         request.avatar = avatar_in(*s.body_file, s.body_frame);
     write_outfit(s.scene, part("body", s.body_look), garments, request);
 }

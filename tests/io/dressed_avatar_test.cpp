@@ -176,6 +176,10 @@ TEST_F(DressedAvatar, RefusesWhatDoesNotBelongTogether)
         node.erase("skin");
     save("statue.glb", bytes_of(container));
     EXPECT_THROW(write_dressed_avatar(folder / "out.glb", folder / "statue.glb", { garment_on(4) }), InvalidInput);
+    container = read_gltf_container(read_file(folder / "avatar.glb"));
+    container.json["extensions"]["VRM"]["materialProperties"] = "none";
+    save("odd.glb", bytes_of(container));
+    EXPECT_THROW(write_dressed_avatar(folder / "out.glb", folder / "odd.glb", { garment_on(4) }), InvalidInput);
     EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
 }
 

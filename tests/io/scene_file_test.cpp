@@ -64,6 +64,7 @@ TEST_F(SceneFile, ColladaIsReadWithItsNodesAndWrittenAsGlb)
     EXPECT_EQ(mesh.positions().col(1).maxCoeff(), 12);
     EXPECT_EQ(mesh.written_name(), "square.glb");
     const Positions moved = mesh.positions().array() + 1;
+    expect_invalid([&] { mesh.write(folder / "moved.dae", moved); }, "ends in .glb");
     mesh.write(folder / mesh.written_name(), moved);
     EXPECT_LT((MeshFile::read(folder / "square.glb").positions() - moved).cwiseAbs().maxCoeff(), 1e-6);
 }
