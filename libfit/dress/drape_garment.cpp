@@ -146,7 +146,8 @@ Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading,
         const Positions target = inside.at(scale);
         step.obstacle_target = &target;
         motion.advance(step);
-        relax_if_tight(motion, step, grading);
+        if (i == steps)  // below full size it has more of the way before it
+            relax_if_tight(motion, step, grading);
         if (!grading.enlarge_if_tight(motion))
             return { scale < 1 ? scale : k_just_below, false };
         reached = scale;
@@ -249,8 +250,12 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
             = settle(motion, inside.full.positions, options.settling_steps, progress.part(0.7, 1));
         result.speed = settled.speed;
         result.out_of_time = settled.out_of_time;
-    } else if (!result.out_of_time)
-        result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer);
+    } else {
+        if (!result.out_of_time)
+            result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer);
+        motion.advect_obstacle(inside.shrink(inside.withdrawn, growth.scale));  // no bridges on what is handed out
+        motion.advect_obstacle(inside.shrink(inside.full.positions, growth.scale));
+    }
     result.seconds = motion.seconds();
     write_dressed_body(result, motion, inside, grading, { pieces, closed_ends }, wearer);
     if (result.scale_reached == 1)

@@ -117,11 +117,13 @@ void tuck_corners(GrowingBody& inside, const TriangleMesh& cloth)
 
 }  // namespace
 
-Positions GrowingBody::at(double scale) const
+Positions GrowingBody::at(double scale) const { return shrink(bridged, scale); }
+
+Positions GrowingBody::shrink(const Positions& grown, double scale) const
 {
     Positions result = core;
     for (Eigen::Index v = 0; v < core.rows(); ++v)
-        result.row(v) += std::max(scale, min_scale[v]) * (bridged.row(v) - core.row(v));
+        result.row(v) += std::max(scale, min_scale[v]) * (grown.row(v) - core.row(v));
     return result;
 }
 

@@ -25,6 +25,8 @@ struct GrowingBody {
     Eigen::Index body_vertices = 0;
 
     Positions at(double scale) const;
+    /// At a scale, one of the full bodies: bridged, withdrawn or as it is.
+    Positions shrink(const Positions& grown, double scale) const;
     /// The body alone, of such positions.
     auto body_of(const Positions& positions) const { return positions.topRows(body_vertices); }
 };

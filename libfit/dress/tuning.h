@@ -28,8 +28,8 @@ inline constexpr std::array<double, 3> k_initial_body_scales { 0.01, 0.003, 0.00
 inline constexpr int k_most_tucks = 20;
 /// m; the longest move of a vertex in one step while the body grows. Fitted: guess, on the house pairs.
 inline constexpr double k_growing_move = 1e-2;
-/// Steps that cloth gets to slide before it is called too small for a body. Fitted: one skirt needs 9; of a pair of
-/// trousers and a shirt that are too small the stretch stays within a tenth from the fifth to the twentieth.
+/// Steps that cloth gets to slide at full size before it is called too small for a body. Fitted: one skirt needs 9; of a
+/// pair of trousers and a shirt that are too small the stretch stays within a tenth from the fifth to the twentieth.
 inline constexpr int k_relaxing_steps = 20;
 /// Where one part ends the growth, other parts stretched beyond this share of the limit are named, too. Fitted: guess,
 /// on the house pairs.

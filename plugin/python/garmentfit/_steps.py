@@ -219,8 +219,8 @@ class Dressing(_Result):
         """Writes body and clothes as one skinned GLB, or VRM by its name: one skeleton, and weights for all meshes, so
         that other programs can pose them. Meshes from read_mesh keep their UVs, materials and textures.
 
-        bones: whose joints and names it has: own (those of the body's file, with its animations and all else, where
-            that is a skinned glTF or GLB from read_mesh; else garmentfit), garmentfit, vrm, mixamo, unreal or smpl.
+        bones: whose joints and names it has: garmentfit, vrm, mixamo, unreal, smpl, or own. Own are those of the body's
+        file, with its animations and all else, where that is a skinned glTF or GLB from read_mesh; else garmentfit.
         hide_covered_skin: leaves out faces of the body that the clothes cover in all poses of everyday movement.
         Only of a certified result in the body's own pose (dress, recover_pose).
         """
