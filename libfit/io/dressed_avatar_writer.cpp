@@ -13,6 +13,7 @@
 #include "gltf_scene.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
+#include "skin_weights.h"
 
 namespace garmentfit {
 namespace {
@@ -29,7 +30,6 @@ struct Avatar {
         file(read_file(path)), container(read_plain_gltf(file, path.parent_path())),
         model(load_model(file, container, path.parent_path()))
     {
-        embed_pictures(container.json, path.parent_path());
     }
 };
 
@@ -72,25 +72,10 @@ std::vector<int> list_used_joints(const std::vector<AvatarGarment>& garments, st
 }
 
 /// The four largest of each vertex, as rows of `joints`.
-FileWeights strongest_four(const JointWeights& weights, const std::vector<int>& joints)
+FileWeights file_weights(const JointWeights& weights, const std::vector<int>& joints)
 {
-    FileWeights result { decltype(FileWeights::joints)::Zero(weights.rows(), 4),
-                         decltype(FileWeights::weights)::Zero(weights.rows(), 4) };
-    std::vector<std::pair<double, int>> entries;
-    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-        entries.clear();
-        for (JointWeights::InnerIterator entry(weights, v); entry; ++entry)
-            entries.emplace_back(-entry.value(), int(entry.col()));
-        const std::size_t kept = std::min<std::size_t>(4, entries.size());
-        std::partial_sort(entries.begin(), entries.begin() + std::ptrdiff_t(kept), entries.end());
-        for (std::size_t k = 0; k < kept; ++k) {
-            const auto row = std::lower_bound(joints.begin(), joints.end(), entries[k].second);
-            result.joints(v, Eigen::Index(k)) = int(row - joints.begin());
-            result.weights(v, Eigen::Index(k)) = -entries[k].first;
-        }
-        result.weights.row(v) /= result.weights.row(v).sum();
-    }
-    return result;
+    const SkinWeights strongest = strongest_four(Eigen::MatrixXd(weights)(Eigen::all, joints));
+    return { strongest.bones, strongest.weights };
 }
 
 void require_rows(const std::vector<AvatarGarment>& garments, std::size_t joints)
@@ -216,8 +201,8 @@ void add_garments(GltfContainer& container, const FileSkin& skin, const std::vec
     const std::vector<int> joints = list_used_joints(garments, skin.nodes.size());
     GlbModel glb;
     for (const AvatarGarment& garment : garments)
-        glb.model.meshes.push_back(gltf_mesh({ garment.name, garment.surface, {}, garment.look },
-                                             strongest_four(garment.weights, joints), glb));
+        glb.model.meshes.push_back(
+            gltf_mesh({ garment.name, garment.surface, {}, garment.look }, file_weights(garment.weights, joints), glb));
     const int binds = glb.add<float>(inverse_binds(skin, joints), TINYGLTF_TYPE_MAT4);
 
     ordered_json& json = container.json;
@@ -330,6 +315,7 @@ void write_dressed_avatar(const std::filesystem::path& path, const std::filesyst
                            "dressed avatar: " + std::to_string(covered.size()) + " marks of covered skin for "
                                + std::to_string(skin.hangs.size()) + " vertices; give one for each");
     try {
+        embed_pictures(avatar.container.json, avatar_path.parent_path());
         make_binary(avatar);
         if (!covered.empty())
             hide_covered(avatar, covered);
