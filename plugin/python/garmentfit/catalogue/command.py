@@ -11,6 +11,7 @@ from .plan import Hashes, PlanError, read_plan, to_json
 from .store import DiskError, Store, StoreError, write_error
 
 _STOPPED = "garmentfit catalogue: stopped; the same command goes on from here"
+_BY_CHANCE = ("crashed", "killed", "time_limit", "memory_limit", "file_limit", "unreadable_file")  # may pass next time
 _MISSING = "garmentfit catalogue: needs {}; install it with: pip install 'garmentfit[catalogue]'"
 
 
@@ -59,7 +60,7 @@ def _arguments(words: list):
     parser.add_argument("--scheduler", default="", metavar="ADDRESS",
                         help="a Dask scheduler whose workers see DIR and the inputs under the same paths")
     parser.add_argument("--workers", type=int, default=0, help="local workers; one for each core by default")
-    parser.add_argument("--retry", action="store_true", help="do again what crashed or met a limit")
+    parser.add_argument("--retry", action="store_true", help="do again what crashed, met a limit or could not read a file")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
     return parser.parse_args(words)
 
@@ -129,7 +130,7 @@ def _forget_failures(store: Store, pairs: dict) -> None:
     rigs = {("rig", rig) for _, rig in pairs.values() if rig}
     for kind, key in [("dress", key) for key in pairs] + sorted(rigs):
         row = store.finished(kind, key)
-        if row and row["reason"] in ("crashed", "killed", "time_limit", "memory_limit", "file_limit"):
+        if row and row["reason"] in _BY_CHANCE:
             store.forget(kind, key)
 
 
@@ -151,7 +152,7 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
             if jobs:
                 with tqdm(total=total, initial=total - len(jobs), desc=kind, unit="pair" if kind == "dress" else "body",
                           disable=None if not options.quiet else True) as bar:
-                    run_jobs(run_job, jobs, options.scheduler, options.workers, lambda row: bar.update())
+                    run_jobs(run_job, jobs, options.scheduler, options.workers, bar.update)
     except BaseException as error:
         if _is_ctrl_c(error):
             print(_STOPPED, file=sys.stderr)

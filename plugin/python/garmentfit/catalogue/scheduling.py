@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import itertools
+import logging
 import os
 import queue
 import time
 
 _PER_THREAD = 4  # guess: jobs that wait at the scheduler for each thread; more would only cost it memory
 _LEAST_WAITING = 64  # guess: hides the round trips to the scheduler where jobs take no time
-_REPEATS = 5  # guess: workers or connections that one job may lose
+_REPEATS = 5  # guess: times that one job may come back because its worker died
 _PATIENCE_SECONDS = 60  # guess: time in which a scheduler or worker may come back
 
 
@@ -18,13 +19,15 @@ class SchedulerLost(RuntimeError):
 
 
 def run_jobs(function, jobs, scheduler: str = "", workers: int = 0, arrived=None) -> int:
-    """Calls function(*job) for each job on the workers and arrived(result) here; returns the number of results.
+    """Calls function(*job) for each job on the workers and arrived() here after each; returns how many have ended.
 
-    jobs is an iterable of tuples and is read as workers become free. Without a scheduler's address, as many local
-    workers as `workers` (0: one for each core) start, with one thread each. Raises what function raises, and
-    SchedulerLost."""
+    jobs is an iterable of tuples and is read as workers become free. What function returns is not asked for: it stands
+    in the folder, and the connection to it may be lost. A job whose connection was lost is called a second time.
+    Without a scheduler's address, as many local workers as `workers` (0: one for each core) start, with one thread
+    each. Raises what function raises, and SchedulerLost."""
     from distributed import Client, LocalCluster
 
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost connection is handled, or raised here
     if scheduler:
         try:
             client = Client(scheduler, timeout=_PATIENCE_SECONDS, set_as_default=False)
@@ -56,9 +59,8 @@ def _drain(client, function, jobs, arrived) -> int:
             job, _ = job_of.pop(future.key)
             if future.status == "finished":
                 done += 1
-                result = future.result()
                 if arrived:
-                    arrived(result)
+                    arrived()
             else:
                 _repeat_or_raise(future, job, repeats, submit)
             future.release()
@@ -97,9 +99,11 @@ def _repeat_or_raise(future, job, repeats, submit) -> None:
     """A job whose worker or connection was lost is submitted again; an error of the job itself is raised."""
     from distributed import KilledWorker
 
-    if future.status == "error" and not isinstance(future.exception(), KilledWorker):
-        raise future.exception()
-    repeats[id(job)] = repeats.get(id(job), 0) + 1
-    if repeats[id(job)] > _REPEATS:
-        raise SchedulerLost("a job lost its worker again and again; look at the workers' logs, then run again")
+    if future.status == "error":
+        error = future.exception()
+        if not isinstance(error, KilledWorker):
+            raise error
+        repeats[id(job)] = repeats.get(id(job), 0) + 1
+        if repeats[id(job)] > _REPEATS:
+            raise SchedulerLost("a job lost its worker again and again; look at the workers' logs, then run again")
     submit(job)

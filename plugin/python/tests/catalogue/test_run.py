@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """garmentfit catalogue with a program that does nothing quickly: rows, limits, resuming, faults."""
-import collections
 import csv
 import json
 import os
@@ -10,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -17,10 +17,11 @@ import pytest
 
 for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
     pytest.importorskip(needed)
-import psutil  # noqa: E402
 import pyarrow.parquet  # noqa: E402
 from garmentfit.catalogue import command, scheduling  # noqa: E402
 from garmentfit.catalogue.store import Store  # noqa: E402
+
+import faults  # noqa: E402
 
 FAKE = f"{sys.executable} {Path(__file__).parent / 'fake_program.py'}"
 CATALOGUE = [sys.executable, "-m", "garmentfit", "catalogue"]
@@ -47,16 +48,15 @@ class Trial:
         return subprocess.run([*self.command, *words], env=self.environment, capture_output=True, text=True,
                               timeout=300, preexec_fn=limit if largest_file else None)
 
-    def start(self, *words):
-        return subprocess.Popen([*self.command, *words], env=self.environment, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.DEVNULL)
+    def start(self, cluster=None):
+        return faults.Run(self.command, self.output, cluster, environment=self.environment)
 
     def rows(self):
         with open(self.output / "results.csv", newline="") as file:
             return list(csv.DictReader(file))
 
     def finished(self):
-        return {path.parent.name: path.stat().st_mtime_ns for path in self.output.glob("jobs/*/*/done.json")}
+        return faults.finished(self.output)
 
 
 def test_every_way_to_end_costs_one_row(tmp_path):
@@ -82,7 +82,7 @@ def test_a_second_run_does_nothing_again_and_a_larger_plan_only_the_rest(tmp_pat
     done = trial.run()
     assert done.returncode == 0 and "12 of 12 pairs finished" in done.stdout
     after = trial.finished()
-    assert len(before) == 10 and len(after) == 12 and all(after[key] == before[key] for key in before)
+    assert len(before) == 2 + 10 and len(after) == 2 + 12 and all(after[key] == before[key] for key in before)
     assert len(trial.counts.read_text().splitlines()) == 2 + 12  # rigs, once for each body, and pairs
 
 
@@ -94,8 +94,7 @@ def test_two_runs_in_one_folder_and_an_unwritable_one_end_clearly(tmp_path):
         second = trial.run()
         assert second.returncode == 2 and "another run" in second.stderr and second.stderr.count("\n") == 1
     finally:
-        stop_tree(first.pid)
-        first.wait()
+        first.stop()
     (tmp_path / "file").write_text("")
     bad = trial.run("-o", str(tmp_path / "file" / "out"))
     assert bad.returncode == 2 and "cannot be written" in bad.stderr
@@ -144,13 +143,13 @@ def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
     trial = Trial(tmp_path, 1, ["ok"] * 30, seconds=0.3)
     run = trial.start()
     wait_for(lambda: len(trial.finished()) > 3)
-    run.send_signal(signal.SIGINT)
-    assert run.wait(60) == 130
+    run.process.send_signal(signal.SIGINT)
+    assert run.process.wait(60) == 130
     before = trial.finished()
-    assert 3 < len(before) < 30
+    assert 3 < len(before) < 1 + 30
     assert trial.run().returncode == 0
     after = trial.finished()
-    assert len(after) == 30 and all(after[key] == before[key] for key in before)
+    assert len(after) == 1 + 30 and all(after[key] == before[key] for key in before)
 
 
 def test_ctrl_c_is_no_lost_scheduler_where_closing_fails_after_it(tmp_path, monkeypatch, capsys):
@@ -175,58 +174,56 @@ def test_killed_at_random_it_ends_with_the_same_results(tmp_path, seed):
     assert calm.run().returncode == 0
     shutil.copytree(tmp_path / "calm", tmp_path / "storm", ignore=shutil.ignore_patterns("out", "counts"))
     storm = Trial(tmp_path / "storm", 2, words, seconds=0.2)
-    seen, killed = {}, collections.Counter()
+    seen = {}
     for victim in ("job", "worker", "client"):
         run = storm.start()
-        time.sleep(chance.uniform(3, 5))
-        killed[victim] += kill_one(run.pid, victim, chance)
+        wait_for(lambda: len(storm.finished()) > len(seen))
+        time.sleep(chance.uniform(0, 2))
+        wait_for(lambda: run.kill_one(victim, chance))
         time.sleep(chance.uniform(0.2, 1))
-        stop_tree(run.pid)
-        run.wait()
+        run.stop()
         now = storm.finished()
         assert all(now[key] == seen[key] for key in seen)
         seen = now
-    assert sum(killed.values()) >= 2, killed
     assert storm.run().returncode == 0
-    assert all(storm.finished()[key] == seen[key] for key in seen)
+    now = storm.finished()
+    assert all(now[key] == seen[key] for key in seen)
     kept = ["body", "garment", "exit", "reason", "verdict", "type", "ease_waist", "strain_max"]
     assert [[row[name] for name in kept] for row in storm.rows()] == [[row[name] for name in kept]
                                                                       for row in calm.rows()]
     assert not any((storm.output / "work").iterdir())
 
 
-def kill_one(client, victim, chance):
-    """Kills a process of the run with this client; returns how many were killed."""
-    below = psutil.Process(client).children(recursive=True)
-    jobs = [each for each in below if "fake_program.py" in " ".join(command_of(each))]
-    workers = [each for each in below if "spawn_main" in " ".join(command_of(each))]
-    chosen = {"job": jobs, "worker": workers, "client": [psutil.Process(client)]}[victim]
-    if not chosen:
-        return 0
-    try:
-        chance.choice(chosen).kill()
-    except psutil.NoSuchProcess:
-        return 0
-    return 1
+def test_a_cluster_of_others_does_the_same_though_its_scheduler_and_a_worker_are_killed(tmp_path):
+    trial, chance = Trial(tmp_path, 1, ["ok"] * 30, seconds=0.3), random.Random(1)
+    with faults.Cluster(2, tmp_path, trial.environment) as cluster:
+        run = trial.start(cluster)
+        for victim, least in (("worker", 3), ("scheduler", 8)):
+            wait_for(lambda: len(trial.finished()) >= least)
+            assert run.kill_one(victim, chance)
+        wait_for(lambda: cluster.mend() or run.process.poll() is not None)  # workers end some time after the scheduler
+        assert run.process.returncode == 0
+    rows = trial.rows()
+    assert len(rows) == 30 and all(row["reason"] == "done" for row in rows)
 
 
-def command_of(process):
-    try:
-        return process.cmdline()
-    except psutil.Error:
-        return []
+def test_a_scheduler_that_stays_away_ends_with_4_and_the_folder_resumes(tmp_path, monkeypatch, capfd):
+    trial = Trial(tmp_path, 1, ["ok"] * 20, seconds=0.3)
+    monkeypatch.setattr(scheduling, "_PATIENCE_SECONDS", 2)
+    with faults.Cluster(2, tmp_path, trial.environment) as cluster:
+        def kill_it():
+            wait_for(lambda: len(trial.finished()) >= 3)
+            cluster.scheduler.kill()
 
-
-def stop_tree(pid):
-    try:
-        processes = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
-    except psutil.NoSuchProcess:
-        return
-    for each in processes:
-        try:
-            each.kill()
-        except psutil.NoSuchProcess:
-            pass
+        killer = threading.Thread(target=kill_it)
+        killer.start()
+        assert command.main([*trial.command[len(CATALOGUE):], "--scheduler", cluster.address]) == 4
+        killer.join()
+    assert "run again" in capfd.readouterr().err
+    seen = trial.finished()
+    assert trial.run().returncode == 0
+    now = trial.finished()
+    assert len(now) == 21 and all(now[key] == seen[key] for key in seen)
 
 
 def wait_for(condition, seconds=60):
@@ -234,28 +231,6 @@ def wait_for(condition, seconds=60):
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.05)
-
-
-def test_a_scheduler_and_workers_of_others_do_the_same(tmp_path):
-    trial = Trial(tmp_path, 1, ["ok"] * 20, seconds=0.1)
-    address = tmp_path / "scheduler.json"
-    dask = [sys.executable, "-m", "distributed.cli.dask_scheduler"]
-    started = [subprocess.Popen([*dask, "--port", "0", "--no-dashboard", "--scheduler-file", str(address)],
-                                stderr=subprocess.DEVNULL)]
-    try:
-        wait_for(address.exists)
-        where = json.loads(address.read_text())["address"]
-        for _ in range(2):
-            started.append(subprocess.Popen(
-                [sys.executable, "-m", "distributed.cli.dask_worker", where, "--nthreads", "1", "--no-dashboard",
-                 "--local-directory", str(tmp_path)], env=trial.environment, stderr=subprocess.DEVNULL))
-        done = trial.run("--scheduler", where)
-        assert done.returncode == 0 and "20 of 20 pairs finished" in done.stdout, done.stderr
-    finally:
-        for each in reversed(started):
-            stop_tree(each.pid)
-            each.wait()
-    assert len(trial.counts.read_text().splitlines()) == 21
 
 
 def test_status_counts_the_ends_of_a_folder_at_any_time(tmp_path):

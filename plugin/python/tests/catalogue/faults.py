@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs a catalogue to its end while processes are killed at random moments (kill -9), with a fixed seed.
+
+    python faults.py --seed 1 --kills 20 --seconds 10 40 -- garmentfit catalogue plan.toml -o DIR
+    python faults.py --cluster 2 ...      with a scheduler and two workers started by the dask command
+
+Victims are the client, a worker, a job and, in a cluster, the scheduler. Whatever was killed is started again. Ends
+with an error where something that was finished is done a second time, or where a run without a kill does not end
+with 0.
+"""
+from __future__ import annotations
+
+import argparse
+import random
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+
+
+class Run:
+    """A running catalogue command, its workers and jobs."""
+
+    def __init__(self, command: list, output: Path, cluster=None, log=subprocess.DEVNULL, environment=None):
+        self._work, self._cluster = str(output.resolve() / "work") + "/", cluster
+        if cluster:
+            command = [*command, "--scheduler", cluster.address]
+        self.process = subprocess.Popen(command, stdout=log, stderr=log, env=environment)
+
+    def candidates(self, victim: str) -> list:
+        below = _below(self.process.pid)
+        if self._cluster:
+            below += [each for started in self._cluster.workers for each in [started, *_below(started.pid)]]
+        if victim == "job":
+            return [each for each in below if self._work in " ".join(_words(each))]
+        if victim == "scheduler":
+            return [self._cluster.scheduler]
+        if victim == "client":
+            return [self.process]
+        if self._cluster:
+            return self._cluster.workers
+        return [each for each in below if "spawn_main" in " ".join(_words(each))]
+
+    def kill_one(self, victim: str, chance: random.Random) -> bool:
+        some = self.candidates(victim)
+        if not some:
+            return False
+        chosen = chance.choice(some)
+        try:
+            chosen.kill()
+        except psutil.NoSuchProcess:
+            return False
+        chosen.wait(10)
+        return True
+
+    def stop(self) -> None:
+        for each in [self.process, *_below(self.process.pid)]:
+            try:
+                each.kill()
+            except psutil.NoSuchProcess:
+                pass
+        self.process.wait()
+
+
+class Cluster:
+    """A scheduler and workers, started by the dask command as on other machines."""
+
+    def __init__(self, workers: int, folder, environment=None):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
+        self._folder, self._environment = str(folder), environment
+        self.scheduler, self.workers = None, [None] * workers
+        self.mend()
+
+    def mend(self) -> None:
+        """Starts what does not run."""
+        if not _runs(self.scheduler):
+            self.scheduler = self._start("scheduler", "--host", "127.0.0.1", "--port", self.address.split(":")[-1])
+        for index, worker in enumerate(self.workers):
+            if not _runs(worker):
+                self.workers[index] = self._start("worker", self.address, "--nthreads", "1",
+                                                  "--local-directory", self._folder)
+
+    def _start(self, kind: str, *words):
+        return subprocess.Popen([sys.executable, "-m", f"distributed.cli.dask_{kind}", *words, "--no-dashboard"],
+                                env=self._environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for each in [*self.workers, self.scheduler]:
+            for process in [each, *_below(each.pid)]:
+                try:
+                    process.kill()
+                except psutil.NoSuchProcess:
+                    pass
+            each.wait()
+
+
+def finished(output: Path) -> dict:
+    """Time of the row of each finished rig and pair."""
+    rows = [*output.glob("jobs/*/*/done.json"), *output.glob("rigs/*/done.json")]
+    return {path.parent.name: path.stat().st_mtime_ns for path in rows}
+
+
+def _below(pid: int) -> list:
+    try:
+        return psutil.Process(pid).children(recursive=True)
+    except psutil.NoSuchProcess:
+        return []
+
+
+def _words(process) -> list:
+    try:
+        return psutil.Process(process.pid).cmdline()
+    except psutil.Error:
+        return []
+
+
+def _runs(process) -> bool:
+    return process is not None and process.poll() is None
+
+
+def main(words: list) -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--seconds", type=float, nargs=2, default=(10, 40), help="shortest, longest time between kills")
+    parser.add_argument("--cluster", type=int, default=0, help="workers beside a scheduler; none: local workers")
+    parser.add_argument("command", nargs="+", help="after --: garmentfit catalogue PLAN -o DIR ...")
+    options = parser.parse_args(words)
+    output = Path(options.command[options.command.index("-o") + 1])
+    with tempfile.TemporaryDirectory() as folder:
+        if not options.cluster:
+            return _storm(options, output, None)
+        with Cluster(options.cluster, folder) as cluster:
+            return _storm(options, output, cluster)
+
+
+def _storm(options, output: Path, cluster) -> int:
+    chance, seen, kills = random.Random(options.seed), {}, 0
+    victims = ["client", "worker", "job"] + (["scheduler"] if cluster else [])
+    while True:
+        calm, run = kills >= options.kills, Run(options.command, output, cluster, log=None)
+        while run.process.poll() is None:
+            try:
+                run.process.wait(chance.uniform(*options.seconds))
+            except subprocess.TimeoutExpired:
+                victim = chance.choice(victims)
+                if kills < options.kills and run.kill_one(victim, chance):
+                    kills += 1
+                    print(f"killed {victim}, {len(finished(output))} finished", flush=True)
+            if cluster:
+                cluster.mend()
+        now = finished(output)
+        twice = [key for key in seen if now.get(key) != seen[key]]
+        print(f"ended with {run.process.returncode}, {len(now)} finished", flush=True)
+        if twice:
+            print(f"done a second time: {', '.join(twice)}")
+            return 1
+        if run.process.returncode == 0:
+            return 0
+        if calm:
+            print("a run without kills did not end with 0")
+            return 1
+        seen = now
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
