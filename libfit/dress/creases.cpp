@@ -156,14 +156,16 @@ std::vector<double> find_depths(const Positions& positions, const std::vector<ch
 }
 
 /// For each vertex of a crease the vertex of its boundary that it is drawn to, or -1: the nearest one along edges, where
-/// the way counts from the bottom of the crease up. Between thighs that is the lower end of where they touch, though its
+/// with BridgeEnds::bottom the way counts from the bottom of the crease up. Between thighs that is the lower end of where they touch, though its
 /// front and its back are nearer (docs/decisions/0012-taut-bridges.md). A piece that is crease as a whole (an eyeball,
 /// say) has no boundary and is left alone.
 std::vector<int> find_ends_of_crease(const Positions& positions, const std::vector<char>& marked,
-                                     const MeshTopology& topology, double radius)
+                                     const MeshTopology& topology, double radius, BridgeEnds ends)
 {
     const std::vector<int> boundary = list_boundary(marked, topology);
-    const std::vector<double> depths = find_depths(positions, marked, topology, boundary, radius);
+    const std::vector<double> depths = ends == BridgeEnds::bottom
+        ? find_depths(positions, marked, topology, boundary, radius)
+        : std::vector<double>(boundary.size(), 0);
     std::vector<PathStart> starts;
     for (std::size_t b = 0; b < boundary.size(); ++b)
         starts.push_back({ boundary[b], -depths[b] });
@@ -194,7 +196,7 @@ Positions solve_soap_film(const Positions& positions, const std::vector<int>& in
 
 }  // namespace
 
-Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth) :
+Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth, BridgeEnds bridge_ends) :
     surface_(surface.positions), bridged_(surface.positions)
 {
     const MeshTopology topology(surface.triangles, int(surface_.rows()));
@@ -202,7 +204,7 @@ Creases::Creases(const TriangleMesh& surface, const std::vector<char>& near_clot
     std::vector<char> marked = mark_creases(surface, radius);
     add_enclosed_patches(marked, topology);
     drop_without_cloth(marked, topology.edges(), near_cloth);
-    const std::vector<int> ends = find_ends_of_crease(surface_, marked, topology, radius);
+    const std::vector<int> ends = find_ends_of_crease(surface_, marked, topology, radius, bridge_ends);
     for (std::size_t v = 0; v < ends.size(); ++v)
         if (ends[v] >= 0)
             inner_.push_back(int(v));

@@ -14,12 +14,18 @@
 
 namespace garmentfit {
 
+/// Where the bridge over a crease ends that is open on several sides, as between thighs or between an arm and the chest.
+enum class BridgeEnds {
+    bottom,  ///< at the lower end of the contact: no cloth stays between the two sides
+    nearest,  ///< at the nearest side of each vertex: where bottom asks more of the cloth than it gives
+};
+
 class Creases {
 public:
     /// Finds the creases of a surface as it stands (n x 3): vertices at which a ball that touches them from outside has
     /// no clearance, or that lie inside another part. Cost O(n log n).
     /// @param near_cloth  of each vertex; creases without any such vertex (a mouth, say, or toes) are left alone
-    Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth);
+    Creases(const TriangleMesh& surface, const std::vector<char>& near_cloth, BridgeEnds ends = BridgeEnds::bottom);
 
     /// The surface (n x 3) with its creases bridged.
     const Positions& bridged_surface() const { return bridged_; }

@@ -17,10 +17,10 @@ BoneTransforms relative_transforms(const BoneTransforms& from, const BoneTransfo
 }
 
 PosePath::PosePath(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start,
-                   const Positions& cloth) :
+                   const Positions& cloth, BridgeEnds ends) :
     rig_(rig),
     hands_(rig, body.surface.positions), start_stretch_(hands_.find_stretch(start, from)), from_(from), to_(to),
-    end_(at(1)), creases_({ end_, body.surface.triangles }, mark_near_cloth(at(0), cloth))
+    end_(at(1)), creases_({ end_, body.surface.triangles }, mark_near_cloth(at(0), cloth), ends)
 {
 }
 

@@ -19,7 +19,7 @@ public:
     /// @param cloth  all vertices of cloth at the start; only creases near them are bridged
     /// All arguments but these two must outlive this.
     PosePath(const Rig& rig, const BodyMesh& body, const Pose& from, const Pose& to, const Positions& start,
-             const Positions& cloth);
+             const Positions& cloth, BridgeEnds ends = BridgeEnds::bottom);
 
     BoneTransforms transforms(double share) const;
     Positions at(double share) const;

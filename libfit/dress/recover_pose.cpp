@@ -301,20 +301,20 @@ bool come_to_rest(ClothMotion& motion, const Positions& end, Quality quality, co
     return true;
 }
 
-}  // namespace
+/// Body and garments where the path begins.
+struct Departure {
+    const DressedBody& given;
+    DressedBody carried;  ///< to where the target has the root
+    Outfit outfit;
+};
 
-const std::vector<std::string_view>& quality_names()
+/// The way to the target and the rest at its end, with bridges of one kind.
+RecoverResult recover_over(BridgeEnds ends, const Rig& rig, const BodyMesh& body, const Departure& departure,
+                           const Pose& target, const RecoverOptions& options, const Progress& progress)
 {
-    static const std::vector<std::string_view> names { "standard", "draft" };
-    return names;
-}
-
-RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
-                           const RecoverOptions& options, const Progress& progress)
-{
-    DressedBody start = carry_to_root(rig, dressed, target);
-    const Outfit outfit(start.garments, options.cloth.fabric);
-    const PosePath path(rig, body, start.pose, target, start.body, outfit.cloth.positions);
+    DressedBody start = departure.carried;
+    const Outfit& outfit = departure.outfit;
+    const PosePath path(rig, body, start.pose, target, start.body, outfit.cloth.positions, ends);
     if (start.body.rows() == 0)
         start.body = path.at(0);
     require_no_crossings(outfit.cloth, { start.body, body.surface.triangles });
@@ -324,10 +324,10 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
                                                 outfit.cloth.triangles) };
     ClothMotion motion(outfit.rest, outfit.cloth.positions, { start.body, body.surface.triangles }, options.cloth,
                        outfit.garment_of, outfit.fabrics);
-    FrameRecorder recorder(rig, dressed, target, body.surface.triangles, options.frames);
-    recorder.record_start(dressed.body.rows() > 0
-                              ? dressed.body
-                              : skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, dressed.pose)));
+    FrameRecorder recorder(rig, departure.given, target, body.surface.triangles, options.frames);
+    recorder.record_start(departure.given.body.rows() > 0 ? departure.given.body
+                                                          : skin(body.surface.positions, rig.weights,
+                                                                 bone_transforms(rig.skeleton, departure.given.pose)));
     const PathOutcome outcome
         = follow_path(motion, path, weights, options, recorder, progress.part(0, k_progress_of_path));
 
@@ -367,6 +367,28 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
         result.overlaps = find_overlaps({ path.end(), body.surface.triangles }, rig.weights,
                                         mark_near_cloth(result.body, motion.cloth()));
     return result;
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& quality_names()
+{
+    static const std::vector<std::string_view> names { "standard", "draft" };
+    return names;
+}
+
+RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
+                           const RecoverOptions& options, const Progress& progress)
+{
+    DressedBody carried = carry_to_root(rig, dressed, target);
+    const Outfit outfit(carried.garments, options.cloth.fabric);
+    const Departure departure { dressed, std::move(carried), outfit };
+    RecoverResult result = recover_over(BridgeEnds::bottom, rig, body, departure, target, options, progress);
+    if (result.pose_reached == 1 || result.out_of_time)
+        return result;
+    RecoverResult other = recover_over(BridgeEnds::nearest, rig, body, departure, target, options, progress);
+    other.seconds += result.seconds;
+    return other.pose_reached > result.pose_reached ? other : result;
 }
 
 }  // namespace garmentfit

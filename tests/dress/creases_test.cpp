@@ -133,6 +133,23 @@ TEST(Creases, BetweenLegsAreBridgedWhereTheyEndBelow)
     EXPECT_GE(inner, 30);
 }
 
+TEST(Creases, BetweenLegsAreBridgedAtTheirSidesWhereTheNearestEndIsAskedFor)
+{
+    const TriangleMesh legs = legs_side_by_side();
+    const Positions bridged = Creases(legs, all_of(legs, 1), BridgeEnds::nearest).bridged_surface();
+    int inner = 0;
+    for (Eigen::Index v = 0; v < bridged.rows(); ++v) {
+        const Vec3 place = legs.positions.row(v);
+        if (std::abs(place.x()) > 0.01 || place.y() < 0.75 * k_crotch || place.y() > 0.9 * k_crotch
+            || std::abs(place.z()) < 0.3 * k_half_depth)
+            continue;
+        ++inner;
+        EXPECT_GT(std::abs(bridged(v, 2)), 0.8 * k_half_depth)
+            << "the bridge does not end beside " << place.transpose();
+    }
+    EXPECT_GE(inner, 8);
+}
+
 TEST(Creases, WithoutClothNearThemAreLeftAlone)
 {
     const TriangleMesh table = table_with_slit();
