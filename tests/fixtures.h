@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -143,6 +144,31 @@ inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b)
     result.triangles.resize(a.triangles.rows() + b.triangles.rows(), 3);
     result.triangles << a.triangles, (b.triangles.array() + int(a.positions.rows())).matrix();
     return result;
+}
+
+/// A sheet with thickness: closed by a second sheet, moved by `offset` (n x 3) and turned over, and by walls at the
+/// border.
+inline TriangleMesh thickened(const TriangleMesh& sheet, const Positions& offset)
+{
+    const int n = int(sheet.positions.rows());
+    TriangleMesh back { sheet.positions + offset, sheet.triangles };
+    back.triangles.col(1).swap(back.triangles.col(2));
+    TriangleMesh closed = joined(sheet, back);
+    std::vector<Eigen::RowVector3i> walls;
+    std::set<std::pair<int, int>> sides;
+    for (const auto& corners : sheet.triangles.rowwise())
+        for (int k = 0; k < 3; ++k)
+            sides.emplace(corners[k], corners[(k + 1) % 3]);
+    for (const auto& [a, b] : sides)
+        if (!sides.contains({ b, a })) {
+            walls.emplace_back(b, a, a + n);
+            walls.emplace_back(b, a + n, b + n);
+        }
+    const Eigen::Index faces = closed.triangles.rows();
+    closed.triangles.conservativeResize(faces + Eigen::Index(walls.size()), 3);
+    for (std::size_t w = 0; w < walls.size(); ++w)
+        closed.triangles.row(faces + Eigen::Index(w)) = walls[w];
+    return closed;
 }
 
 /// A square sheet of n by n vertices, the first at the origin, at height(x, z) over the plane y = 0.

@@ -10,8 +10,10 @@
 #include "barycentric.h"
 #include "disjoint_sets.h"
 #include "nearest.h"
+#include "panel.h"
 #include "parallel.h"
 #include "segment.h"
+#include "surface_measures.h"
 #include "tuning.h"
 #include "weld.h"
 
@@ -27,6 +29,7 @@ struct Piece {
     double border_edge = 0;  // m, mean length
     int garment = 0;
     int euler_characteristic = 0;
+    double thickness = 0;  // m, of a panel whose border is a rim; 0 for a single sheet
 
     /// Whether it is a disc, through which no limb can pass: nothing of that kind and size is worn by itself.
     bool is_patch() const { return euler_characteristic == 1 && size() <= k_patch; }
@@ -39,6 +42,35 @@ struct Foot {
     bool on_border = false;  // of the other piece
     Tie tie = {};
 };
+
+/// The edges that are part of a piece's border: those of its open border, or of the rim of a panel with thickness.
+bool is_border_of(const Piece& piece, const GarmentMesh& rest, const MeshTopology& topology, int edge)
+{
+    const auto sides = topology.sides_at(edge);
+    if (piece.thickness == 0)
+        return sides.size() == 1;
+    return sides.size() != 2
+        || area_vector(rest.positions, rest.triangles, sides[0] / 3)
+               .stableNormalized()
+               .dot(area_vector(rest.positions, rest.triangles, sides[1] / 3).stableNormalized())
+        < k_rim_cosine;
+}
+
+/// m; 0 where a piece is open, or no panel.
+double panel_thickness(const Piece& piece, const GarmentMesh& rest, bool is_open)
+{
+    if (is_open)
+        return 0;
+    double volume = 0, area = 0;
+    const Vec3 origin = rest.positions.row(piece.vertices[0]);
+    for (const int f : piece.triangles) {
+        const Vec3 vector = area_vector(rest.positions, rest.triangles, f);
+        area += vector.norm();
+        volume += vector.dot(Vec3(rest.positions.row(rest.triangles(f, 0))) - origin) / 3;
+    }
+    const double thickness = area > 0 ? thickness_of(volume, area) : 0;
+    return is_panel(thickness, area) ? thickness : 0;
+}
 
 /// The pieces from the largest to the smallest. Each is sewn to pieces before it.
 std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& topology,
@@ -70,9 +102,16 @@ std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& t
         piece.euler_characteristic = int(piece.vertices.size() + piece.triangles.size());
     for (const int a : topology.edges().col(0))
         --pieces[row_of[sets.root(a)]].euler_characteristic;
-    for (const int edge : topology.border_edges()) {
+    std::vector<char> is_open(pieces.size(), 0);
+    for (const int edge : topology.border_edges())
+        is_open[row_of[sets.root(topology.edges()(edge, 0))]] = 1;
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+        pieces[p].thickness = panel_thickness(pieces[p], rest, is_open[p]);
+    for (int edge = 0; edge < int(topology.edges().rows()); ++edge) {
         const int a = topology.edges()(edge, 0), b = topology.edges()(edge, 1);
         Piece& piece = pieces[row_of[sets.root(a)]];
+        if (!is_border_of(piece, rest, topology, edge))
+            continue;
         piece.border_edge += (rest.positions.row(a) - rest.positions.row(b)).norm();
         for (const int v : { a, b })
             if (!is_on_border[v]) {
@@ -92,8 +131,13 @@ std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& t
 class Feet {
 public:
     Feet(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<Piece>& pieces) :
-        rest_(rest), topology_(topology), pieces_(pieces), trees_(pieces.size())
+        rest_(rest), topology_(topology), pieces_(pieces), trees_(pieces.size()),
+        is_on_rim_(std::size_t(rest.positions.rows()), 0)
     {
+        for (const Piece& piece : pieces)
+            if (piece.thickness > 0)
+                for (const int v : piece.border)
+                    is_on_rim_[v] = 1;
     }
 
     /// Of each of these vertices, none further than `reach`.
@@ -130,12 +174,15 @@ private:
                    barycentric(point, at(corners[0]), at(corners[1]), at(corners[2])) } };
     }
 
-    /// Whether the nearest point of the surface is one of its border, too.
+    /// Whether the nearest point of the surface is one of its border, too. A rim is as wide as its faces.
     bool is_near_border(int vertex, int triangle, double distance) const
     {
         constexpr double k_as_near = 1 + 1e-6;  // unit: rounding of two computations of one distance
         constexpr double k_rounding = 1e-9;  // m, unit: the same where the distance is 0
-        for (const int corner : rest_.triangles.row(triangle))
+        const auto corners = rest_.triangles.row(triangle);
+        if (std::any_of(corners.begin(), corners.end(), [&](int corner) { return is_on_rim_[corner]; }))
+            return true;
+        for (const int corner : corners)
             for (const int other : topology_.neighbours(corner))
                 if (const int edge = topology_.edge_between(corner, other); topology_.is_border(edge)
                     && distance_to_segment(at(vertex), at(corner), at(other)) <= k_as_near * distance + k_rounding)
@@ -147,6 +194,7 @@ private:
     const MeshTopology& topology_;
     const std::vector<Piece>& pieces_;
     std::vector<std::optional<TriangleTree>> trees_;
+    std::vector<char> is_on_rim_;  // of a panel with thickness
 };
 
 std::vector<Tie> ties_on_border(const std::vector<Foot>& feet)
@@ -161,10 +209,13 @@ std::vector<Tie> ties_on_border(const std::vector<Foot>& feet)
 }
 
 /// Ties along a seam between two pieces, on both of their borders; none where there is no seam.
-std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q)
+std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q,
+                           double least_reach)
 {
-    const double reach = std::clamp(k_seam_edges * std::min(pieces[p].border_edge, pieces[q].border_edge),
-                                    k_seam_distance, k_lining_distance);
+    const double usual = std::clamp(k_seam_edges * std::min(pieces[p].border_edge, pieces[q].border_edge),
+                                    k_seam_distance, k_lining_distance),
+                 of_panels = panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)),
+                 reach = std::max({ usual, of_panels, least_reach });
     std::vector<Tie> ties = ties_on_border(feet.find(pieces[p].border, q, reach));
     const std::vector<Tie> back = ties_on_border(feet.find(pieces[q].border, p, reach));
     const auto is_long = [&](std::size_t tied, const Piece& piece) {
@@ -284,7 +335,8 @@ private:
 
 }  // namespace
 
-SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<int>& garments)
+SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<int>& garments,
+                            double seam_reach)
 {
     const std::vector<Piece> pieces = collect_pieces(rest, topology, garments);
     if (pieces.size() < 2)
@@ -302,7 +354,7 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
         for (std::size_t q = 0; q < p; ++q) {
             if (pieces[p].garment != pieces[q].garment || pieces[p].box.exteriorDistance(pieces[q].box) > reach)
                 continue;
-            const std::vector<Tie> seam = find_seam(feet, pieces, p, q);
+            const std::vector<Tie> seam = find_seam(feet, pieces, p, q, seam_reach);
             is_seamed |= !seam.empty();
             sewing.add_seam(p, q, seam);
             on_pieces.push_back(feet.find(pieces[p].vertices, q, reach));

@@ -11,6 +11,8 @@
 //       larger one much closer. What lies on the other is tied. Patches (discs, such as pockets) are
 //       held by half of their border, and from further away: no limb passes through them, so nothing else holds them.
 //
+// The border of a panel with thickness, which is closed, is its rim: the sharp edges between and about its two sheets.
+//
 // A button on a flap is tied to the flap, the flap to the coat. What is not sewn is a layer of its own.
 
 #include <array>
@@ -38,8 +40,9 @@ struct SewnPieces {
 /// @param rest      welded
 /// @param topology  of rest.triangles
 /// @param garments  of each vertex its garment, where `rest` has several: these are not sewn to each other. Empty: one.
+/// @param seam_reach  m, from a border to the one that it is sewn to: at least this, where that is more than usual
 /// Cost O(n log n) for each pair of pieces that are close to each other, O(n) for a single piece.
 SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology,
-                            const std::vector<int>& garments = {});
+                            const std::vector<int>& garments = {}, double seam_reach = 0);
 
 }  // namespace garmentfit

@@ -132,6 +132,19 @@ inline constexpr double k_patch = 0.6, k_patch_share = 0.5;
 /// fitted: guess.
 inline constexpr double k_beside = 0.05;
 
+// ---- panel.cpp ------------------------------------------------------------------------------------------------------
+// By four garments of web shops: panels of trousers, of a hoodie and of a jacket are 0.5 to 4.6 mm thick.
+
+/// m, and share of the root of the area: thickness of a panel at most. fitted: guess; panels have up to 0.01, buttons
+/// 0.2.
+inline constexpr double k_thickest_panel = 0.02, k_panel_thickness = 0.06;
+/// Thicknesses, from the border of a panel to the one that it is sewn to, at most. fitted: guess; borders of the
+/// trousers are up to one apart.
+inline constexpr double k_panel_seam = 1.5;
+/// Cosine between the normals of the two faces at an edge: below it, an edge of a panel is one of its rim. fitted:
+/// guess.
+inline constexpr double k_rim_cosine = 0.6;
+
 // ---- close_seams.cpp -----------------------------------------------------------------------------------------------
 
 /// Dimensionless, a share of the shorter of two border edges. A vertex of one border that is this close to one of the

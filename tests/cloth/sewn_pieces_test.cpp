@@ -160,6 +160,26 @@ TEST(SewnPieces, PanelsAreSewnAlongTheirSeamsOnly)
         EXPECT_NEAR(garment.positions(v, 0), 0.38025, 0.001);
 }
 
+/// A square of 19 spacings with a second sheet 2 mm below it.
+TriangleMesh slab(int n, double spacing, const Vec3& corner)
+{
+    const TriangleMesh sheet = flat(n, spacing, corner);
+    Positions down = Positions::Zero(sheet.positions.rows(), 3);
+    down.col(1).setConstant(-0.002);
+    return fixtures::thickened(sheet, down);
+}
+
+TEST(SewnPieces, PanelsWithThicknessAreSewnAlongTheirRims)
+{
+    const GarmentMesh garment = garment_of({ slab(20, 0.02, Vec3::Zero()), slab(17, 0.023, Vec3(0.3825, 0, 0.005)) });
+    expect_counts(garment, 2, 1, 0, 0);
+    const std::set<int> tied = tied_vertices(sewn(garment));
+    EXPECT_EQ(tied.size(), std::size_t(2 * (18 + 17)));  // of both sheets
+    for (const int v : tied)
+        EXPECT_NEAR(garment.positions(v, 0), 0.38125, 0.002);
+    expect_counts(garment_of({ slab(20, 0.02, Vec3::Zero()), slab(20, 0.02, Vec3(0.386, 0, 0)) }), 2, 0, 0, 1);
+}
+
 /// A flap 38 cm square that stands on a sheet, tilted so that its border is this high at the other end.
 GarmentMesh sheet_with_standing_flap(double rise)
 {
