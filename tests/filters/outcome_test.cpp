@@ -68,6 +68,12 @@ TEST(DressingOutcome, OfTimeThatRanOutIsNoGarmentThatIsTooSmall)
     EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
               "coat could not be certified: the time limit was reached while recovering the pose, at 40% of the path "
               "between two poses; give more as time_limit, or 0 for no limit");
+    scene.draped->pose_reached = 1;
+    scene.draped->too_tight = { { 0, "chest", 0.163, 0.44 } };  // of cloth that was still on its way
+    EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::not_certified);
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              "coat could not be certified: the time limit was reached while recovering the pose; give more as "
+              "time_limit, or 0 for no limit");
 }
 
 TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)
