@@ -270,6 +270,14 @@ std::vector<Ring> drop_sewn_on(const TriangleMesh& mesh, const std::vector<int>&
     return rings;
 }
 
+/// The borders that a body can pass through.
+std::vector<Ring> large_rings(const TriangleMesh& outward, const std::vector<int>& pieces)
+{
+    auto rings = keep_large(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
+                            std::max(k_smallest_girth * diagonal(outward.positions), k_narrowest_girth));
+    return drop_sewn_on(outward, pieces, std::move(rings));
+}
+
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
@@ -298,12 +306,10 @@ void measure_heights(Opening& opening, const std::vector<Range>& ranges)
 
 std::vector<Opening> openings_of(const TriangleMesh& outward)
 {
-    const double size = diagonal(outward.positions), width = k_slice * size;
+    const double width = k_slice * diagonal(outward.positions);
     const std::vector<int> pieces = pieces_of(outward);
     const std::vector<Range> ranges = ranges_of(outward.positions, pieces);
-    auto rings = keep_large(outward.positions, rings_of(border_edges(outward), int(outward.positions.rows())),
-                            std::max(k_smallest_girth * size, k_narrowest_girth));
-    rings = drop_sewn_on(outward, pieces, std::move(rings));
+    const std::vector<Ring> rings = large_rings(outward, pieces);
     const EdgeGraph graph(outward);
     std::vector<Opening> openings(rings.size());
     parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {
@@ -319,6 +325,8 @@ std::vector<Opening> openings_of(const TriangleMesh& outward)
     });
     return openings;
 }
+
+std::size_t count_openings(const TriangleMesh& outward) { return large_rings(outward, pieces_of(outward)).size(); }
 
 std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn)
 {

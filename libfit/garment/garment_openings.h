@@ -28,6 +28,8 @@ struct Opening {
 /// @param outward  from outward_cloth
 /// Cost: one shortest-path search over the edges for each opening.
 std::vector<Opening> openings_of(const TriangleMesh& outward);
+/// How many these are.
+std::size_t count_openings(const TriangleMesh& outward);
 
 /// Rotates openings with their garment, without measuring again. @param cloth  the rotated garment
 std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn);

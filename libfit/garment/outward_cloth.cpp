@@ -15,15 +15,18 @@
 #include "buckets.h"
 #include "close_seams.h"
 #include "disjoint_sets.h"
+#include "garment_openings.h"
 #include "garmentfit/closed_ends.h"
 #include "near_vertices.h"
 #include "outer_sheet.h"
+#include "panel.h"
 #include "parallel.h"
 #include "sewn_pieces.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
 #include "winding_number.h"
+#include "wrapped_surface.h"
 
 namespace garmentfit {
 namespace {
@@ -238,8 +241,8 @@ bool faces_inwards(const TriangleMesh& cloth, const Patch& patch, const WindingN
 
 // ---- cloth with thickness ------------------------------------------------------------------------------------------
 
-/// derived: two sheets of area A / 2 with distance d enclose A d / 2. m, of a closed patch.
-double thickness_of(const Patch& patch) { return 2 * std::abs(patch.volume) / patch.area; }
+/// m, of a closed patch.
+double thickness_of(const Patch& patch) { return garmentfit::thickness_of(patch.volume, patch.area); }
 
 /// Number of edges with more than two faces, where the patch touches itself; empty if an edge is open.
 std::optional<std::ptrdiff_t> count_touching_edges(const Patch& patch)
@@ -253,41 +256,25 @@ std::optional<std::ptrdiff_t> count_touching_edges(const Patch& patch)
     return std::ptrdiff_t(balance.size());
 }
 
-/// Whether a patch is closed, has tunnels, and has its two sheets no farther apart than padding.
-bool is_thick_cloth(const Patch& patch, const Triangles& triangles)
+/// Of a closed patch, which may touch itself: 2 for a sphere, less by 2 for each tunnel. None if an edge is open.
+std::optional<std::ptrdiff_t> euler_characteristic(const Patch& patch, const Triangles& triangles)
 {
-    if (thickness_of(patch) > k_thickest)
-        return false;
     const auto touched = count_touching_edges(patch);
     if (!touched)
-        return false;
+        return {};
     std::set<int> vertices;
     for (const int f : patch.faces)
         for (int k = 0; k < 3; ++k)
             vertices.insert(triangles(f, k));
     const auto faces = std::ptrdiff_t(patch.faces.size());
     const auto edges = (3 * faces - std::ptrdiff_t(patch.border.size())) / 2 + *touched;
-    return std::ptrdiff_t(vertices.size()) - edges + faces <= 0;  // derived: Euler characteristic with tunnels
+    return std::ptrdiff_t(vertices.size()) - edges + faces;
 }
 
-/// Keeps the outer sheets of cloth with thickness, so that a garment looks the same with and without thickness.
-TriangleMesh drop_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches)
+/// Whether a patch is closed, has tunnels, and has its two sheets no farther apart than padding, or `thickest`.
+bool is_thick_cloth(const Patch& patch, const Triangles& triangles, double thickest = k_thickest)
 {
-    if (std::none_of(patches.begin(), patches.end(),
-                     [&](const Patch& patch) { return is_thick_cloth(patch, cloth.triangles); }))
-        return cloth;
-    const std::vector<int> opposite = opposite_edges(cloth.triangles, int(cloth.positions.rows()));
-    std::vector<int> kept;
-    for (const Patch& patch : patches) {
-        const std::vector<int> faces = is_thick_cloth(patch, cloth.triangles)
-            ? outer_sheet(cloth, patch.faces, opposite, thickness_of(patch))
-            : patch.faces;
-        kept.insert(kept.end(), faces.begin(), faces.end());
-    }
-    GarmentMesh outer;
-    outer.positions = cloth.positions;
-    outer.triangles = cloth.triangles(kept, Eigen::all);
-    return weld_vertices(outer);
+    return thickness_of(patch) <= thickest && euler_characteristic(patch, triangles).value_or(2) <= 0;
 }
 
 std::vector<Patch> collect_patches(TriangleMesh& cloth)
@@ -303,6 +290,28 @@ std::vector<Patch> collect_patches(TriangleMesh& cloth)
             measure(patches.back(), cloth, rings);
         }
     return patches;
+}
+
+/// Keeps the outer sheets of cloth with thickness, so that a garment looks the same with and without thickness.
+/// @param thickest  m
+TriangleMesh drop_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches,
+                               double thickest = k_thickest)
+{
+    if (std::none_of(patches.begin(), patches.end(),
+                     [&](const Patch& patch) { return is_thick_cloth(patch, cloth.triangles, thickest); }))
+        return cloth;
+    const std::vector<int> opposite = opposite_edges(cloth.triangles, int(cloth.positions.rows()));
+    std::vector<int> kept;
+    for (const Patch& patch : patches) {
+        const std::vector<int> faces = is_thick_cloth(patch, cloth.triangles, thickest)
+            ? outer_sheet(cloth, patch.faces, opposite, thickness_of(patch))
+            : patch.faces;
+        kept.insert(kept.end(), faces.begin(), faces.end());
+    }
+    GarmentMesh outer;
+    outer.positions = cloth.positions;
+    outer.triangles = cloth.triangles(kept, Eigen::all);
+    return weld_vertices(outer);
 }
 
 /// Patches that enclose a volume are oriented by its sign, flat ones by the winding number of the others.
@@ -327,14 +336,55 @@ void orient_outwards(TriangleMesh& cloth, const std::vector<Patch>& patches)
             flip_all(*patch);
 }
 
+// ---- clothes in parts ----------------------------------------------------------------------------------------------
+
+/// Whether a large part of the cloth are panels of a pattern, each closed by its own thickness.
+bool has_panels(const TriangleMesh& cloth, const std::vector<Patch>& patches)
+{
+    double all = 0, panels = 0;
+    for (const Patch& patch : patches) {
+        all += patch.area;
+        if (is_panel(thickness_of(patch), patch.area) && euler_characteristic(patch, cloth.triangles).value_or(0) > 0)
+            panels += patch.area;
+    }
+    return panels > k_panel_share * all;
+}
+
+/// Whether it has more border than openings have: panels that lie side by side, sheets beside each other, or holes.
+bool has_many_borders(const TriangleMesh& cloth)
+{
+    const MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
+    double length = 0;
+    for (const int edge : topology.border_edges())
+        length
+            += (cloth.positions.row(topology.edges()(edge, 0)) - cloth.positions.row(topology.edges()(edge, 1))).norm();
+    return length > k_longest_borders * diagonal(cloth.positions);
+}
+
+/// The outer sheet of what is wrapped closely round all parts. The wrap spans the gaps between them, but not the
+/// openings for a body.
+TriangleMesh wrap_parts(const TriangleMesh& cloth)
+{
+    TriangleMesh wrap = wrap_surface(cloth, k_garment_wrap, k_garment_wrap_offset);
+    const std::vector<Patch> patches = collect_patches(wrap);
+    orient_outwards(wrap, patches);
+    return drop_inner_sheets(wrap, patches, INFINITY);
+}
+
 }  // namespace
 
 TriangleMesh outward_cloth(const GarmentMesh& garment)
 {
+    constexpr std::size_t k_fewest_openings = 2;  // derived: a body enters through one and comes out at another
     TriangleMesh cloth = close_gaps(weld(open_ends(garment).garment));
     const std::vector<Patch> patches = collect_patches(cloth);
+    const bool is_in_parts = has_panels(cloth, patches) || has_many_borders(cloth);
     orient_outwards(cloth, patches);
-    return drop_inner_sheets(cloth, patches);
+    TriangleMesh outer = drop_inner_sheets(cloth, patches);
+    if (!is_in_parts && (is_sealed(outer) || count_openings(outer) >= k_fewest_openings))
+        return outer;
+    TriangleMesh wrapped = wrap_parts(cloth);
+    return count_openings(wrapped) >= k_fewest_openings ? wrapped : outer;
 }
 
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)

@@ -7,6 +7,10 @@ namespace garmentfit {
 
 /// The garment prepared for analysis: equal vertices welded, equal faces dropped, inner sheets of thick cloth removed,
 /// and every patch oriented outwards, independent of the orientation of the input. Cost O(n log n).
+///
+/// Where that leaves no garment, it is the outer sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all of it,
+/// which takes some seconds: of panels that are each closed by their thickness, of cloth with more border than openings
+/// have (sheets side by side or beside each other), and where only one opening is found.
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
 /// About the origin.

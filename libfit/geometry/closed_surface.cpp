@@ -293,7 +293,7 @@ bool is_solid(const CgalMesh& mesh)
 
 Body wrapped_body(const TriangleMesh& surface, double alpha)
 {
-    return main_body(to_cgal(wrap_surface(surface, alpha)));
+    return main_body(to_cgal(wrap_surface(surface, alpha, k_wrap_offset)));
 }
 
 /// Wraps a body in parts, wider and wider gaps until nothing large lies apart.

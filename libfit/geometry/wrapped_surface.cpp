@@ -8,11 +8,10 @@
 
 #include "cgal_mesh.h"
 #include "surface_measures.h"
-#include "tuning.h"
 
 namespace garmentfit {
 
-TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha)
+TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha, double offset)
 {
     std::vector<CgalKernel::Point_3> points;
     for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
@@ -23,7 +22,7 @@ TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha)
                               std::size_t(surface.triangles(f, 2)) });
     const double size = diagonal(surface.positions);
     CgalMesh mesh;
-    CGAL::alpha_wrap_3(points, triangles, alpha * size, k_wrap_offset * size, mesh);
+    CGAL::alpha_wrap_3(points, triangles, alpha * size, offset * size, mesh);
     return from_cgal(mesh);
 }
 

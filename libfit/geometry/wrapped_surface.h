@@ -6,7 +6,7 @@
 namespace garmentfit {
 
 /// Returns a closed surface around any triangles [portaneri_2022_alpha_wrap]. It spans holes narrower than about
-/// twice `alpha`, a share of the diagonal. Takes a few seconds.
-TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha);
+/// twice `alpha`, and keeps `offset` off the triangles, both shares of the diagonal. Takes a few seconds.
+TriangleMesh wrap_surface(const TriangleMesh& surface, double alpha, double offset);
 
 }  // namespace garmentfit

@@ -96,6 +96,42 @@ TEST(GarmentOpenings, OfPanelsWithoutCommonVerticesAreThoseOfTheSewnGarment)
     }
 }
 
+/// With its second sheet further in.
+TriangleMesh thick(const TriangleMesh& panel, double thickness)
+{
+    Positions inwards = -thickness / k_radius * panel.positions;
+    inwards.col(1).setZero();
+    return fixtures::thickened(panel, inwards);
+}
+
+TEST(GarmentOpenings, OfPanelsWithThicknessAreThoseOfTheSewnGarment)
+{
+    // two halves, each closed, their sheets 3 mm and their seams 1 mm apart
+    constexpr double pi = std::numbers::pi, gap = 0.0005 / k_radius, thickness = 0.003;
+    const TriangleMesh front = panel(gap - pi / 2, pi / 2 - gap, 0, k_length, 25, 101),
+                       back = panel(pi / 2 + gap, 3 * pi / 2 - gap, 0, k_length, 21, 84);
+    const std::vector<Opening> openings
+        = openings_of_cloth(fixtures::joined(thick(front, thickness), thick(back, thickness)));
+    ASSERT_EQ(openings.size(), 2u);
+    for (const Opening& opening : openings) {
+        EXPECT_NEAR(opening.girth, 2 * pi * k_radius, 0.1 * 2 * pi * k_radius);
+        EXPECT_NEAR(std::abs(opening.facing.y()), 1, 0.01);
+    }
+}
+
+TEST(GarmentOpenings, OfManyStripsAreThoseOfTheWhole)
+{
+    constexpr int strips = 24;
+    constexpr double pi = std::numbers::pi, width = 2 * pi / strips, gap = 0.003 / k_radius;
+    TriangleMesh all = panel(gap, width, 0, k_length, 4, 60);
+    for (int i = 1; i < strips; ++i)
+        all = fixtures::joined(all, panel(i * width + gap, (i + 1) * width, 0, k_length, 4, 60));
+    const std::vector<Opening> openings = openings_of_cloth(all);
+    ASSERT_EQ(openings.size(), 2u);
+    for (const Opening& opening : openings)
+        EXPECT_NEAR(opening.girth, 2 * pi * k_radius, 0.1 * 2 * pi * k_radius);
+}
+
 TEST(GarmentOpenings, PocketsAndFlapsHaveNone)
 {
     const TriangleMesh pocket = panel(-0.7, 0.7, 0.2, 0.3, 9, 9, 0.004),
