@@ -60,7 +60,8 @@ def _arguments(words: list):
     parser.add_argument("--scheduler", default="", metavar="ADDRESS",
                         help="a Dask scheduler whose workers see DIR and the inputs under the same paths")
     parser.add_argument("--workers", type=int, default=0, help="local workers; one for each core by default")
-    parser.add_argument("--retry", action="store_true", help="do again what crashed, met a limit or could not read a file")
+    parser.add_argument("--retry", action="store_true",
+                        help="do again what crashed, met a limit or could not read a file")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
     return parser.parse_args(words)
 

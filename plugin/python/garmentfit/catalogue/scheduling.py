@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import logging
+import math
 import os
 import queue
 import time
@@ -11,6 +12,7 @@ import time
 _PER_THREAD = 4  # guess: jobs that wait at the scheduler for each thread; more would only cost it memory
 _LEAST_WAITING = 64  # guess: hides the round trips to the scheduler where jobs take no time
 _REPEATS = 5  # guess: times that one job may come back because its worker died
+_ASK_SECONDS = 5  # guess: workers come and go slowly
 _PATIENCE_SECONDS = 60  # guess: time in which a scheduler or worker may come back
 
 
@@ -43,42 +45,51 @@ def run_jobs(function, jobs, scheduler: str = "", workers: int = 0, arrived=None
 
 def _drain(client, function, jobs, arrived) -> int:
     """Keeps a window of jobs at the scheduler, so that its memory does not grow with the plan."""
-    ended, job_of, repeats = queue.Queue(), {}, {}
+    ended, waiting, workers = queue.Queue(), {}, _Workers(client)
     done = 0
 
-    def submit(job):
+    def submit(job, repeats=0):
         future = client.submit(function, *job, pure=False)
-        job_of[future.key] = job, future
+        waiting[future.key] = future, job, repeats
         future.add_done_callback(ended.put)
 
-    _fill(client, jobs, job_of, submit)
-    while job_of:
-        for future in _next_ended(client, ended):
-            if future.key not in job_of:
+    def fill():
+        window = max(_LEAST_WAITING, _PER_THREAD * workers.threads())
+        for job in itertools.islice(jobs, max(0, window - len(waiting))):
+            submit(job)
+
+    fill()
+    while waiting:
+        for future in _next_ended(client, workers, ended):
+            if future.key not in waiting:
                 continue  # told of twice, after a connection was lost
-            job, _ = job_of.pop(future.key)
+            _, job, repeats = waiting.pop(future.key)
             if future.status == "finished":
                 done += 1
                 if arrived:
                     arrived()
             else:
-                _repeat_or_raise(future, job, repeats, submit)
+                submit(job, _count_repeat(future, repeats))
             future.release()
-        _fill(client, jobs, job_of, submit)
+        fill()
     return done
 
 
-def _threads(client) -> int:
-    return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
+class _Workers:
+    """How many threads the workers have now."""
+
+    def __init__(self, client):
+        self._client, self._threads, self._asked = client, 0, -math.inf
+
+    def threads(self, patience: float = _ASK_SECONDS) -> int:
+        """patience: age in seconds at which an answer is still good; of 1,000 workers it has more than a megabyte."""
+        if time.monotonic() - self._asked > patience:
+            known = self._client.scheduler_info(n_workers=-1)["workers"]
+            self._threads, self._asked = sum(worker["nthreads"] for worker in known.values()), time.monotonic()
+        return self._threads
 
 
-def _fill(client, jobs, job_of, submit) -> None:
-    window = max(_LEAST_WAITING, _PER_THREAD * _threads(client))
-    for job in itertools.islice(jobs, max(0, window - len(job_of))):
-        submit(job)
-
-
-def _next_ended(client, ended) -> list:
+def _next_ended(client, workers, ended) -> list:
     """The futures that ended since the last call, at least one. Raises SchedulerLost where none can end any more."""
     last_seen = time.monotonic()
     while True:
@@ -86,7 +97,7 @@ def _next_ended(client, ended) -> list:
             batch = [ended.get(timeout=1)]
             break
         except queue.Empty:
-            if client.status == "running" and _threads(client):
+            if client.status == "running" and workers.threads(patience=1):
                 last_seen = time.monotonic()
             elif client.status == "closed" or time.monotonic() - last_seen > _PATIENCE_SECONDS:
                 raise SchedulerLost("no scheduler or no worker is left; start them and run again to go on") from None
@@ -95,15 +106,16 @@ def _next_ended(client, ended) -> list:
     return batch
 
 
-def _repeat_or_raise(future, job, repeats, submit) -> None:
-    """A job whose worker or connection was lost is submitted again; an error of the job itself is raised."""
+def _count_repeat(future, repeats: int) -> int:
+    """How often a job has come back because its worker died, or lost its connection, which does not count. Raises the
+    error of the job itself, and SchedulerLost where it came back too often."""
     from distributed import KilledWorker
 
-    if future.status == "error":
-        error = future.exception()
-        if not isinstance(error, KilledWorker):
-            raise error
-        repeats[id(job)] = repeats.get(id(job), 0) + 1
-        if repeats[id(job)] > _REPEATS:
-            raise SchedulerLost("a job lost its worker again and again; look at the workers' logs, then run again")
-    submit(job)
+    if future.status != "error":
+        return repeats
+    error = future.exception()
+    if not isinstance(error, KilledWorker):
+        raise error
+    if repeats == _REPEATS:
+        raise SchedulerLost("a job lost its worker again and again; look at the workers' logs, then run again")
+    return repeats + 1

@@ -17,6 +17,7 @@ import pytest
 
 for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
     pytest.importorskip(needed)
+import distributed  # noqa: E402
 import pyarrow.parquet  # noqa: E402
 from garmentfit.catalogue import command, scheduling  # noqa: E402
 from garmentfit.catalogue.store import Store  # noqa: E402
@@ -209,10 +210,10 @@ def test_a_cluster_of_others_does_the_same_though_its_scheduler_and_a_worker_are
 
 def test_a_scheduler_that_stays_away_ends_with_4_and_the_folder_resumes(tmp_path, monkeypatch, capfd):
     trial = Trial(tmp_path, 1, ["ok"] * 20, seconds=0.3)
-    monkeypatch.setattr(scheduling, "_PATIENCE_SECONDS", 2)
     with faults.Cluster(2, tmp_path, trial.environment) as cluster:
         def kill_it():
             wait_for(lambda: len(trial.finished()) >= 3)
+            monkeypatch.setattr(scheduling, "_PATIENCE_SECONDS", 2)
             cluster.scheduler.kill()
 
         killer = threading.Thread(target=kill_it)
@@ -224,6 +225,15 @@ def test_a_scheduler_that_stays_away_ends_with_4_and_the_folder_resumes(tmp_path
     assert trial.run().returncode == 0
     now = trial.finished()
     assert len(now) == 21 and all(now[key] == seen[key] for key in seen)
+
+
+def test_workers_are_counted_once_in_a_while_and_not_after_each_job(monkeypatch):
+    """With 1,000 workers the answer has more than a megabyte."""
+    asked, ask = [], distributed.Client.scheduler_info
+    monkeypatch.setattr(distributed.Client, "scheduler_info", lambda *_, **more: asked.append(1) or ask(*_, **more))
+    jobs, start = ((0,) for _ in range(1000)), time.monotonic()
+    assert scheduling.run_jobs(time.sleep, jobs, workers=1) == 1000
+    assert len(asked) <= 2 + time.monotonic() - start
 
 
 def wait_for(condition, seconds=60):

@@ -32,7 +32,7 @@ def test_single_jobs_fill_the_folders_that_a_run_fills(tmp_path):
     assert done.returncode == 0 and "6 of 6" in done.stdout, done.stderr
     assert sorted(row["reason"] for row in trial.rows()) == ["crashed"] * 2 + ["done"] * 2 + ["too_small"] * 2
     before, finished = trial.counts.read_text(), trial.finished()
-    assert finished.keys() == jobs["pairs"].keys()
+    assert finished.keys() == jobs["pairs"].keys() | jobs["rigs"].keys()
     again = trial.run()  # by Dask: nothing is left to do
     assert again.returncode == 0, again.stderr
     assert trial.counts.read_text() == before and trial.finished() == finished
