@@ -66,7 +66,7 @@ def finish_unreadable(store: Store, key: str, pair: Pair, error: OSError) -> Non
     """Writes the row of a pair that no process can dress, because this run cannot read one of its files."""
     if store.finished("dress", key) is not None:
         return
-    message = f"{error.filename}: {error.strerror}"
+    message = f"{error.filename}: {error.strerror}; the command reads all files itself, to name pairs by their content"
     work = store.start(key)
     (work / "log.txt").write_text(message + "\n")
     row = dict(exit=2, reason="unreadable_file", message=message, seconds=0.0, memory_mb=0.0)

@@ -6,7 +6,6 @@ of the page, and three.js is its classic build."""
 from __future__ import annotations
 
 import json
-import shutil
 from pathlib import Path
 
 from .results import ease_columns, summary
@@ -22,7 +21,7 @@ def write_page(store: Store, rows: list) -> None:
     folder = store.folder / "page"
     folder.mkdir(exist_ok=True)
     for name in ("catalogue.js", "catalogue.css", "three.min.js", "three.LICENSE"):
-        shutil.copyfile(_WEB / name, folder / name)
+        write_whole(folder / name, (_WEB / name).read_bytes())
     names = [*_SHOWN, *ease_columns(rows)]
     table = dict(columns=names, rows=[[row.get(name) for name in names] for row in rows],
                  summary=summary(rows).most_common())

@@ -7,6 +7,8 @@ import glob
 import hashlib
 import itertools
 import json
+import os
+import stat
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -124,8 +126,8 @@ def _buffers(path: str) -> list:
         uris = [buffer.get("uri", "data:") for buffer in json.loads(Path(path).read_text()).get("buffers", [])]
     except (ValueError, AttributeError):
         return []  # the program will say what is wrong with it
-    files = [Path(path).parent / uri for uri in uris if not uri.startswith("data:")]
-    return [str(file) for file in files if file.exists()]
+    files = [os.path.join(os.path.dirname(path), uri) for uri in uris if not uri.startswith("data:")]
+    return [file for file in files if os.path.exists(file)]
 
 
 def _from_toml(path: Path, text: str) -> Plan:
@@ -206,15 +208,21 @@ def _expand(path: Path, patterns, what: str) -> list:
         found = sorted(glob.glob(str(path.parent / pattern), recursive=True))
         if not found:
             raise PlanError(f"{path}: {what}: no file matches {pattern}")
-        files += [str(Path(file).resolve()) for file in found]
+        files += map(os.path.realpath, found)
     return list(dict.fromkeys(files))
 
 
 def _one_file(path: Path, name: str) -> str:
-    file = (path.parent / name.strip()).resolve()
-    if not file.is_file():
-        raise PlanError(f"{path}: {name}: no such file")
-    return str(file)
+    """Refuses what is certainly no file. What this run may not even look at is left to its pairs: they get a row."""
+    file = os.path.join(path.parent, name.strip())
+    try:
+        if not stat.S_ISREG(os.stat(file).st_mode):
+            raise PlanError(f"{path}: {name}: is not a file")
+    except (FileNotFoundError, NotADirectoryError):
+        raise PlanError(f"{path}: {name}: no such file") from None
+    except OSError:
+        pass
+    return os.path.realpath(file)
 
 
 def _check_keys(path: Path, where: str, table: dict, known: set) -> None:

@@ -9,8 +9,9 @@
     DIR/work/KEY-RANDOM/   a job at work
 
 A job writes into its folder in work/, which is renamed when all is written. So a folder in jobs/ or rigs/ is complete,
-and what is in work/ is never read. Whoever removes a folder renames it first. So of a job that ends and a run that
-clears its folder one wins: the folder is finished as a whole, or not at all.
+and what is in work/ is never read. Files are on the disk before the rename: after a power cut, too, a pair is there with
+all of them, or is done again. Whoever removes a folder renames it first. So of a job that ends and a run that clears its
+folder one wins: the folder is finished as a whole, or not at all.
 """
 from __future__ import annotations
 
@@ -105,10 +106,12 @@ class Store:
         return folder
 
     def finish(self, kind: str, key: str, work: Path, row: dict) -> None:
-        """Writes the row and renames the folder. Of two jobs with one key the first stays.
+        """Writes the row, waits until all is on the disk, and renames the folder. Of two jobs with one key the first
+        stays.
 
         Raises FileNotFoundError where another run cleared the folder meanwhile."""
         write_whole(work / "done.json", json.dumps(row))
+        _sync(work)
         target = self.target(kind, key)
         target.parent.mkdir(exist_ok=True)
         try:
@@ -145,6 +148,17 @@ class Store:
         except FileNotFoundError:
             raise StoreError(f"{self.folder}: no catalogue; start with garmentfit catalogue PLAN -o DIR") from None
         return {pair.pop("key"): pair for pair in map(json.loads, lines)}
+
+
+def _sync(folder: Path) -> None:
+    """Returns when all files below a folder are on the disk: a rename must not get there before them."""
+    for path, _, names in os.walk(folder):
+        for name in [".", *names]:
+            file = os.open(os.path.join(path, name), os.O_RDONLY)
+            try:
+                os.fsync(file)
+            finally:
+                os.close(file)
 
 
 def write_whole(path: Path, text) -> None:

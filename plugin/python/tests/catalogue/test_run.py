@@ -131,6 +131,21 @@ def test_an_unreadable_file_costs_its_own_rows(tmp_path):
     assert rows["body0", "gone_garment9"] == "done" and rows["gone_body9", "gone_garment9"] == "unreadable_file"
 
 
+def test_a_file_that_the_command_may_not_look_at_costs_its_own_rows(tmp_path):
+    """A link to itself stands for a folder without permission, which the system's administrator would have."""
+    trial = Trial(tmp_path, 2, ["ok"])
+    for name in ("closed.ply", "body9.ply"):
+        (tmp_path / name).symlink_to(name)
+    (tmp_path / "plan.toml").write_text('bodies = ["body*.ply"]\ngarment_files = ["garment0.ply"]\n'
+                                        '[[garments]]\nlayers = ["closed.ply"]\n')
+    done = trial.run()
+    assert done.returncode == 0, done.stderr
+    reasons = [(row["garment"], row["body"], row["reason"]) for row in trial.rows()]
+    assert [body for _, body, reason in reasons if reason == "done"] == ["body0", "body1"]
+    assert sum(reason == "unreadable_file" for _, _, reason in reasons) == 4 == len(reasons) - 2
+    assert any("symbolic links; the command reads all files itself" in row["message"] for row in trial.rows())
+
+
 def test_a_limit_of_file_size_is_named(tmp_path):
     trial = Trial(tmp_path, 1, ["ok", "large"])
     assert trial.run(largest_file=4_000_000).returncode == 0

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The folder of a catalogue where a run was killed and its jobs go on."""
+import os
 import shutil
 import sys
 import threading
@@ -85,6 +86,21 @@ def test_a_folder_without_its_row_is_replaced(store):
     store.finish("dress", "aa11", start_job(store, "aa11"), {"reason": "done"})
     assert store.finished("dress", "aa11") == {"reason": "done"}
     assert (store.pair_folder("aa11") / "result" / "report.json").exists()
+
+
+def test_all_files_of_a_pair_are_on_the_disk_before_it_is_finished(store, monkeypatch):
+    synced, sync, rename, work = set(), os.fsync, os.rename, start_job(store, "aa11")
+    (work / "log.txt").write_text("log")
+
+    def rename_if_safe(old, new):
+        inside = [old, *Path(old).rglob("*")]
+        assert {path.name for path in inside if path.stat().st_ino not in synced} == set()
+        rename(old, new)
+
+    monkeypatch.setattr(store_module.os, "fsync", lambda file: (synced.add(os.fstat(file).st_ino), sync(file)))
+    monkeypatch.setattr(store_module.os, "rename", rename_if_safe)
+    store.finish("dress", "aa11", work, {"reason": "done"})
+    assert (store.pair_folder("aa11") / "result" / "report.json").exists() and len(synced) == 5
 
 
 def jobs_in(folder):
