@@ -4,14 +4,18 @@
     python faults.py --seed 1 --kills 20 --seconds 10 40 -- garmentfit catalogue plan.toml -o DIR
     python faults.py --cluster 2 ...      with a scheduler and two workers started by the dask command
 
-Victims are the client, a worker, a job and, in a cluster, the scheduler. Whatever was killed is started again. Ends
-with an error where something that was finished is done a second time, or where a run without a kill does not end
-with 0.
+Victims are the client, a worker, a job and, in a cluster, the scheduler. Whatever was killed is started again. Each
+process of the program is counted as it starts. Ends with an error where a process starts for something that is
+finished, where a finished folder changes, where a run without a kill does not end with 0, or where the table does not
+have one row for each pair of the plan.
 """
 from __future__ import annotations
 
 import argparse
+import collections
+import csv
 import random
+import shlex
 import socket
 import subprocess
 import sys
@@ -20,6 +24,33 @@ import time
 from pathlib import Path
 
 import psutil
+
+
+_COUNTER = """\
+#!/bin/sh
+# Notes when a job starts and its folder, the last argument, then becomes the program.
+log=$1
+shift
+for folder; do :; done
+case $folder in */result) echo "$(date +%s%N) $folder" >> "$log" ;; esac
+exec "$@"
+"""
+
+
+class Starts:
+    """Which processes of the program start, by a script that is called in its place."""
+
+    def __init__(self, folder: Path, program: list):
+        script, self._log = folder / "count_starts", folder / "starts"
+        script.write_text(_COUNTER)
+        self.program = shlex.join(["sh", str(script), str(self._log), *program])
+
+    def read(self) -> list:
+        """(name of the rig or pair, time in ns) of each start."""
+        if not self._log.exists():
+            return []
+        starts = [line.split(" ", 1) for line in self._log.read_text().splitlines()]
+        return [(Path(folder).parent.name.rsplit("-", 1)[0], int(time)) for time, folder in starts]
 
 
 class Run:
@@ -135,41 +166,72 @@ def main(words: list) -> int:
     parser.add_argument("--cluster", type=int, default=0, help="workers beside a scheduler; none: local workers")
     parser.add_argument("command", nargs="+", help="after --: garmentfit catalogue PLAN -o DIR ...")
     options = parser.parse_args(words)
-    output = Path(options.command[options.command.index("-o") + 1])
+    command = options.command
+    output = Path(command[command.index("-o") + 1])
     with tempfile.TemporaryDirectory() as folder:
+        given = command.index("--program") + 1 if "--program" in command else 0
+        starts = Starts(Path(folder), shlex.split(command[given]) if given else [sys.executable, "-m", "garmentfit"])
+        options.command = [*command, "--program", starts.program]  # the last one counts
         if not options.cluster:
-            return _storm(options, output, None)
+            return _storm(options, output, starts, None)
         with Cluster(options.cluster, folder) as cluster:
-            return _storm(options, output, cluster)
+            return _storm(options, output, starts, cluster)
 
 
-def _storm(options, output: Path, cluster) -> int:
-    chance, seen, kills = random.Random(options.seed), {}, 0
-    victims = ["client", "worker", "job"] + (["scheduler"] if cluster else [])
+def _storm(options, output: Path, starts: Starts, cluster) -> int:
+    chance, seen, kills, begin = random.Random(options.seed), finished(output), collections.Counter(), time.monotonic()
+    before = len(seen)
     while True:
-        calm, run = kills >= options.kills, Run(options.command, output, cluster, log=None)
-        while run.process.poll() is None:
-            try:
-                run.process.wait(chance.uniform(*options.seconds))
-            except subprocess.TimeoutExpired:
-                victim = chance.choice(victims)
-                if kills < options.kills and run.kill_one(victim, chance):
-                    kills += 1
-                    print(f"killed {victim}, {len(finished(output))} finished", flush=True)
-            if cluster:
-                cluster.mend()
+        calm, run = sum(kills.values()) >= options.kills, Run(options.command, output, cluster, log=None)
+        _kill_while_it_runs(run, chance, kills, options, output, cluster)
         now = finished(output)
-        twice = [key for key in seen if now.get(key) != seen[key]]
         print(f"ended with {run.process.returncode}, {len(now)} finished", flush=True)
-        if twice:
-            print(f"done a second time: {', '.join(twice)}")
+        if error := _wrong(seen, now, starts):
+            print(error)
             return 1
         if run.process.returncode == 0:
-            return 0
+            break
         if calm:
             print("a run without kills did not end with 0")
             return 1
         seen = now
+    killed = ", ".join(f"{count} {victim}" for victim, count in sorted(kills.items()))
+    print(f"{len(starts.read())} processes for {len(now) - before} rigs and pairs, none for a finished one; kill -9: "
+          f"{killed}; {time.monotonic() - begin:.0f} s")
+    return _check_rows(output)
+
+
+def _kill_while_it_runs(run: Run, chance: random.Random, kills, options, output: Path, cluster) -> None:
+    victims = ["client", "worker", "job"] + (["scheduler"] if cluster else [])
+    while run.process.poll() is None:
+        try:
+            run.process.wait(chance.uniform(*options.seconds))
+        except subprocess.TimeoutExpired:
+            victim = chance.choice(victims)
+            if sum(kills.values()) < options.kills and run.kill_one(victim, chance):
+                kills[victim] += 1
+                print(f"killed {victim}, {len(finished(output))} finished", flush=True)
+        if cluster:
+            cluster.mend()
+
+
+def _wrong(seen: dict, now: dict, starts: Starts) -> str:
+    """What was done a second time, or ""."""
+    changed = [key for key in seen if now.get(key) != seen[key]]
+    if changed:
+        return f"finished and changed afterwards: {', '.join(changed)}"
+    again = [key for key, start in starts.read() if start > now.get(key, start)]
+    return f"finished and started again: {', '.join(again)}" if again else ""
+
+
+def _check_rows(output: Path) -> int:
+    with open(output / "results.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    planned = len((output / "plan.jsonl").read_text().splitlines())
+    whole = len({row["pair"] for row in rows}) == len(rows) == planned and all(row["exit"] for row in rows)
+    ends = ", ".join(f"{count} {reason}" for reason, count in collections.Counter(row["reason"] for row in rows).items())
+    print(f"{len(rows)} rows for {planned} pairs: {ends}")
+    return 0 if whole else 1
 
 
 if __name__ == "__main__":

@@ -210,6 +210,32 @@ def test_killed_at_random_it_ends_with_the_same_results(tmp_path, seed):
     assert not any((storm.output / "work").iterdir())
 
 
+@pytest.mark.parametrize("where", [[], ["--cluster", "2"]])
+def test_the_harness_runs_any_plan_to_its_end_and_counts(tmp_path, where):
+    trial = Trial(tmp_path, 2, ["ok"] * 15 + ["small", "crash"], seconds=0.3)
+    words = ["--seed", "3", "--kills", "3", "--seconds", "2", "4", *where, "--", *trial.command]
+    done = subprocess.run([sys.executable, faults.__file__, *words], env=trial.environment, capture_output=True,
+                          text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "for 36 rigs and pairs, none for a finished one" in done.stdout
+    assert "34 rows for 34 pairs: 30 done, 2 too_small, 2 crashed" in done.stdout
+
+
+def test_the_harness_notices_what_is_done_again(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"])
+    starts = faults.Starts(tmp_path, FAKE.split())
+    assert trial.run("--program", starts.program).returncode == 0 and len(starts.read()) == 2
+    before = trial.finished()
+    assert faults._wrong(before, trial.finished(), starts) == ""
+    shutil.copytree(trial.output / "jobs", tmp_path / "kept")
+    shutil.rmtree(trial.output / "jobs")
+    assert trial.run("--program", starts.program).returncode == 0 and len(starts.read()) == 3
+    assert "changed afterwards" in faults._wrong(before, trial.finished(), starts)
+    shutil.rmtree(trial.output / "jobs")
+    (tmp_path / "kept").rename(trial.output / "jobs")
+    assert "started again" in faults._wrong(before, trial.finished(), starts)
+
+
 def test_a_cluster_of_others_does_the_same_though_its_scheduler_and_a_worker_are_killed(tmp_path):
     trial, chance = Trial(tmp_path, 1, ["ok"] * 30, seconds=0.3), random.Random(1)
     with faults.Cluster(2, tmp_path, trial.environment) as cluster:
