@@ -1,18 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What scheduling costs: jobs that do nothing, or sleep, on local workers. Not a test.
+"""What scheduling costs: the command, with a program that does nothing or sleeps, on a cluster. Not a test.
 
-    python measure_scheduling.py --jobs 1000 [--sleep 0.25] [--workers 2]
+    python measure_scheduling.py --jobs 1000 [--sleep 2] [--workers 2]
+    python measure_scheduling.py --jobs 100000 --no-processes
 
-Prints processor time of this process, in which client and scheduler run, its memory, and the wall clock beside that of
-workers which are never idle.
+The plan has one body and one garment, and a parameter that counts. Scheduler and workers are started by the dask command.
+With --no-processes workers get the same jobs and do nothing with them: what is left is the cost of Dask.
+Prints while it runs: time, jobs finished, processor time and memory of client, scheduler and all workers; at the end
+the wall clock from the first row to the last beside that of workers which are never idle.
 """
-import argparse
-import os
-import resource
-import sys
-import time
+from __future__ import annotations
 
+import argparse
+import multiprocessing
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+from garmentfit.catalogue.plan import Limits, Pair
 from garmentfit.catalogue.scheduling import run_jobs
+
+import faults
+
+_PROGRAM = """\
+#!/bin/sh
+case $* in
+*--version*) echo nothing 1 ;;
+*dress*) {work} ;;
+esac
+"""
 
 
 def main(words: list) -> None:
@@ -20,17 +40,110 @@ def main(words: list) -> None:
     parser.add_argument("--jobs", type=int, default=1000)
     parser.add_argument("--sleep", type=float, default=0, help="length of a job in seconds")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
+    parser.add_argument("--no-processes", action="store_true")
+    parser.add_argument("--every", type=float, default=20, help="seconds between lines")
     options = parser.parse_args(words)
-    processor, start = time.process_time(), time.monotonic()
-    jobs = ((options.sleep,) for _ in range(options.jobs))
-    first = []
-    run_jobs(time.sleep, jobs, workers=options.workers, arrived=lambda: first or first.append(time.monotonic()))
-    wall, since_first = time.monotonic() - start, time.monotonic() - first[0]
-    processor = time.process_time() - processor
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
-    print(f"{options.jobs} jobs of {options.sleep:g} s on {options.workers} workers: {wall:.1f} s, after the first job "
-          f"{since_first:.1f} s; busy workers: {options.jobs * options.sleep / options.workers:.1f} s; client and "
-          f"scheduler: {processor:.2f} s, {1000 * processor / options.jobs:.2f} ms for each job, {memory:.0f} MB")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        with faults.Cluster(options.workers, folder) as cluster:
+            client = (_Dask if options.no_processes else _Command)(folder, options, cluster.address)
+            parts = {"client": [client.process], "scheduler": [cluster.scheduler], "workers": cluster.workers}
+            used = _watch(client, parts, options.every)
+        ended = client.count()
+        print(client.conclusion() + "for each job " + ", ".join(
+            f"{part} {1000 * seconds / ended:.2f} ms" for part, (seconds, _) in used.items()))
+
+
+class _Command:
+    """garmentfit catalogue."""
+
+    def __init__(self, folder: Path, options, address: str):
+        self._output, self._options = folder / "out", options
+        self.process = subprocess.Popen([*_prepare(folder, options), "--scheduler", address])
+        self.runs = lambda: self.process.poll() is None
+
+    def count(self) -> int:
+        try:
+            return sum(len(os.listdir(self._output / "jobs" / part)) for part in os.listdir(self._output / "jobs"))
+        except FileNotFoundError:
+            return 0
+
+    def conclusion(self) -> str:
+        ends, options = sorted(path.stat().st_mtime for path in self._output.glob("jobs/*/*/done.json")), self._options
+        busy = (len(ends) - options.workers) * options.sleep / options.workers
+        return (f"{len(ends)} jobs of {options.sleep:g} s on {options.workers} workers: {ends[-1] - ends[0]:.1f} s from "
+                f"the first row to the last, {busy:.1f} s if no worker waited; ")
+
+
+class _Dask:
+    """The part of the command that hands jobs to Dask."""
+
+    def __init__(self, folder: Path, options, address: str):
+        self._ended = multiprocessing.Value("i")
+        self.process = multiprocessing.Process(target=self._run, args=(folder, options, address))
+        self.process.start()
+        self.runs = self.process.is_alive
+
+    def _run(self, folder: Path, options, address: str) -> None:
+        def arrived():
+            self._ended.value += 1
+        pairs = (Pair("/bodies/body.ply", "garment", ("/garments/garment.ply",), parameters=(("number", str(number)),))
+                 for number in range(options.jobs))
+        jobs = ((str(folder), "dress", f"{number:024x}", pair, "0" * 24, ["garmentfit"], Limits(), True)
+                for number, pair in enumerate(pairs))
+        run_jobs(_do_nothing, jobs, address, arrived=arrived)
+
+    def count(self) -> int:
+        return self._ended.value
+
+    def conclusion(self) -> str:
+        return f"{self.count()} jobs; "
+
+
+def _do_nothing(*_) -> None:
+    pass
+
+
+def _watch(client, parts: dict, every: float) -> dict:
+    """Prints a line now and then until the client ends; returns the last figures of each part."""
+    print(f"{'s':>6} {'finished':>9}" + "".join(f" {part + ' s':>12} {'MB':>6}" for part in parts), flush=True)
+    start, used = time.monotonic(), {}
+    while client.runs():
+        now = {part: _used(processes) for part, processes in parts.items()}
+        if not client.runs():
+            break
+        used = now
+        print(f"{time.monotonic() - start:6.0f} {client.count():9d}" +
+              "".join(f" {seconds:12.1f} {memory:6.0f}" for seconds, memory in used.values()), flush=True)
+        end = time.monotonic() + every
+        while client.runs() and time.monotonic() < end:
+            time.sleep(0.2)
+    return used
+
+
+def _prepare(folder: Path, options) -> list:
+    """Writes inputs, plan and program; returns the command."""
+    for name in ("body.ply", "garment.ply"):
+        (folder / name).write_text(name)
+    lines = ["body,garment,number", *(f"body.ply,garment.ply,{number}" for number in range(options.jobs))]
+    (folder / "plan.csv").write_text("\n".join(lines) + "\n")
+    (folder / "program").write_text(_PROGRAM.format(work=f"exec sleep {options.sleep}" if options.sleep else ":"))
+    return [sys.executable, "-m", "garmentfit", "catalogue", str(folder / "plan.csv"), "-o", str(folder / "out"),
+            "--program", f"sh {folder}/program", "--no-pictures", "--quiet"]
+
+
+def _used(processes: list) -> tuple:
+    """Processor seconds and memory in MB, of the processes and those that they started, ended ones too."""
+    seconds = memory = 0
+    for process in processes:
+        try:
+            for each in [psutil.Process(process.pid), *psutil.Process(process.pid).children(recursive=True)]:
+                times = each.cpu_times()
+                seconds += times.user + times.system + times.children_user + times.children_system
+                memory += each.memory_info().rss / 1e6
+        except psutil.NoSuchProcess:
+            pass
+    return seconds, memory
 
 
 if __name__ == "__main__":
