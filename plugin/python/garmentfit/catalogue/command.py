@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import shlex
 import subprocess
 import sys
@@ -59,7 +60,8 @@ def _arguments(words: list):
         parser.add_argument(*names, **about)
     parser.add_argument("--scheduler", default="", metavar="ADDRESS",
                         help="a Dask scheduler whose workers see DIR and the inputs under the same paths")
-    parser.add_argument("--workers", type=int, default=0, help="local workers; one for each core by default")
+    parser.add_argument("--workers", type=int, default=0,
+                        help="local workers; by default as many as the cores have room for")
     parser.add_argument("--retry", action="store_true",
                         help="do again what crashed, met a limit or could not read a file")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
@@ -143,6 +145,7 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
     from .scheduling import SchedulerLost, run_jobs
 
     folder, draw = str(store.folder), not options.no_pictures
+    workers = options.workers or max(1, (os.cpu_count() or 1) // limits.threads)
     rest = {key: pair for key, pair in pairs.items() if store.finished("dress", key) is None}
     rigs = {rig: pair for pair, rig in rest.values() if store.finished("rig", rig) is None}
     try:
@@ -153,7 +156,7 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
             if jobs:
                 with tqdm(total=total, initial=total - len(jobs), desc=kind, unit="pair" if kind == "dress" else "body",
                           disable=None if not options.quiet else True) as bar:
-                    run_jobs(run_job, jobs, options.scheduler, options.workers, bar.update)
+                    run_jobs(run_job, jobs, options.scheduler, workers, bar.update)
     except BaseException as error:
         if _is_ctrl_c(error):
             print(_STOPPED, file=sys.stderr)

@@ -46,7 +46,7 @@ def run_job(folder: str, kind: str, key: str, pair: Pair, rig_key: str, program:
             (work / "log.txt").write_text(f"the body has no rig, see {store.rig_folder(rig_key)}/log.txt\n")
             row = dict(exit=rig["exit"], reason=rig["reason"], message=rig["message"], seconds=0.0, memory_mb=0.0)
             break
-        row = _run_process(work, _call(store, kind, pair, rig_key, program), limits)
+        row = _run_process(work, _call(store, kind, pair, rig_key, program, limits), limits)
         if row["reason"] != "killed" or store.count_attempt(key) >= _ATTEMPTS:
             break
         shutil.rmtree(work, ignore_errors=True)
@@ -80,11 +80,12 @@ def _inputs(kind: str, key: str, pair: Pair) -> dict:
     return row
 
 
-def _call(store: Store, kind: str, pair: Pair, rig_key: str, program: list) -> list:
+def _call(store: Store, kind: str, pair: Pair, rig_key: str, program: list, limits: Limits) -> list:
+    threads = ["--threads", str(limits.threads)]
     if kind == "rig":
-        return [*program, "rig", pair.body, "--threads", "1", *flags(pair.body_parameters)]
+        return [*program, "rig", pair.body, *threads, *flags(pair.body_parameters)]
     rig = store.rig_folder(rig_key) / "result" / "rig.json"
-    return [*program, "dress", pair.body, *pair.layers, "--rig", str(rig), "--threads", "1", *pair.flags()]
+    return [*program, "dress", pair.body, *pair.layers, "--rig", str(rig), *threads, *pair.flags()]
 
 
 def _run_process(work: Path, call: list, limits: Limits) -> dict:

@@ -19,7 +19,7 @@ except ImportError:  # Python 3.9 and 3.10
 
 _GARMENT_KEYS = {"name", "layers", "types", "sizes", "parameters"}
 _PLAN_KEYS = {"bodies", "garments", "garment_files", "body_parameters", "parameters", "vary", "pairs", "limits"}
-_LIMIT_KEYS = {"seconds", "memory_mb"}
+_LIMIT_KEYS = {"seconds", "memory_mb", "threads"}
 _CSV_KEYS = {"body", "garment", "type", "size", "name"}
 
 
@@ -32,6 +32,7 @@ class Limits:
     """What one job may use. seconds: wall clock; memory_mb: resident memory of its processes, in 1e6 bytes."""
     seconds: float = 600  # guess: five times the program's own time limit
     memory_mb: float = 4000  # guess: the sample coat needs 150
+    threads: int = 1  # measured in docs/catalogue-data.md: more pairs at a time use cores better
 
 
 @dataclass(frozen=True)
@@ -138,6 +139,10 @@ def _from_toml(path: Path, text: str) -> Plan:
     _check_keys(path, "the plan", table, _PLAN_KEYS)
     limits = table.get("limits", {})
     _check_keys(path, "limits", limits, _LIMIT_KEYS)
+    for name, value in limits.items():
+        if not isinstance(value, int if name == "threads" else (int, float)) or not value > 0:
+            raise PlanError(f"{path}: limits: {name} = {value!r}; give a positive number" +
+                            (" without decimals" if name == "threads" else ""))
     bodies = _expand(path, table.get("bodies", []), "bodies")
     outfits = _outfits(path, table)
     if table.get("pairs", "product") == "zip":

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import logging
 import math
-import os
 import queue
 import time
 
@@ -20,13 +19,13 @@ class SchedulerLost(RuntimeError):
     """The scheduler or all workers are gone; the folder resumes."""
 
 
-def run_jobs(function, jobs, scheduler: str = "", workers: int = 0, arrived=None) -> int:
+def run_jobs(function, jobs, scheduler: str = "", workers: int = 1, arrived=None) -> int:
     """Calls function(*job) for each job on the workers and arrived() here after each; returns how many have ended.
 
     jobs is an iterable of tuples and is read as workers become free. What function returns is not asked for: it stands
     in the folder, and the connection to it may be lost. A job whose connection was lost is called a second time.
-    Without a scheduler's address, as many local workers as `workers` (0: one for each core) start, with one thread
-    each. Raises what function raises, and SchedulerLost."""
+    Without a scheduler's address, local workers start, which do one job at a time each. Raises what function raises,
+    and SchedulerLost."""
     from distributed import Client, LocalCluster
 
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost connection is handled, or raised here
@@ -37,7 +36,7 @@ def run_jobs(function, jobs, scheduler: str = "", workers: int = 0, arrived=None
             raise SchedulerLost(f"{scheduler}: no scheduler answers ({error}); check its address") from None
         with client:
             return _drain(client, function, iter(jobs), arrived)
-    with LocalCluster(n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, processes=True,
+    with LocalCluster(n_workers=workers, threads_per_worker=1, processes=True,
                       dashboard_address="127.0.0.1:0", silence_logs=50) as cluster, \
             Client(cluster, set_as_default=False) as client:
         return _drain(client, function, iter(jobs), arrived)

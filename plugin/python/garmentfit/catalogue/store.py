@@ -9,9 +9,9 @@
     DIR/work/KEY-RANDOM/   a job at work
 
 A job writes into its folder in work/, which is renamed when all is written. So a folder in jobs/ or rigs/ is complete,
-and what is in work/ is never read. Files are on the disk before the rename: after a power cut, too, a pair is there with
-all of them, or is done again. Whoever removes a folder renames it first. So of a job that ends and a run that clears its
-folder one wins: the folder is finished as a whole, or not at all.
+and what is in work/ is never read. Files are on the disk before the rename: after a power cut, too, a pair is there
+with all of them, or is done again. Whoever removes a folder renames it first. So of a job that ends and a run that
+clears its folder one wins: the folder is finished as a whole, or not at all.
 """
 from __future__ import annotations
 

@@ -229,8 +229,8 @@ def _check_rows(output: Path) -> int:
         rows = list(csv.DictReader(file))
     planned = len((output / "plan.jsonl").read_text().splitlines())
     whole = len({row["pair"] for row in rows}) == len(rows) == planned and all(row["exit"] for row in rows)
-    ends = ", ".join(f"{count} {reason}" for reason, count in collections.Counter(row["reason"] for row in rows).items())
-    print(f"{len(rows)} rows for {planned} pairs: {ends}")
+    ends = collections.Counter(row["reason"] for row in rows)
+    print(f"{len(rows)} rows for {planned} pairs: {', '.join(f'{count} {reason}' for reason, count in ends.items())}")
     return 0 if whole else 1
 
 

@@ -4,8 +4,8 @@
     python measure_scheduling.py --jobs 1000 [--sleep 2] [--workers 2]
     python measure_scheduling.py --jobs 100000 --no-processes
 
-The plan has one body and one garment, and a parameter that counts. Scheduler and workers are started by the dask command.
-With --no-processes workers get the same jobs and do nothing with them: what is left is the cost of Dask.
+The plan has one body and one garment, and a parameter that counts. Scheduler and workers are started by the dask
+command. With --no-processes workers get the same jobs and do nothing with them: what is left is the cost of Dask.
 Prints while it runs: time, jobs finished, processor time and memory of client, scheduler and all workers; at the end
 the wall clock from the first row to the last beside that of workers which are never idle.
 """
@@ -69,10 +69,11 @@ class _Command:
             return 0
 
     def conclusion(self) -> str:
-        ends, options = sorted(path.stat().st_mtime for path in self._output.glob("jobs/*/*/done.json")), self._options
+        options = self._options
+        ends = sorted(path.stat().st_mtime for path in self._output.glob("jobs/*/*/done.json"))
         busy = (len(ends) - options.workers) * options.sleep / options.workers
-        return (f"{len(ends)} jobs of {options.sleep:g} s on {options.workers} workers: {ends[-1] - ends[0]:.1f} s from "
-                f"the first row to the last, {busy:.1f} s if no worker waited; ")
+        return (f"{len(ends)} jobs of {options.sleep:g} s on {options.workers} workers: {ends[-1] - ends[0]:.1f} s "
+                f"from the first row to the last, {busy:.1f} s if no worker waited; ")
 
 
 class _Dask:

@@ -3,9 +3,9 @@
 
     python plan_of_corpus.py DATA CORPUS [--share 0.5] [--seed 1] > plan.csv
 
-DATA has pairs.csv (columns body, garment) and bodies/; CORPUS has corpus.csv (columns mesh and fits, the names of bodies
-near to the one that a garment was made on). Of those bodies, the one that has the fewest garments so far gets it.
-Bodies that are left over get a garment of DATA. --share takes that part of CORPUS at random.
+DATA has pairs.csv (columns body, garment) and bodies/; CORPUS has corpus.csv (columns mesh and fits, the names of
+bodies near to the one that a garment was made on). Of those bodies, the one that has the fewest garments so far gets
+it. Bodies that are left over get a garment of DATA. --share takes that part of CORPUS at random.
 """
 from __future__ import annotations
 

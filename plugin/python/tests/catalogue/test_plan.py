@@ -51,7 +51,8 @@ def test_csv_columns_that_are_not_files_are_parameters(folder):
 
 @pytest.mark.parametrize("text, words", [
     ('bodies = ["nobody*.ply"]', "no file matches"), ('bodys = ["anna.ply"]', "unknown key bodys"),
-    ('bodies = ["anna.ply"]', "no pair"), ("bodies = [", "plan.toml"),
+    ('bodies = ["anna.ply"]', "no pair"),
+    ('limits = { threads = 0.5 }', "threads = 0.5; give a positive number"), ("bodies = [", "plan.toml"),
     ('bodies = ["anna.ply"]\n[[garments]]\nlayers = ["hat.ply"]', "no such file")])
 def test_a_wrong_plan_is_refused_in_one_line(folder, text, words):
     with pytest.raises(PlanError, match=words) as caught:

@@ -75,6 +75,15 @@ def test_every_way_to_end_costs_one_row(tmp_path):
     assert table[0]["ease_waist"] == 0.04 and table[0]["type_probability"] == 0.9
 
 
+def test_a_plan_may_give_each_pair_more_threads(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"], "[limits]\nthreads = 2\n")
+    assert trial.run().returncode == 0
+    assert "--threads 2" in (trial.output / trial.rows()[0]["folder"] / "log.txt").read_text()
+    (tmp_path / "plan.toml").write_text((tmp_path / "plan.toml").read_text().replace("threads = 2", "threads = 1"))
+    before = trial.finished()
+    assert trial.run().returncode == 0 and trial.finished() == before  # the result is the same
+
+
 def test_a_second_run_does_nothing_again_and_a_larger_plan_only_the_rest(tmp_path):
     trial = Trial(tmp_path, 2, ["ok"] * 5)
     assert trial.run().returncode == 0
