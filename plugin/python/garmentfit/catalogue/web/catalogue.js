@@ -11,6 +11,10 @@ let shown = catalogue.rows;
 
 function value(row, name) { return row[column[name]]; }
 
+function outfit(row) {
+  return [value(row, "garment"), value(row, "size"), words(value(row, "variant"))].filter(Boolean).join(" · ");
+}
+
 function element(tag, text, style) {
   const made = document.createElement(tag);
   made.textContent = text;
@@ -73,8 +77,7 @@ function make_row(index) {
   else picture.style.visibility = "hidden";
   const done = value(row, "reason") === "done";
   made.append(picture,
-    element("span", [value(row, "garment"), value(row, "size")].filter(Boolean).join(" · ") + " on " +
-      value(row, "body")),
+    element("span", `${outfit(row)} on ${value(row, "body")}`),
     element("span", words(done ? value(row, "verdict") ?? "done" : value(row, "reason")), done ? "good" : "bad"),
     element("span", done ? `ease ${centimetres(value(row, by_id("place").value))}, ${words(value(row, "type"))}`
       : value(row, "message")));
@@ -103,7 +106,7 @@ function show_matrix() {
   const bodies = [...new Set(catalogue.rows.map((row) => value(row, "body")))].sort();
   const cells = new Map();
   for (const row of catalogue.rows) {
-    const name = [value(row, "garment"), value(row, "size")].filter(Boolean).join(" ");
+    const name = outfit(row);
     if (!cells.has(name)) cells.set(name, new Map());
     cells.get(name).set(value(row, "body"), row);
   }
@@ -139,7 +142,7 @@ function load_script(path) {
 }
 
 async function open_pair(row) {
-  by_id("title").textContent = `${value(row, "garment")} ${value(row, "size") ?? ""} on ${value(row, "body")}`;
+  by_id("title").textContent = `${outfit(row)} on ${value(row, "body")}`;
   by_id("ended").textContent = `${words(value(row, "reason"))}. ${value(row, "message") ?? ""}`;
   by_id("report").textContent = by_id("log").textContent = "";
   scene_of_pair = null;
