@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """garmentfit catalogue with a program that does nothing quickly: rows, limits, resuming, faults."""
 import csv
+import fcntl
 import json
 import os
+import pty
 import random
+import re
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import sys
+import termios
 import threading
 import time
 from pathlib import Path
@@ -175,6 +180,31 @@ def test_ctrl_c_leaves_a_folder_that_resumes(tmp_path):
     assert trial.run().returncode == 0
     after = trial.finished()
     assert len(after) == 1 + 30 and all(after[key] == before[key] for key in before)
+
+
+def test_a_terminal_sees_a_bar_with_rate_and_time_left_and_a_quiet_run_none(tmp_path):
+    trial = Trial(tmp_path, 1, ["ok"] * 12, seconds=0.3)
+    shown = seen_in_a_terminal([word for word in trial.command if word != "--quiet"], trial.environment)
+    assert re.search(r"dress:\s+\d+%.* \d+/12 \[\d+:\d+<\d+:\d+, +\d.*(pair/s|s/pair)\]", shown), shown
+    (tmp_path / "garment99.ply").write_text("ok 99")
+    assert "dress" not in seen_in_a_terminal(trial.command, trial.environment)
+
+
+def seen_in_a_terminal(words, environment):
+    """What a command writes to its terminal."""
+    ours, its = pty.openpty()
+    fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("4H", 24, 100, 0, 0))  # rows and columns; a new one has none
+    with subprocess.Popen(words, env=environment, stdin=its, stdout=its, stderr=its) as process:
+        os.close(its)
+        text = b""
+        try:
+            while block := os.read(ours, 4096):
+                text += block
+        except OSError:  # all ends are closed
+            pass
+    os.close(ours)
+    assert process.returncode == 0, text
+    return text.decode()
 
 
 def test_ctrl_c_is_no_lost_scheduler_where_closing_fails_after_it(tmp_path, monkeypatch, capsys):
