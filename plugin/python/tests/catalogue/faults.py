@@ -207,7 +207,7 @@ def _kill_while_it_runs(run: Run, chance: random.Random, kills, options, output:
         try:
             run.process.wait(chance.uniform(*options.seconds))
         except subprocess.TimeoutExpired:
-            victim = chance.choice(victims)
+            victim = min(chance.sample(victims, len(victims)), key=lambda name: kills[name])  # each as often as others
             if sum(kills.values()) < options.kills and run.kill_one(victim, chance):
                 kills[victim] += 1
                 print(f"killed {victim}, {len(finished(output))} finished", flush=True)
