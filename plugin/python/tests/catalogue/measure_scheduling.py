@@ -3,9 +3,11 @@
 
     python measure_scheduling.py --jobs 1000 [--sleep 2] [--workers 2]
     python measure_scheduling.py --jobs 100000 --no-processes
+    python measure_scheduling.py --jobs 10000 --no-processes --sleep 20 --simulated 1000
 
 The plan has one body and one garment, and a parameter that counts. Scheduler and workers are started by the dask
 command. With --no-processes workers get the same jobs and do nothing with them: what is left is the cost of Dask.
+Of simulated workers all run in one process; scheduler and client do not notice.
 Prints while it runs: time, jobs finished, processor time and memory of client, scheduler and all workers; at the end
 the wall clock from the first row to the last beside that of workers which are never idle.
 """
@@ -21,6 +23,7 @@ import time
 from pathlib import Path
 
 import psutil
+from distributed import Client
 from garmentfit.catalogue.plan import Limits, Pair
 from garmentfit.catalogue.scheduling import run_jobs
 
@@ -41,11 +44,14 @@ def main(words: list) -> None:
     parser.add_argument("--sleep", type=float, default=0, help="length of a job in seconds")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--no-processes", action="store_true")
+    parser.add_argument("--simulated", type=int, default=0, metavar="NUMBER", help="workers in one process")
     parser.add_argument("--every", type=float, default=20, help="seconds between lines")
     options = parser.parse_args(words)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        with faults.Cluster(options.workers, folder) as cluster:
+        with faults.Cluster(0 if options.simulated else options.workers, folder) as cluster:
+            if options.simulated:
+                cluster.workers.append(_simulate(cluster.address, options.simulated, folder))
             client = (_Dask if options.no_processes else _Command)(folder, options, cluster.address)
             parts = {"client": [client.process], "scheduler": [cluster.scheduler], "workers": cluster.workers}
             used = _watch(client, parts, options.every)
@@ -90,9 +96,9 @@ class _Dask:
             self._ended.value += 1
         pairs = (Pair("/bodies/body.ply", "garment", ("/garments/garment.ply",), parameters=(("number", str(number)),))
                  for number in range(options.jobs))
-        jobs = ((str(folder), "dress", f"{number:024x}", pair, "0" * 24, ["garmentfit"], Limits(), True)
+        jobs = ((options.sleep, str(folder), "dress", f"{number:024x}", pair, "0" * 24, ["garmentfit"], Limits(), True)
                 for number, pair in enumerate(pairs))
-        run_jobs(_do_nothing, jobs, address, arrived=arrived)
+        run_jobs(_sleep, jobs, address, arrived=arrived)
 
     def count(self) -> int:
         return self._ended.value
@@ -101,8 +107,19 @@ class _Dask:
         return f"{self.count()} jobs; "
 
 
-def _do_nothing(*_) -> None:
-    pass
+def _sleep(seconds: float, *_) -> None:
+    time.sleep(seconds)
+
+
+def _simulate(address: str, number: int, folder: Path):
+    """Returns the process, when all workers are known to the scheduler."""
+    script, start = Path(__file__).parent / "many_workers.py", time.monotonic()
+    started = subprocess.Popen([sys.executable, str(script), address, str(number), str(folder)],
+                               stderr=subprocess.DEVNULL)
+    with Client(address, set_as_default=False) as client:
+        client.wait_for_workers(number, timeout=600)
+    print(f"{number} workers after {time.monotonic() - start:.0f} s", flush=True)
+    return started
 
 
 def _watch(client, parts: dict, every: float) -> dict:
