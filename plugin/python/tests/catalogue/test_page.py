@@ -93,6 +93,8 @@ def test_filters_sorts_and_shows_a_pair_without_an_error(browser, errors, tmp_pa
     make_catalogue(tmp_path, 3, 4, drawn=12)
     opened = open_page(browser, tmp_path, errors)
     assert opened.locator("#count").inner_text() == "12 of 12 pairs"
+    opened.click("header summary")
+    assert opened.locator("#causes").inner_text().split("\n") == ["done\t10", "too small\t2"]
     opened.select_option("#body", "body1")
     assert opened.locator("#count").inner_text() == "4 of 12 pairs"
     assert opened.locator(".row").count() == 4
