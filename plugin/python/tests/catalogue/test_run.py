@@ -307,12 +307,22 @@ def test_a_scheduler_that_stays_away_ends_with_4_and_the_folder_resumes(tmp_path
     assert len(now) == 21 and all(now[key] == seen[key] for key in seen)
 
 
-def test_workers_are_counted_once_in_a_while_and_not_after_each_job(monkeypatch):
-    """With 1,000 workers the answer has more than a megabyte."""
+def test_a_long_plan_is_handed_out_in_parts_and_workers_are_counted_once_in_a_while(monkeypatch):
+    """Else the scheduler's memory would grow with the plan; and of 1,000 workers an answer has a megabyte."""
     asked, ask = [], distributed.Client.scheduler_info
     monkeypatch.setattr(distributed.Client, "scheduler_info", lambda *_, **more: asked.append(1) or ask(*_, **more))
-    jobs, start = ((0,) for _ in range(1000)), time.monotonic()
-    assert scheduling.run_jobs(time.sleep, jobs, workers=1) == 1000
+    read, waiting, start = [], [], time.monotonic()
+
+    def jobs():
+        for _ in range(1000):
+            read.append(1)
+            yield (0,)
+
+    def arrived():
+        waiting.append(len(read) - len(waiting) - 1)
+
+    assert scheduling.run_jobs(time.sleep, jobs(), workers=1, arrived=arrived) == 1000
+    assert len(waiting) == 1000 and max(waiting) < 64
     assert len(asked) <= 2 + time.monotonic() - start
 
 
