@@ -7,6 +7,7 @@ import logging
 import math
 import queue
 import time
+from functools import partial
 
 _PER_THREAD = 4  # guess: jobs that wait at the scheduler for each thread; more would only cost it memory
 _LEAST_WAITING = 64  # guess: hides the round trips to the scheduler where jobs take no time
@@ -35,17 +36,18 @@ def run_jobs(function, jobs, scheduler: str = "", workers: int = 1, arrived=None
         except (OSError, ValueError) as error:
             raise SchedulerLost(f"{scheduler}: no scheduler answers ({error}); check its address") from None
         with client:
-            return _drain(client, function, iter(jobs), arrived)
+            return _drain(client, function, iter(jobs), arrived, _Workers(client))
     with LocalCluster(n_workers=workers, threads_per_worker=1, processes=True,
                       dashboard_address="127.0.0.1:0", silence_logs=50) as cluster, \
             Client(cluster, set_as_default=False) as client:
-        return _drain(client, function, iter(jobs), arrived)
+        # A worker that was killed starts again, but Dask gives it up after 15 s; a busy machine may need longer.
+        restart = partial(cluster.scale, workers)
+        return _drain(client, function, iter(jobs), arrived, _Workers(client, workers, restart))
 
 
-def _drain(client, function, jobs, arrived) -> int:
+def _drain(client, function, jobs, arrived, workers) -> int:
     """Keeps a window of jobs at the scheduler, so that its memory does not grow with the plan."""
-    ended, waiting, workers = queue.Queue(), {}, _Workers(client)
-    done = 0
+    ended, waiting, done = queue.Queue(), {}, 0
 
     def submit(job, repeats=0):
         future = client.submit(function, *job, pure=False)
@@ -75,16 +77,19 @@ def _drain(client, function, jobs, arrived) -> int:
 
 
 class _Workers:
-    """How many threads the workers have now."""
+    """How many threads the workers have now. Where they are fewer than `least`, restart() is called."""
 
-    def __init__(self, client):
-        self._client, self._threads, self._asked = client, 0, -math.inf
+    def __init__(self, client, least: int = 0, restart=None):
+        self._client, self._least, self._restart = client, least, restart
+        self._threads, self._asked = 0, -math.inf
 
     def threads(self, patience: float = _ASK_SECONDS) -> int:
         """patience: age in seconds at which an answer is still good; of 1,000 workers it has more than a megabyte."""
         if time.monotonic() - self._asked > patience:
             known = self._client.scheduler_info(n_workers=-1)["workers"]
             self._threads, self._asked = sum(worker["nthreads"] for worker in known.values()), time.monotonic()
+            if self._threads < self._least:
+                self._restart()
         return self._threads
 
 

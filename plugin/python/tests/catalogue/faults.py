@@ -74,7 +74,8 @@ class Run:
             return [self.process]
         if self._cluster:
             return self._cluster.workers
-        return [each for each in below if "spawn_main" in " ".join(_words(each))]
+        direct = _below(self.process.pid, recursive=False)  # a job has its worker's words until it is the program
+        return [each for each in direct if "spawn_main" in " ".join(_words(each))]
 
     def kill_one(self, victim: str, chance: random.Random) -> bool:
         some = self.candidates(victim)
@@ -140,9 +141,9 @@ def finished(output: Path) -> dict:
     return {path.parent.name: path.stat().st_mtime_ns for path in rows}
 
 
-def _below(pid: int) -> list:
+def _below(pid: int, recursive: bool = True) -> list:
     try:
-        return psutil.Process(pid).children(recursive=True)
+        return psutil.Process(pid).children(recursive)
     except psutil.NoSuchProcess:
         return []
 

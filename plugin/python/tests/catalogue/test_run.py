@@ -22,6 +22,7 @@ import pytest
 
 for needed in ("distributed", "psutil", "pyarrow", "tqdm"):
     pytest.importorskip(needed)
+import dask  # noqa: E402
 import distributed  # noqa: E402
 import pyarrow.parquet  # noqa: E402
 from garmentfit.catalogue import command, scheduling  # noqa: E402
@@ -305,6 +306,18 @@ def test_a_scheduler_that_stays_away_ends_with_4_and_the_folder_resumes(tmp_path
     assert trial.run().returncode == 0
     now = trial.finished()
     assert len(now) == 21 and all(now[key] == seen[key] for key in seen)
+
+
+def test_a_worker_that_dask_gave_up_is_started_again(tmp_path, monkeypatch):
+    """Dask does so where a worker that was killed needs more than 15 s to start again, as on a busy machine."""
+    def kill_its_worker_once(name):
+        if not os.path.exists(name):
+            open(name, "w").close()
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    monkeypatch.setattr(scheduling, "_PATIENCE_SECONDS", 30)
+    with dask.config.set({"distributed.deploy.lost-worker-timeout": "1ms"}):
+        assert scheduling.run_jobs(kill_its_worker_once, [(str(tmp_path / "killed"),)], workers=1) == 1
 
 
 def test_a_long_plan_is_handed_out_in_parts_and_workers_are_counted_once_in_a_while(monkeypatch):
