@@ -94,7 +94,7 @@ def test_filters_sorts_and_shows_a_pair_without_an_error(browser, errors, tmp_pa
     opened = open_page(browser, tmp_path, errors)
     assert opened.locator("#count").inner_text() == "12 of 12 pairs"
     opened.click("header summary")
-    assert opened.locator("#causes").inner_text().split("\n") == ["done\t10", "too small\t2"]
+    assert opened.locator("#causes").inner_text().split("\n") == ["done\t11", "too small\t1"]
     opened.select_option("#body", "body1")
     assert opened.locator("#count").inner_text() == "4 of 12 pairs"
     assert opened.locator(".row").count() == 4
@@ -103,6 +103,9 @@ def test_filters_sorts_and_shows_a_pair_without_an_error(browser, errors, tmp_pa
     first = opened.locator(".row").first
     assert "ease 0.0 cm" in first.inner_text()
     assert first.locator("img").evaluate("image => image.decode().then(() => image.naturalWidth)") > 200
+    opened.select_option("#reason", "too_small")
+    assert "ease 7.6 cm, coat" in opened.locator(".row").last.inner_text()  # it is known of what is too small, too
+    opened.select_option("#reason", "")
     first.click()
     opened.wait_for_selector("#canvas:not([hidden])")
     plain = colours_of(opened)

@@ -79,8 +79,8 @@ function make_row(index) {
   made.append(picture,
     element("span", `${outfit(row)} on ${value(row, "body")}`),
     element("span", words(done ? value(row, "verdict") ?? "done" : value(row, "reason")), done ? "good" : "bad"),
-    element("span", done ? `ease ${centimetres(value(row, by_id("place").value))}, ${words(value(row, "type"))}`
-      : value(row, "message")));
+    element("span", value(row, "message") && !done || !value(row, "type") ? value(row, "message")
+      : `ease ${centimetres(value(row, by_id("place").value))}, ${words(value(row, "type"))}`));
   made.addEventListener("click", () => open_pair(row));
   return made;
 }
