@@ -12,6 +12,7 @@ from .plan import Hashes, PlanError, read_plan, to_json
 from .store import DiskError, Store, StoreError, write_error
 
 _STOPPED = "garmentfit catalogue: stopped; the same command goes on from here"
+_NO_ANSWER = "the workers did not answer in time; run again to go on"  # Dask's TimeoutError has no text
 _BY_CHANCE = ("crashed", "killed", "time_limit", "memory_limit", "file_limit", "unreadable_file")  # may pass next time
 _MISSING = "garmentfit catalogue: needs {}; install it with: pip install 'garmentfit[catalogue]'"
 
@@ -162,7 +163,7 @@ def _work(store: Store, pairs: dict, program: list, limits, options) -> int:
             print(_STOPPED, file=sys.stderr)
             return 130
         if isinstance(error, (Fatal, SchedulerLost, OSError)):
-            print(f"garmentfit catalogue: {error}", file=sys.stderr)
+            print(f"garmentfit catalogue: {str(error) or _NO_ANSWER}", file=sys.stderr)
             return 4
         raise
     return 0

@@ -12,8 +12,8 @@ from .results import ease_columns, summary
 from .store import Store, write_whole
 
 _WEB = Path(__file__).parent / "web"
-_SHOWN = ["pair", "body", "garment", "size", "variant", "reason", "message", "verdict", "type", "type_probability", "seconds",
-          "strain_max", "folder", "picture", "view"]
+_SHOWN = ["pair", "body", "garment", "size", "variant", "reason", "message", "verdict", "type", "type_probability",
+          "seconds", "strain_max", "folder", "picture", "view"]
 
 
 def write_page(store: Store, rows: list) -> None:

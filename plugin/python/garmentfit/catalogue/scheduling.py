@@ -27,6 +27,14 @@ def run_jobs(function, jobs, scheduler: str = "", workers: int = 1, arrived=None
     in the folder, and the connection to it may be lost. A job whose connection was lost is called a second time.
     Without a scheduler's address, local workers start, which do one job at a time each. Raises what function raises,
     and SchedulerLost."""
+    import dask
+    import distributed  # noqa: F401, which sets its defaults
+
+    with dask.config.set({"distributed.comm.timeouts.connect": _PATIENCE_SECONDS}):  # 30 s is short on a busy machine
+        return _run_jobs(function, jobs, scheduler, workers, arrived)
+
+
+def _run_jobs(function, jobs, scheduler: str, workers: int, arrived) -> int:
     from distributed import Client, LocalCluster
 
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost connection is handled, or raised here

@@ -204,16 +204,20 @@ def _storm(options, output: Path, starts: Starts, cluster) -> int:
 
 def _kill_while_it_runs(run: Run, chance: random.Random, kills, options, output: Path, cluster) -> None:
     victims = ["client", "worker", "job"] + (["scheduler"] if cluster else [])
+    next_kill = time.monotonic() + chance.uniform(*options.seconds)
     while run.process.poll() is None:
         try:
-            run.process.wait(chance.uniform(*options.seconds))
+            run.process.wait(1)
         except subprocess.TimeoutExpired:
+            pass
+        if time.monotonic() > next_kill and sum(kills.values()) < options.kills:
             victim = min(chance.sample(victims, len(victims)), key=lambda name: kills[name])  # each as often as others
-            if sum(kills.values()) < options.kills and run.kill_one(victim, chance):
+            if run.kill_one(victim, chance):
                 kills[victim] += 1
                 print(f"killed {victim}, {len(finished(output))} finished", flush=True)
+            next_kill = time.monotonic() + chance.uniform(*options.seconds)
         if cluster:
-            cluster.mend()
+            cluster.mend()  # workers end some time after their scheduler
 
 
 def _wrong(seen: dict, now: dict, starts: Starts) -> str:

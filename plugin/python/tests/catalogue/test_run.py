@@ -220,6 +220,15 @@ def test_ctrl_c_is_no_lost_scheduler_where_closing_fails_after_it(tmp_path, monk
     assert "the same command goes on from here" in capsys.readouterr().err
 
 
+def test_workers_that_do_not_answer_in_time_end_with_4_and_a_line(tmp_path, monkeypatch, capsys):
+    def late(*_):
+        raise TimeoutError  # as Dask does
+    trial = Trial(tmp_path, 1, ["ok"])
+    monkeypatch.setattr(scheduling, "run_jobs", late)
+    assert command.main(trial.command[len(CATALOGUE):]) == 4
+    assert "did not answer in time; run again" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("seed", [1, 2])
 def test_killed_at_random_it_ends_with_the_same_results(tmp_path, seed):
     """kill -9 of client, worker or job at random moments, fixed seeds; then one run to the end."""
