@@ -53,7 +53,8 @@ public:
         for (const GltfSurface& surface : surfaces)
             if (surface.adds_vertices)
                 read_weights(surface);
-        hang_on_nearest(file_, positions_of(surfaces), skin_);
+        skin_.positions = positions_of(surfaces);
+        hang_on_nearest(file_, skin_.positions, skin_);
         return std::move(skin_);
     }
 

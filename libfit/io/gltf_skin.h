@@ -21,6 +21,7 @@ struct FileSkin {
     std::vector<Vec3> places;  ///< in the bind pose
     std::vector<Eigen::Affine3d, Eigen::aligned_allocator<Eigen::Affine3d>> joint_from_world;  ///< in the bind pose
     std::vector<std::vector<std::pair<int, double>>> hangs;  ///< of each vertex of MeshFile: joints and weights
+    Positions positions;  ///< of all vertices, where the scene shows them
     int loose = 0;  ///< vertices that hung on no joint
 };
 

@@ -2,20 +2,83 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "garmentfit/error.h"
 #include "garmentfit/skinned_gltf.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
 #include "joint_names.h"
+#include "joints_by_tree.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
 
+using nlohmann::ordered_json;
+
 constexpr int k_pelvis = -1;  // unit: a mark that is no bone
 constexpr std::array k_limb_bones { std::array { lclavicle, rclavicle }, std::array { lhumerus, rhumerus },
                                     std::array { lradius, rradius } };
+
+/// What a member of a member ... is; null where there is none.
+const ordered_json& at(const ordered_json& json, std::initializer_list<const char*> path)
+{
+    static const ordered_json none;
+    const ordered_json* found = &json;
+    for (const char* member : path) {
+        if (!found->is_object() || !found->contains(member))
+            return none;
+        found = &(*found)[member];
+    }
+    return *found;
+}
+
+/// The nodes of a VRM avatar, 0.x or 1.0, by what it says that they are. Empty for other files.
+std::map<int, std::string> vrm_names(const ordered_json& json)
+{
+    std::map<int, std::string> names;
+    for (const ordered_json& bone : at(json, { "extensions", "VRM", "humanoid", "humanBones" }))
+        if (at(bone, { "node" }).is_number_integer() && at(bone, { "bone" }).is_string())
+            names.emplace(bone["node"].get<int>(), bone["bone"].get<std::string>());
+    const ordered_json& bones = at(json, { "extensions", "VRMC_vrm", "humanoid", "humanBones" });
+    if (bones.is_object())
+        for (const auto& [name, bone] : bones.items())
+            if (at(bone, { "node" }).is_number_integer())
+                names.emplace(bone["node"].get<int>(), name);
+    return names;
+}
+
+/// What a VRM avatar says itself takes the place of names.
+FileSkin name_by_vrm(FileSkin skin, const ordered_json& json)
+{
+    const std::map<int, std::string> names = vrm_names(json);
+    for (std::size_t j = 0; j < skin.names.size() && !names.empty(); ++j) {
+        const auto found = names.find(skin.nodes[j]);
+        skin.names[j] = found == names.end() ? std::string() : found->second;
+    }
+    return skin;
+}
+
+UnnamedJoints unnamed(const FileSkin& skin)
+{
+    UnnamedJoints joints { skin.parents, skin.places, std::vector<double>(skin.places.size(), 0),
+                           std::vector<Vec3>(skin.places.size(), Vec3::Zero()) };
+    for (std::size_t v = 0; v < skin.hangs.size(); ++v)
+        for (const auto& [joint, weight] : skin.hangs[v])
+            if (weight > 0 && std::isfinite(weight) && skin.positions.row(Eigen::Index(v)).allFinite()) {
+                joints.masses[std::size_t(joint)] += weight;
+                joints.centres[std::size_t(joint)] += weight * Vec3(skin.positions.row(Eigen::Index(v)));
+            }
+    for (std::size_t j = 0; j < joints.masses.size(); ++j)
+        if (joints.masses[j] > 0)
+            joints.centres[j] /= joints.masses[j];
+    return joints;
+}
 
 /// Finds the bones of Skeleton among the joints of another rig.
 class Translation {
@@ -23,6 +86,12 @@ public:
     Translation(const FileBytes& file, const FileSkin& skin) :
         file_(file), skin_(skin), joints_(recognize_joints(skin.names))
     {
+        if (has_all_joints())
+            return;
+        if (auto joints = joints_by_tree(unnamed(skin)); !joints.empty()) {
+            joints_ = std::move(joints);
+            by_tree_ = true;
+        }
     }
 
     ForeignRig rig()
@@ -30,7 +99,7 @@ public:
         place_limbs();
         place_spine();
         place_tips();
-        ForeignRig result { skeleton_, {}, skin_.loose };
+        ForeignRig result { skeleton_, {}, skin_.loose, by_tree_ };
         std::vector<int> bones;  // k_pelvis for a joint that is none of the bones
         for (std::size_t j = 0; j < skin_.names.size(); ++j)
             bones.push_back(bone_for(int(j)));
@@ -43,18 +112,36 @@ public:
     }
 
 private:
-    /// The first joint of that kind, parents first. @throws InvalidInput.
-    const Vec3& place(JointKind kind, int side, const char* what) const
+    /// The first joint of that kind, parents first; null: none.
+    const Vec3* find(JointKind kind, int side) const
     {
         for (std::size_t j = 0; j < joints_.size(); ++j)
             if (joints_[j] && joints_[j]->kind == kind && joints_[j]->side == side)
-                return skin_.places[j];
+                return &skin_.places[j];
+        return nullptr;
+    }
+
+    bool has_all_joints() const
+    {
+        bool all = find(JointKind::pelvis, 0) && find(JointKind::head, 0);
+        for (const JointKind kind : { JointKind::hip, JointKind::knee, JointKind::ankle, JointKind::shoulder,
+                                      JointKind::elbow, JointKind::wrist })
+            all = all && find(kind, 1) && find(kind, 2);
+        return all;
+    }
+
+    /// @throws InvalidInput where there is none.
+    const Vec3& place(JointKind kind, int side, const char* what) const
+    {
+        if (const Vec3* found = find(kind, side))
+            return *found;
         file_.fail(std::string("has no joint with a known name for the ")
                    + (side == 0       ? ""
                           : side == 1 ? "left "
                                       : "right ")
                    + what
-                   + "; name joints as Mixamo does: Hips, Neck, Head, LeftArm, LeftForeArm, LeftHand, LeftUpLeg, "
+                   + ", and its joints are no human's by their places; name joints as Mixamo does: Hips, Neck, Head, "
+                     "LeftArm, LeftForeArm, LeftHand, LeftUpLeg, "
                      "LeftLeg, LeftFoot");
     }
 
@@ -75,17 +162,27 @@ private:
     /// between the ends.
     void place_spine()
     {
-        const Vec3& neck = place(JointKind::neck, 0, "neck");
         const Vec3& head = place(JointKind::head, 0, "head");
+        const Vec3* found = find(JointKind::neck, 0);
+        const Vec3 neck = found ? *found : neck_below(head);
         skeleton_.tails[thorax] = neck;
         skeleton_.tails[upperneck] = head;
         skeleton_.tails[lowerback] = skeleton_.root + (neck - skeleton_.root) / 3;
         skeleton_.tails[upperback] = skeleton_.root + (neck - skeleton_.root) * 2 / 3;
         skeleton_.tails[lowerneck] = 0.5 * (neck + head);
-        for (std::size_t j = 0; j < skin_.names.size();
+        for (std::size_t j = 0; j < skin_.names.size() && !by_tree_;
              ++j)  // in a rig that this library wrote, joints are the heads of bones
             if (const int b = bone_of(skin_.names[j]); b == upperback || b == thorax || b == upperneck)
                 skeleton_.tails[parent_of(b)] = skin_.places[j];
+    }
+
+    /// Where a head hangs on the trunk, from the shoulders on.
+    Vec3 neck_below(const Vec3& head) const
+    {
+        const Vec3 shoulders = 0.5 * (skeleton_.tail(lclavicle) + skeleton_.tail(rclavicle)),
+                   axis = head - skeleton_.root;
+        const double t = std::clamp((shoulders - skeleton_.root).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
+        return head - k_neck_above_shoulders * (1 - t) * axis;
     }
 
     /// The joint farthest beyond the last one, toes and fingertips included; half a bone beyond where there is none.
@@ -134,7 +231,7 @@ private:
     {
         for (std::size_t steps = 0; joint >= 0 && steps <= joints_.size();
              ++steps, joint = skin_.parents[std::size_t(joint)])
-            if (const int b = bone_of(skin_.names[std::size_t(joint)]); b >= 0)
+            if (const int b = by_tree_ ? -1 : bone_of(skin_.names[std::size_t(joint)]); b >= 0)
                 return b;
             else if (joints_[std::size_t(joint)])
                 return bone_of_joint(*joints_[std::size_t(joint)], skin_.places[std::size_t(joint)]);
@@ -167,6 +264,7 @@ private:
     const FileBytes& file_;
     const FileSkin& skin_;
     std::vector<std::optional<NamedJoint>> joints_;
+    bool by_tree_ = false;  ///< the names said nothing
     Skeleton skeleton_;
 };
 
@@ -183,8 +281,9 @@ bool has_skin(const std::filesystem::path& path)
 ForeignRig read_skinned_gltf(const std::filesystem::path& path)
 {
     const FileBytes file = read_file(path);
-    const tinygltf::Model model = load_model(file, read_plain_gltf(file, path.parent_path()), path.parent_path());
-    const FileSkin skin = read_skin(file, model);
+    const GltfContainer container = read_plain_gltf(file, path.parent_path());
+    const tinygltf::Model model = load_model(file, container, path.parent_path());
+    const FileSkin skin = name_by_vrm(read_skin(file, model), container.json);
     return Translation(file, skin).rig();
 }
 

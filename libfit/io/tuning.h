@@ -60,6 +60,20 @@ inline constexpr double k_symmetry_weight = 2;
 /// guess.
 inline constexpr double k_clear_preference = 0.4;
 
+/// Dimensionless, a share of the surface with normals that point against the faces. Fewer are flipped faces. fitted:
+/// guess; files have none or all.
+inline constexpr double k_left_handed = 0.75;
+
+/// Dimensionless, a share of the weights of a part of clothes: it hangs on bones with more. Dimensionless, a share of
+/// the samples of a bone: skin is under clothes where so many are inside of it. fitted: guess.
+inline constexpr double k_least_hold = 0.05, k_least_skin = 0.7;
+/// Along each bone. unit.
+inline constexpr int k_skin_samples = 12;
+
+/// Dimensionless. Where a skeleton has no neck, that joint is so far down from the head towards the shoulders. fitted:
+/// guess, on the skeletons of Mixamo and MakeHuman.
+inline constexpr double k_neck_above_shoulders = 0.7;
+
 /// Dimensionless. From the ankle to the tip of the foot, and from the wrist to the tip of the hand: where the toes and
 /// the fingers begin. fitted: guess.
 inline constexpr double k_ball_of_foot = 0.65, k_knuckles = 0.45;

@@ -102,4 +102,39 @@ inline constexpr Angles k_hip_joint_range { radians(-5.0), radians(5.0), radians
     k_forearm_range { radians(-8.0), radians(145.0), radians(-45.0), radians(45.0) },
     k_spine_range { radians(-15.0), radians(20.0), radians(-15.0), radians(15.0) };
 
+// ---- joints without names (joints_by_tree.cpp)
+// ------------------------------------------------------------------------
+
+/// What a measure usually is, and how far it may be from that.
+struct Usual {
+    double mean, deviation;
+};
+/// Dimensionless, by the length of the limb from its first to its last joint: the logarithm of its lower bone by its
+/// upper one, its first joint from the joint that both limbs hang on, and what is beyond its last joint (hand, foot; 0
+/// where these have no joints). fitted: guess, on the skeletons of Mixamo, MakeHuman, VRoid and SMPL.
+struct UsualLimb {
+    Usual log_ratio, from_trunk, beyond;
+};
+inline constexpr UsualLimb k_usual_arm { { -0.05, 0.2 }, { 0.35, 0.15 }, { 0.25, 0.2 } };
+inline constexpr UsualLimb k_usual_leg { { -0.05, 0.15 }, { 0.14, 0.1 }, { 0.2, 0.15 } };
+/// Angle between shin and foot, and between thigh and trunk. fitted: guess.
+inline constexpr Usual k_usual_ankle { radians(65), radians(35) }, k_usual_hip { 0, radians(60) };
+/// Dimensionless: the logarithm of arms by legs; the trunk by a leg. fitted: guess, as above.
+inline constexpr Usual k_usual_arm_by_leg { -0.45, 0.3 }, k_usual_trunk_by_leg { 0.55, 0.25 };
+/// Dimensionless, in squares of deviations: a joint with three branches is a wrist; a root that is not the pelvis.
+/// fitted: guess.
+inline constexpr double k_fingers_gain = 3, k_other_root_cost = 4;
+/// Dimensionless, by the length of the arm: no finger is shorter. fitted: guess.
+inline constexpr double k_least_finger = 0.08;
+/// Dimensionless. Lengths of two limbs of a pair differ by no more. Each has so much of the skin. The head has so much
+/// of the skin of head and neck. fitted: guess.
+inline constexpr double k_alike = 0.1, k_least_limb_mass = 0.005, k_least_head_mass = 0.5;
+/// Dimensionless, by the length of a leg: where the middle of the foot's skin lies before the ankle. Less tells
+/// nothing. fitted: guess; a human's is 0.08.
+inline constexpr double k_least_foot = 0.01;
+/// In squares of deviations: costs of a human among others. fitted: guess; skeletons of humans cost 2 to 20.
+inline constexpr double k_likely_human = 60;
+/// Numbers that bound the search, more than skeletons have. unit.
+inline constexpr std::size_t k_most_joints_of_limb = 14, k_most_pairs = 32;
+
 }  // namespace garmentfit::skeleton_tuning

@@ -238,9 +238,103 @@ TEST_F(SkinnedGltf, ComesBackAsItWasWritten)
     EXPECT_LT((read.weights.weights - rig.weights.weights).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+/// A mesh whose vertices hang on the bone that they lie nearest to.
+Rig nearest_rig(const fixtures::Person& person)
+{
+    Rig rig = fixtures::simple_rig(person);
+    rig.weights.weights.setZero();
+    rig.weights.weights.col(0).setOnes();
+    for (Eigen::Index v = 0; v < person.mesh.positions.rows(); ++v) {
+        double nearest = 1e9;
+        for (int b = 0; b < bone_count; ++b) {
+            const double d = fixtures::segment_distance(person.mesh.positions.row(v), person.skeleton.head(b),
+                                                        person.skeleton.tail(b));
+            if (d < nearest - 1e-9) {
+                nearest = d;
+                rig.weights.bones(v, 0) = b;
+            }
+        }
+    }
+    return rig;
+}
+
+/// Body and rig with joints whose names say nothing.
+class UnnamedSkeleton : public SkinnedGltf {
+protected:
+    void write(BoneNames names, const std::function<std::string(int, const std::string&)>& name) const
+    {
+        const Rig near = nearest_rig(person);
+        write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { names });
+        save("rigged.glb", edited(load(glb), [&](json& document) {
+                 for (json& skin : document["skins"])
+                     for (const json& joint : skin["joints"]) {
+                         json& node = document["nodes"][joint.get<std::size_t>()];
+                         node["name"] = name(joint.get<int>(), node["name"]);
+                     }
+             }));
+    }
+
+    void expect_own_skeleton(const ForeignRig& read, const std::string& what) const
+    {
+        for (const int b : { lfemur, ltibia, rfemur, rtibia, lclavicle, lhumerus, lradius, rclavicle, rhumerus, rradius,
+                             lhipjoint, rhipjoint })
+            EXPECT_LT((read.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 1e-5) << what << ", " << bone_name(b);
+        EXPECT_LT((read.skeleton.root - rig.skeleton.root).norm(), 1e-5) << what;
+    }
+};
+
+TEST_F(UnnamedSkeleton, IsFoundByItsTreeAndPlaces)
+{
+    for (const BoneNames names : { BoneNames::garmentfit, BoneNames::mixamo, BoneNames::unreal, BoneNames::smpl })
+        for (const auto& [what, name] :
+             { std::pair<std::string, std::function<std::string(int, const std::string&)>>(
+                   "numbers", [](int joint, const std::string&) { return "joint" + std::to_string(joint); }),
+               { "Blender", [](int joint, const std::string&) { return "Bone.0" + std::to_string(17 * joint % 50); } },
+               { "nothing", [](int, const std::string&) { return ""; } } }) {
+            write(names, name);
+            const ForeignRig read = read_skinned_gltf(glb);
+            EXPECT_TRUE(read.by_tree);
+            expect_own_skeleton(read, what + " " + std::to_string(int(names)));
+            EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
+        }
+}
+
+TEST_F(UnnamedSkeleton, OfAVrmAvatarIsWhatTheFileSays)
+{
+    write(BoneNames::vrm, [](int, const std::string& name) { return name; });
+    const std::string named = load(glb);
+    const auto give_up_names = [](json& document, bool is_new) {
+        json bones = is_new ? json::object() : json::array();
+        for (const json& joint : document["skins"][0]["joints"]) {
+            json& name = document["nodes"][joint.get<std::size_t>()]["name"];
+            if (is_new)
+                bones[name.get<std::string>()] = { { "node", joint } };
+            else
+                bones.push_back({ { "bone", name }, { "node", joint } });
+            name = "Left Knee";  // of every joint
+        }
+        document["extensions"] = { { is_new ? "VRMC_vrm" : "VRM", { { "humanoid", { { "humanBones", bones } } } } } };
+    };
+    for (const bool is_new : { true, false }) {
+        save("rigged.glb", edited(named, [&](json& document) { give_up_names(document, is_new); }));
+        const ForeignRig read = read_skinned_gltf(glb);
+        EXPECT_FALSE(read.by_tree);
+        for (const int b : { lfemur, rtibia, lhumerus })
+            EXPECT_GT(read.skeleton.length(b), 0.2);
+        EXPECT_GT(read.skeleton.tail(lfemur).x(), read.skeleton.tail(rfemur).x());
+    }
+    save("rigged.glb", edited(named, [&](json& document) {
+             document["extensions"]
+                 = { { "VRMC_vrm", { { "humanoid", { { "humanBones", { { "hips", 3 }, { "head", { 1 } } } } } } } },
+                     { "VRM",
+                       { { "humanoid", { { "humanBones", { 1, { { "bone", 2 } }, { { "node", "x" } } } } } } } } };
+         }));
+    EXPECT_NO_THROW(read_skinned_gltf(glb));
+}
+
 TEST_F(SkinnedGltf, NamesTheJointThatItCannotFind)
 {
-    call_joints({ { "lfemur", "thing1" } });
+    call_joints({ { "lfemur", "thing1" } });  // and skin hangs on bones anywhere, so places say nothing
     fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "left hip");
 }
 

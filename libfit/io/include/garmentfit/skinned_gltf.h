@@ -50,13 +50,15 @@ GARMENTFIT_API void write_outfit_glb(const std::filesystem::path& path, const Ri
 GARMENTFIT_API void write_skinned_glb(const std::filesystem::path& path, const TriangleMesh& surface, const Rig& rig);
 
 /// Bones and weights of a rig by another program, in the file's units and axes, vertices in the order of MeshFile.
-/// Joints are recognised by the names of this library, Mixamo, Unreal, VRM, MakeHuman or SMPL. Weights on fingers and
-/// toes go to the bone before them.
+/// Joints are recognised by the names of this library, Mixamo, Unreal, VRM, MakeHuman or SMPL, in a VRM by its own map,
+/// and where names say nothing by their tree and places. Weights on fingers and toes go to the bone before them.
 struct ForeignRig {
     Skeleton skeleton;
     SkinWeights weights;
     int loose_vertices
         = 0;  ///< those without a weight, or of meshes that hang on no joint: they follow the nearest one
+    bool by_tree
+        = false;  ///< names say nothing: joints were found by their tree and places, left and right by the feet
 };
 
 /// Whether a glTF or GLB shows a mesh with a skin. @throws InvalidInput: missing, not glTF.
