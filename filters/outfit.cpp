@@ -59,6 +59,18 @@ std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, con
     return find_covered_skin(meshes[0].surface, rig, clothes);
 }
 
+/// Marks vertices without faces as covered, too: their faces were left out of the body.
+std::vector<char> mark_stripped(std::vector<char> covered, const TriangleMesh& body)
+{
+    std::vector<char> has_faces(std::size_t(body.positions.rows()), 0);
+    for (Eigen::Index i = 0; i < body.triangles.size(); ++i)
+        has_faces[std::size_t(body.triangles.data()[i])] = 1;
+    covered.resize(has_faces.size(), 0);
+    for (std::size_t v = 0; v < has_faces.size(); ++v)
+        covered[v] = covered[v] || !has_faces[v];
+    return covered;
+}
+
 void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments, const OutfitRequest& request,
                      const std::vector<char>& covered)
 {
@@ -79,7 +91,8 @@ void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments
                             garment_weights(skin, weights, garment, worn),
                             garments.at(i).look });
     }
-    write_dressed_avatar(request.path, request.avatar->path, clothes, covered);
+    write_dressed_avatar(request.path, request.avatar->path, clothes,
+                         request.is_stripped ? mark_stripped(covered, skin) : covered);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
+#include "used_vertices.h"
 #include "winding_number.h"
 #include "wrapped_surface.h"
 
@@ -77,6 +78,21 @@ private:
     double distance_;
     std::unordered_map<Cell, std::vector<std::size_t>, Hash> rows_;
 };
+
+/// Without vertices that no triangle has.
+TriangleMesh drop_unused(const TriangleMesh& surface)
+{
+    const std::vector<int> used = used_vertices(surface.triangles);
+    if (Eigen::Index(used.size()) == surface.positions.rows())
+        return surface;
+    std::vector<int> row_of(std::size_t(surface.positions.rows()), -1);
+    for (std::size_t row = 0; row < used.size(); ++row)
+        row_of[std::size_t(used[row])] = int(row);
+    TriangleMesh result { surface.positions(used, Eigen::all), surface.triangles };
+    for (Eigen::Index i = 0; i < result.triangles.size(); ++i)
+        result.triangles.data()[i] = row_of[std::size_t(result.triangles.data()[i])];
+    return result;
+}
 
 /// Merges vertices within a distance. Drops triangles that lose a corner, and all but the first on the same corners.
 Soup weld(const TriangleMesh& surface, double distance)
@@ -358,11 +374,12 @@ std::vector<JoinedParts> join_parts(const TriangleMesh& surface)
     return joined;
 }
 
-TriangleMesh close_surface(const TriangleMesh& surface, bool& repaired)
+TriangleMesh close_surface(const TriangleMesh& given, bool& repaired)
 {
+    const TriangleMesh surface = drop_unused(given);
     if (is_one_closed_manifold(surface)) {
         TriangleMesh result = orient_outwards(surface);
-        repaired = result.triangles != surface.triangles;
+        repaired = result.triangles != given.triangles || result.positions.rows() != given.positions.rows();
         return result;
     }
     repaired = true;

@@ -11,6 +11,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/number_text.h"
 #include "named_vertices.h"
+#include "stray_vertices.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -19,35 +20,15 @@
 namespace garmentfit {
 namespace {
 
-/// The box of all vertices but few at either end of each axis.
-Eigen::AlignedBox3d usual_box(const Positions& positions, const std::vector<int>& vertices)
-{
-    const std::ptrdiff_t n = std::ptrdiff_t(vertices.size()),
-                         left_out = n < k_fewest_for_strays ? 0 : std::max(n / k_vertices_a_stray, std::ptrdiff_t(1));
-    Eigen::AlignedBox3d box;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> places;
-        for (const int v : vertices)
-            places.push_back(positions(v, axis));
-        std::nth_element(places.begin(), places.begin() + left_out, places.end());
-        box.min()[axis] = places[left_out];
-        std::nth_element(places.begin(), places.end() - 1 - left_out, places.end());
-        box.max()[axis] = places[n - 1 - left_out];
-    }
-    return box;
-}
-
 /// Exact predicates take for ever on triangles that span hundreds of powers of two.
 void require_no_stray(const std::string& name, const Positions& positions, const Triangles& triangles)
 {
     const std::vector<int> vertices = used_vertices(triangles);
-    const Eigen::AlignedBox3d box = usual_box(positions, vertices);
-    const Vec3 middle = box.min() + 0.5 * (box.max() - box.min());
-    const double size = (box.max() - box.min()).stableNorm();
+    const UsualBox usual(positions, vertices);
     for (const int v : vertices)
-        if (const double away = (positions.row(v).transpose() - middle).stableNorm(); !(away <= k_stray_reach * size))
+        if (const double away = usual.away(positions.row(v)); !(away <= k_stray_reach))
             throw InvalidInput(ErrorCode::degenerate_mesh,
-                               name + ": vertex " + std::to_string(v) + " lies " + rounded_text(away / size, 2)
+                               name + ": vertex " + std::to_string(v) + " lies " + rounded_text(away, 2)
                                    + " times as far away as the other vertices reach; remove it with its faces, or "
                                      "repair the file");
 }
@@ -69,24 +50,25 @@ void check(const char* what, const Positions& positions, const Triangles& triang
 
 BodyMesh make_body(const Positions& positions, const Triangles& triangles)
 {
-    check("body", positions, triangles);
     BodyMesh body;
-    body.surface = { positions, triangles };
+    body.surface = { gather_strays(positions, triangles), triangles };
+    check("body", body.surface.positions, triangles);
     body.closed = close_surface(body.surface, body.repaired);
     return body;
 }
 
 GarmentMesh make_garment(const Positions& positions, const Triangles& triangles)
 {
-    check("garment", positions, triangles);
+    GarmentMesh garment { gather_strays(positions, triangles), triangles };
+    check("garment", garment.positions, triangles);
     double area = 0;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        area += area_vector(positions, triangles, f).norm();
+        area += area_vector(garment.positions, triangles, f).norm();
     if (!(area > 0))
         throw InvalidInput(ErrorCode::degenerate_mesh,
                            "garment: all " + std::to_string(triangles.rows())
                                + " faces have no area; give another surface");
-    return { positions, triangles };
+    return garment;
 }
 
 Positions vertex_normals(const Positions& positions, const Triangles& triangles)

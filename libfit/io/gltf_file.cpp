@@ -45,15 +45,25 @@ public:
             const Eigen::Index before = fans_.rows();
             add_faces(*surface.primitive, block);
             parts.push_back({ surface.primitive, block.first_row, fans_.rows() - before });
+            named_parts.push_back(named(surface, before));
         }
     }
 
     std::vector<Block> blocks;
     std::vector<GltfPart> parts;
+    std::vector<MeshPart> named_parts;  // the same, without names of materials
     Triangles triangles() const { return fans_.triangles(); }
     Eigen::Index rows() const { return rows_; }
 
 private:
+    MeshPart named(const GltfSurface& surface, Eigen::Index first_triangle) const
+    {
+        const tinygltf::Node& node = model_.nodes[std::size_t(surface.node)];
+        return {
+            {}, model_.meshes[std::size_t(node.mesh)].name, node.name, first_triangle, fans_.rows() - first_triangle
+        };
+    }
+
     /// Primitives may share vertices: each run of them is read once.
     const Block& block_of(const GltfSurface& surface)
     {
@@ -151,8 +161,11 @@ struct GltfContent : MeshFile::Content {
     std::vector<Block> blocks;
     Positions normals;  ///< of the world; zero where the file has none
     Appearance look;
+    std::vector<MeshPart> named_parts;
 
     Appearance appearance() const override { return look; }
+    std::vector<MeshPart> parts() const override { return named_parts; }
+    double against_faces() const override { return share_against_faces(normals, triangles, triangles, positions); }
 
     std::string bytes_with(const Positions& moved) const override
     {
@@ -227,6 +240,16 @@ void read_values(const FileBytes& file, GltfContent& content, Eigen::Index rows)
     }
 }
 
+/// The model has only geometry.
+void name_materials(const std::vector<GltfPart>& parts, const ordered_json& json, std::vector<MeshPart>& named)
+{
+    const ordered_json materials = json.value("materials", ordered_json::array());
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (const int material = parts[i].primitive->material; material >= 0 && materials.is_array()
+            && std::size_t(material) < materials.size() && materials[std::size_t(material)].is_object())
+            named[i].material = materials[std::size_t(material)].value("name", "");
+}
+
 }  // namespace
 
 ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
@@ -241,7 +264,9 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
         require_apart(file, scene.blocks);
         content->triangles = scene.triangles();
         content->blocks = std::move(scene.blocks);
+        content->named_parts = std::move(scene.named_parts);
         embed_pictures(content->container.json, folder);
+        name_materials(scene.parts, content->container.json, content->named_parts);
         content->look = gltf_appearance(file, model, content->container.json, scene.parts, content->triangles);
         content->buffers = std::move(model.buffers);
         read_values(file, *content, scene.rows());

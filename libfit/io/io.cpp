@@ -7,6 +7,8 @@
 #include "garmentfit/error.h"
 #include "mesh_content.h"
 #include "scene_file.h"
+#include "stray_vertices.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -44,6 +46,18 @@ ContentPtr read_content(FileBytes file, const std::filesystem::path& path)
     file.fail("unknown format; export it as .obj, .ply, .off, .stl, .glb, .gltf, .fbx or .dae");
 }
 
+std::vector<std::string> warnings_about(const MeshFile::Content& content, std::size_t strays)
+{
+    std::vector<std::string> warnings = content.warnings;
+    if (strays > 0)
+        warnings.push_back(std::to_string(strays)
+                           + " vertices that no face uses lie far away; they are left out, and written as they were");
+    if (content.against_faces() > k_left_handed)
+        warnings.push_back("its normals point against its faces, as in files of left-handed programs: left and right "
+                           "may be exchanged");
+    return warnings;
+}
+
 }  // namespace
 
 MeshFile MeshFile::read(const std::filesystem::path& path)
@@ -61,6 +75,9 @@ MeshFile MeshFile::read_points(const std::filesystem::path& path)
     MeshFile mesh;
     mesh.content_ = read_content(read_file(path), path);
     mesh.path_ = path;
+    mesh.positions_ = gather_strays(mesh.content_->positions, mesh.triangles());
+    mesh.strays_ = stray_vertices(mesh.content_->positions, mesh.triangles());
+    mesh.warnings_ = warnings_about(*mesh.content_, mesh.strays_.size());
     return mesh;
 }
 
@@ -70,12 +87,13 @@ std::string MeshFile::written_name() const
     return is_only_read(path_) ? name.replace_extension(".glb").string() : name.string();
 }
 
-const Positions& MeshFile::positions() const { return content_->positions; }
+const Positions& MeshFile::positions() const { return positions_; }
 const Triangles& MeshFile::triangles() const { return content_->triangles; }
 const std::filesystem::path& MeshFile::path() const { return path_; }
 const std::string& MeshFile::format() const { return content_->format; }
 
 Appearance MeshFile::appearance() const { return content_->appearance(); }
+std::vector<MeshPart> MeshFile::parts() const { return content_->parts(); }
 std::vector<std::string> MeshFile::companions() const { return content_->companions(); }
 
 void MeshFile::write(const std::filesystem::path& path, const Positions& positions) const
@@ -88,7 +106,10 @@ void MeshFile::write(const std::filesystem::path& path, const Positions& positio
     if (is_only_read(path))
         throw InvalidInput(ErrorCode::unwritable_file,
                            path.string() + ": FBX and COLLADA are not written; give a name that ends in .glb");
-    write_file(path, content_->bytes_with(positions));
+    Positions written = positions;
+    for (const int v : strays_)
+        written.row(v) = content_->positions.row(v);
+    write_file(path, content_->bytes_with(written));
 }
 
 }  // namespace garmentfit

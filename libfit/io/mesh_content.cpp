@@ -3,6 +3,16 @@
 
 namespace garmentfit {
 
+Eigen::Index first_not_finite(const MeshFile::Content& content)
+{
+    const bool has_faces = content.triangles.rows() > 0;
+    const Eigen::Index count = has_faces ? content.triangles.size() : content.positions.rows();
+    for (Eigen::Index i = 0; i < count; ++i)
+        if (const Eigen::Index v = has_faces ? content.triangles.data()[i] : i; !content.positions.row(v).allFinite())
+            return v;
+    return -1;
+}
+
 void FanBuilder::add(const std::vector<int>& corners)
 {
     const std::size_t count = corners.size() / columns_;

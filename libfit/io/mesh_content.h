@@ -21,6 +21,10 @@ struct MeshFile::Content {
     virtual std::string bytes_with(const Positions& positions) const = 0;
     virtual Appearance appearance() const { return {}; }
     virtual std::vector<std::string> companions() const { return {}; }
+    virtual std::vector<MeshPart> parts() const { return {}; }
+    /// Of the surface with normals, the share whose normals point against the winding of the faces; 0 without normals.
+    virtual double against_faces() const { return 0; }
+    std::vector<std::string> warnings;  ///< of what is mangled and was left out, in whole sentences
 };
 
 using ContentPtr = std::shared_ptr<const MeshFile::Content>;
@@ -31,6 +35,10 @@ ContentPtr read_stl(FileBytes file);
 /// @param folder  of the file's buffers and pictures
 ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder);
 ContentPtr read_ply(FileBytes file);
+
+/// Vertices that no face uses may be anything. @return the first vertex of a face that is not finite; of a file without
+/// faces, the first of all; -1: none
+Eigen::Index first_not_finite(const MeshFile::Content& content);
 
 /// Whether the header line says OFF.
 bool is_off(const FileBytes& file);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <climits>
+#include <cmath>
+#include <optional>
 
 #include "obj_materials.h"
 #include "text_content.h"
@@ -12,38 +14,66 @@ struct ObjContent : TextContent {
     std::vector<std::string> companions() const override { return obj_companions(file); }
 };
 
+/// Programs write normals as nothing reads them: without numbers, of two numbers. Such a normal is none.
+std::optional<Triple> normal_in(const FileBytes& file, Words& words)
+{
+    Triple triple;
+    for (int k = 0; k < 3; ++k) {
+        if (words.done())
+            return {};
+        const Span word = words.next();
+        const std::optional<double> number = parsed_number(file.text(word));
+        if (!number || !std::isfinite(*number))
+            return {};
+        triple.values[k] = *number;
+        triple.span = { k == 0 ? word.begin : triple.span.begin, word.end };
+    }
+    return triple;
+}
+
+void warn_of(std::vector<std::string>& warnings, std::size_t count, const char* what)
+{
+    if (count > 0)
+        warnings.push_back(std::to_string(count) + what);
+}
+
 /// Vertices and normals; faces may name vertices further down, so they are read afterwards.
 void read_rows(TextContent& content)
 {
     RowBuilder positions, normals;
+    std::size_t bad_normals = 0;
     for (Lines lines(content.file); lines.advance(true);) {
         Words words(content.file, lines.line());
         const std::string_view key = words.done() ? "" : words.next_text();
         if (key == "v") {
-            const Triple triple = next_finite_triple(words, content.file);
+            const Triple triple = next_triple(words, content.file);
             content.places.push_back({ triple.span, positions.rows(), false });
             positions.add(triple.values);
         } else if (key == "vn") {
-            const Triple triple = next_triple(words, content.file);
-            content.places.push_back({ triple.span, normals.rows(), true });
-            normals.add(triple.values);
+            const std::optional<Triple> triple = normal_in(content.file, words);
+            if (triple)
+                content.places.push_back({ triple->span, normals.rows(), true });
+            else
+                ++bad_normals;
+            normals.add(triple ? triple->values : Vec3(Vec3::Constant(NAN)));
         }
     }
     if (positions.rows() > INT_MAX || normals.rows() > INT_MAX)
         content.file.fail("has more vertices than this program can count; decimate the mesh");
     content.positions = positions.matrix();
     content.normals = normals.matrix();
+    warn_of(content.warnings, bad_normals, " normals are not three numbers; they are left as they are");
 }
 
-/// One of the numbers of a corner, 1-based, or counted back from the newest row where negative.
-int row_named(const FileBytes& file, Span word, Eigen::Index so_far, Eigen::Index all, const char* what)
+/// The first number of a corner, 1-based, or counted back from the newest vertex where negative.
+int vertex_row(const FileBytes& file, Span word, Eigen::Index so_far, Eigen::Index all)
 {
     const long long index = integer_in(file, word);
     const long long row = index < 0 ? so_far + index : index - 1;
     if (row < 0 || row >= all)
         file.fail_at_line_of(word.begin,
-                             "the face refers to " + std::string(what) + " " + std::to_string(index)
-                                 + ", but there are " + std::to_string(all) + "; export the file again",
+                             "the face refers to vertex " + std::to_string(index) + ", but there are "
+                                 + std::to_string(all) + "; export the file again",
                              ErrorCode::bad_index);
     return static_cast<int>(row);
 }
@@ -51,6 +81,9 @@ int row_named(const FileBytes& file, Span word, Eigen::Index so_far, Eigen::Inde
 class FaceReader {
 public:
     explicit FaceReader(const TextContent& content) : content_(content) { }
+
+    /// Corners whose normal does not exist.
+    std::size_t missing_normals() const { return missing_normals_; }
 
     void count_vertex() { ++vertices_; }
     void count_normal() { ++normals_; }
@@ -76,17 +109,29 @@ private:
         const std::string_view text = content_.file.text(word);
         const std::size_t slash = std::min(text.find('/'), text.size());
         const std::size_t last_slash = text.rfind('/');
-        corners_.push_back(row_named(content_.file, { word.begin, word.begin + slash }, vertices_,
-                                     content_.positions.rows(), "vertex"));
+        corners_.push_back(
+            vertex_row(content_.file, { word.begin, word.begin + slash }, vertices_, content_.positions.rows()));
         const bool has_normal
             = last_slash != std::string_view::npos && last_slash > slash && last_slash + 1 < text.size();
-        corners_.push_back(!has_normal ? -1
-                                       : row_named(content_.file, { word.begin + last_slash + 1, word.end }, normals_,
-                                                   content_.normals.rows(), "normal"));
+        corners_.push_back(has_normal ? normal_row(text.substr(last_slash + 1)) : -1);
+    }
+
+    /// -1 where there is none, or one that is no normal. Normals only turn with the surface: no reason to refuse a
+    /// mesh.
+    int normal_row(std::string_view text)
+    {
+        const std::optional<long long> index = parsed_integer(text);
+        const long long row = !index ? -1 : *index < 0 ? normals_ + *index : *index - 1;
+        if (row < 0 || row >= content_.normals.rows()) {
+            ++missing_normals_;
+            return -1;
+        }
+        return content_.normals.row(row).allFinite() ? static_cast<int>(row) : -1;
     }
 
     const TextContent& content_;
     Eigen::Index vertices_ = 0, normals_ = 0;  // so far in the file
+    std::size_t missing_normals_ = 0;
     std::vector<int> corners_;  // of one face: position, normal, position, normal, ...
     FanBuilder fans_ { 2 };
 };
@@ -106,6 +151,8 @@ void read_faces(TextContent& content)
     }
     content.triangles = reader.fans().triangles(0);
     content.normal_corners = reader.fans().triangles(1);
+    warn_of(content.warnings, reader.missing_normals(), " corners of faces name a normal that does not exist");
+    content.require_finite();
 }
 
 }  // namespace

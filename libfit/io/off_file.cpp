@@ -85,7 +85,7 @@ void read_vertices(TextContent& content, Rows& rows, const Header& header)
     RowBuilder positions, normals;
     for (int v = 0; v < header.vertices; ++v) {
         Words words = rows.required();
-        const Triple position = next_finite_triple(words, content.file);
+        const Triple position = next_triple(words, content.file);
         content.places.push_back({ position.span, v, false });
         positions.add(position.values);
         if (header.has_normals) {
@@ -141,6 +141,7 @@ ContentPtr read_off(FileBytes file)
     content->triangles = fans.triangles();
     content->normal_corners
         = header.has_normals ? content->triangles : Triangles::Constant(content->triangles.rows(), 3, -1);
+    content->require_finite();
     return content;
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <climits>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -168,9 +169,13 @@ public:
 
     [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_file) const
     {
+        fail_at(place_, what, code);
+    }
+    [[noreturn]] void fail_at(Span place, const std::string& what, ErrorCode code) const
+    {
         if (encoding_ == Encoding::ascii)
-            file_.fail_at_line_of(place_.begin, what, code);
-        file_.fail_at_byte(place_.begin, what, code);
+            file_.fail_at_line_of(place.begin, what, code);
+        file_.fail_at_byte(place.begin, what, code);
     }
 
 private:
@@ -290,7 +295,9 @@ std::vector<int> columns_of(const FileBytes& file, const Element& vertex)
 
 using Table = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;  // x y z nx ny nz
 
-Table read_vertices(Body& body, const Element& element, const std::vector<int>& columns)
+/// @param not_finite  gets the places of such coordinates by vertex, the last one of each
+Table read_vertices(Body& body, const Element& element, const std::vector<int>& columns,
+                    std::map<Eigen::Index, Span>& not_finite)
 {
     body.require(element.rows, element.properties.size());
     Table table = Table::Zero(element.rows, 6);
@@ -298,7 +305,7 @@ Table read_vertices(Body& body, const Element& element, const std::vector<int>& 
         if (columns[p] < 0)
             return;
         if (columns[p] < 3 && !std::isfinite(value))
-            body.fail("vertex " + std::to_string(row) + " is not finite; repair the file", ErrorCode::not_finite);
+            not_finite[Eigen::Index(row)] = body.place();
         table(row, columns[p]) = value;
     };
     walk(body, element, on_scalar, [](auto&&...) {});
@@ -373,6 +380,8 @@ struct PlyContent : MeshFile::Content {
     std::vector<int> columns;
     Positions normals;  ///< zero where the file has none
 
+    double against_faces() const override { return share_against_faces(normals, triangles, triangles, positions); }
+
     Table table_with(const Positions& moved) const
     {
         Table table(moved.rows(), 6);
@@ -416,9 +425,10 @@ ContentPtr read_ply(FileBytes file)
     content->columns = columns_of(file, vertex);
     Body body(file, content->header);
     FanBuilder fans;
+    std::map<Eigen::Index, Span> not_finite;
     for (const Element& element : content->header.elements) {
         if (&element == &vertex) {
-            const Table table = read_vertices(body, element, content->columns);
+            const Table table = read_vertices(body, element, content->columns, not_finite);
             content->positions = table.leftCols<3>();
             content->normals = table.rightCols<3>();
         } else if (element.name == "face") {
@@ -428,6 +438,9 @@ ContentPtr read_ply(FileBytes file)
         }
     }
     content->triangles = fans.triangles();
+    if (const Eigen::Index row = first_not_finite(*content); row >= 0)
+        body.fail_at(not_finite.at(row), "vertex " + std::to_string(row) + " is not finite; repair the file",
+                     ErrorCode::not_finite);
     content->file = std::move(file);
     return content;
 }

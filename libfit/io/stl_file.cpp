@@ -143,6 +143,11 @@ struct BinaryStlContent : MeshFile::Content {
     FileBytes file;
     Positions normals;
 
+    double against_faces() const override
+    {
+        return share_against_faces(normals, facet_corners(triangles.rows()), triangles, positions);
+    }
+
     std::string bytes_with(const Positions& moved) const override
     {
         const Positions turned = turn_normals(normals, facet_corners(triangles.rows()), triangles, positions, moved);

@@ -18,4 +18,14 @@ std::string TextContent::bytes_with(const Positions& moved) const
     return rewriter.finish();
 }
 
+double TextContent::against_faces() const { return share_against_faces(normals, normal_corners, triangles, positions); }
+
+void TextContent::require_finite() const
+{
+    const Eigen::Index vertex = first_not_finite(*this);
+    for (const Place& place : places)
+        if (place.row == vertex && !place.is_normal)
+            fail_not_finite(file, place.span);
+}
+
 }  // namespace garmentfit

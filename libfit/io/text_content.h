@@ -22,6 +22,10 @@ struct TextContent : MeshFile::Content {
     Triangles normal_corners;  ///< rows of normals for each corner of the triangles, -1 = none
 
     std::string bytes_with(const Positions& moved) const override;
+    double against_faces() const override;
+
+    /// After the faces. @throws InvalidInput: a vertex of a face is not finite
+    void require_finite() const;
 };
 
 /// Rows of three that grow while a file is read.

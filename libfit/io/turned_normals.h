@@ -12,4 +12,9 @@ namespace garmentfit {
 Positions turn_normals(const Positions& normals, const Triangles& corners, const Triangles& triangles,
                        const Positions& before, const Positions& after);
 
+/// Of the area of corners with a normal, the share whose normals point against the winding of their faces; 0 without
+/// normals. O(n).
+double share_against_faces(const Positions& normals, const Triangles& corners, const Triangles& triangles,
+                           const Positions& positions);
+
 }  // namespace garmentfit

@@ -36,20 +36,38 @@ std::string quoted(std::string_view word)
 
 }  // namespace
 
-double number_in(const FileBytes& file, Span word)
+std::optional<double> parsed_number(std::string_view word)
 {
     double value = 0;
-    if (!parses(file.text(word), value) && !is_tiny(file.text(word)))
+    return parses(word, value) || is_tiny(word) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<long long> parsed_integer(std::string_view word)
+{
+    long long value = 0;
+    return parses(word, value) ? std::optional(value) : std::nullopt;
+}
+
+void fail_not_finite(const FileBytes& file, Span triple)
+{
+    file.fail_at_line_of(triple.begin, quoted(file.text(triple)) + " is not finite; repair the file",
+                         ErrorCode::not_finite);
+}
+
+double number_in(const FileBytes& file, Span word)
+{
+    const std::optional<double> value = parsed_number(file.text(word));
+    if (!value)
         file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not a number; export the file again");
-    return value;
+    return *value;
 }
 
 long long integer_in(const FileBytes& file, Span word)
 {
-    long long value = 0;
-    if (!parses(file.text(word), value))
+    const std::optional<long long> value = parsed_integer(file.text(word));
+    if (!value)
         file.fail_at_line_of(word.begin, quoted(file.text(word)) + " is not an integer; export the file again");
-    return value;
+    return *value;
 }
 
 bool Words::done()
@@ -105,8 +123,7 @@ Triple next_finite_triple(Words& words, const FileBytes& file)
 {
     const Triple triple = next_triple(words, file);
     if (!triple.values.allFinite())
-        file.fail_at_line_of(triple.span.begin, quoted(file.text(triple.span)) + " is not finite; repair the file",
-                             ErrorCode::not_finite);
+        fail_not_finite(file, triple.span);
     return triple;
 }
 

@@ -3,6 +3,7 @@
 
 // Lines, words and numbers of text files, fast and with their places.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -41,6 +42,12 @@ private:
     std::size_t next_;
     Span line_;
 };
+
+/// Without a message: empty where the word is no number, or no integer.
+std::optional<double> parsed_number(std::string_view word);
+std::optional<long long> parsed_integer(std::string_view word);
+
+[[noreturn]] void fail_not_finite(const FileBytes& file, Span triple);
 
 /// Not-a-number and infinity count as numbers. @throws InvalidInput with the line.
 double number_in(const FileBytes& file, Span word);

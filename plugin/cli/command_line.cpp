@@ -83,6 +83,15 @@ double scale_from(const std::string& text)
     return sizes.scale;
 }
 
+Wears wears_called(const std::string& name)
+{
+    const std::vector<std::string_view>& names = wears_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw InvalidInput(ErrorCode::unknown_name, "--wears " + name + ": give keep or strip");
+    return Wears(found - names.begin());
+}
+
 void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
 {
     command.add_option("BODY", call.body, "Body mesh: OBJ, PLY, OFF, STL, glTF, GLB, FBX, DAE")->required();
@@ -101,6 +110,13 @@ void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
         "File with the places of some or all joints, as JSON (docs/rig.md), where the program finds wrong ones");
     command.add_flag("--ignore-skin", call.ignores_skin,
                      "Find the skeleton by the body's shape, also where the body is a skinned glTF or GLB");
+    command
+        .add_option_function<std::string>(
+            "--wears", [&call](const std::string& name) { call.wears = wears_called(name); },
+            "Clothes that an avatar wears in its file already: keep (all parts are the body), or strip (parts that are "
+            "named as clothes and have skin under them are left out)")
+        ->type_name("NAME")
+        ->default_str("keep");
     if (!filter.has(Stage::fit))
         return;
     command.add_option("GARMENT", call.garments, "Garment meshes, from the inside out (see --layer-order)")->required();

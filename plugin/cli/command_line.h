@@ -31,6 +31,7 @@ struct Call {
     std::string front;  ///< an axis of the body's file; empty: to be found
     Parameters parameters;
     int threads = 0;  ///< 0 = all cores
+    Wears wears = Wears::keep;  ///< what is done with clothes in the body's file
     bool reconstruct = false;  ///< the body may be a point cloud
     bool ignores_skin = false;  ///< the skeleton is found by the body's shape, also where its file has one
     bool quiet = false, json = false;

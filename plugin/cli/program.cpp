@@ -56,7 +56,8 @@ Session read(Call& call)
     } else if (call.filter->name == "recover") {
         read_draped(session, call.from);
     } else {
-        read_body(session, call.body, { call.body_frame, call.parameters.body_sizes.height }, call.reconstruct);
+        read_body(session, call.body, { call.body_frame, call.parameters.body_sizes.height },
+                  { call.reconstruct, call.wears });
         read_rig_hints(call, session);
         for (std::size_t i = 0; i < call.garments.size(); ++i)
             add_garment(session, call.garments[i],
@@ -112,6 +113,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     if (!outfit.path.empty()) {
         if (!outfit.bones && !call.ignores_skin)
             outfit.avatar = avatar_in(session.body.file, session.body.frame.frame);
+        outfit.is_stripped = session.body.without_clothes.has_value();
         if (!is_on_avatar(outfit))  // else its file is kept as it is
             read_body_look(session);
         read_garment_looks(session);

@@ -31,12 +31,31 @@ bool same(const Frame& a, const Frame& b)
     return std::abs(a.metres_per_unit - b.metres_per_unit) <= k_rounding * b.metres_per_unit && a.up == b.up;
 }
 
+void warn_of_file(Session& session, const MeshFile& file)
+{
+    for (const std::string& warning : file.warnings())
+        session.warnings.push_back(file.path().filename().string() + ": " + warning);
+}
+
 void make_scene_body(Session& session)
 {
     put_body(session.scene, session.body.frame.frame, session.body.file.positions(), session.body.triangles);
     if (session.scene.body->repaired)
         session.warnings.push_back(session.body.path.filename().string()
                                    + " is not one closed surface; a repaired copy is used where one is needed");
+}
+
+void strip_body(Session& session, BodyFile& body)
+{
+    body.without_clothes = strip_clothes(body.file);
+    body.triangles = triangles_of(body.file, *body.without_clothes);
+    for (const std::string& warning : body.without_clothes->warnings)
+        session.warnings.push_back(body.path.filename().string() + ": " + warning);
+    std::string names;
+    for (const std::string& name : body.without_clothes->stripped)
+        names += (names.empty() ? "" : ", ") + name;
+    if (!names.empty())
+        session.warnings.push_back(body.path.filename().string() + ": left out of the body: " + names);
 }
 
 /// Dressed garments are written beside body.ply and the other results.
@@ -56,6 +75,7 @@ void require_own_name(const Session& session, const std::string& name)
 void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
 {
     require_own_name(session, garment.name());
+    warn_of_file(session, garment.file);
     const GarmentChoice choice = garment.choice.value_or(GarmentChoice());
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
     session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name(),
@@ -149,16 +169,19 @@ std::vector<std::string> Session::garment_names() const
     return names;
 }
 
-void read_body(Session& session, const fs::path& path, const BodyChoice& choice, bool reconstruct)
+void read_body(Session& session, const fs::path& path, const BodyChoice& choice, const BodyParts& parts)
 {
     const Stopwatch watch(session.read_seconds);
-    BodyFile body { path, reconstruct ? MeshFile::read_points(path) : MeshFile::read(path), {}, {} };
+    BodyFile body { path, parts.reconstruct ? MeshFile::read_points(path) : MeshFile::read(path), {}, {} };
     body.triangles = body.file.triangles();
     if (body.triangles.rows() == 0) {
         body.triangles = reconstruct_surface(body.file.positions());
         session.warnings.push_back(path.filename().string() + " is a point cloud; a surface was built from its "
                                    + std::to_string(body.file.positions().rows()) + " points");
     }
+    warn_of_file(session, body.file);
+    if (parts.wears == Wears::strip)
+        strip_body(session, body);
     body.frame = body_frame(body.file.positions(), body.triangles, choice);
     session.body = std::move(body);
     make_scene_body(session);
@@ -236,7 +259,12 @@ void read_draped(Session& session, const fs::path& folder)
                                          read_left(session, folder / "body.ply"), worn, session.garment_names());
 }
 
-void read_body_look(Session& session) { session.body.look = look_of(session, session.body.path, session.body.file); }
+void read_body_look(Session& session)
+{
+    session.body.look = look_of(session, session.body.path, session.body.file);
+    if (session.body.without_clothes)
+        session.body.look = appearance_of(std::move(session.body.look), *session.body.without_clothes);
+}
 
 void read_garment_looks(Session& session)
 {

@@ -12,6 +12,7 @@
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/io.h"
+#include "garmentfit/worn_clothes.h"
 
 namespace garmentfit::cli {
 
@@ -20,6 +21,7 @@ struct BodyFile {
     MeshFile file;
     Triangles triangles;  ///< of the file, or reconstructed from its points
     FrameGuess frame;  ///< confidences are 1 where the user said it
+    std::optional<StrippedBody> without_clothes = {};  ///< none where all parts of the file are the body
     Appearance look {};  ///< after read_body_look
 };
 
@@ -44,8 +46,12 @@ struct Session {
     std::vector<std::string> garment_names() const;
 };
 
-/// @param reconstruct  builds a surface from a file's points where it has no faces
-void read_body(Session& session, const std::filesystem::path& path, const BodyChoice& choice, bool reconstruct);
+/// What is taken of a body's file.
+struct BodyParts {
+    bool reconstruct = false;  ///< builds a surface from the file's points where it has no faces
+    Wears wears = Wears::keep;
+};
+void read_body(Session& session, const std::filesystem::path& path, const BodyChoice& choice, const BodyParts& parts);
 void add_garment(Session& session, const std::filesystem::path& path, GarmentType type, const GarmentChoice& choice);
 
 /// UVs, materials and pictures of files, for an outfit. What cannot be kept is a warning.

@@ -145,6 +145,12 @@ std::optional<Fabric> fabric_from(const nb::dict& sizes)
     return fabric_of(nb::cast<std::string>(sizes["garment_fabric"]));
 }
 
+void warn_of_file(PythonScene& scene, const MeshFile& file)
+{
+    for (const std::string& warning : file.warnings())
+        scene.frame_warnings.push_back(file.path().filename().string() + ": " + warning);
+}
+
 }  // namespace
 
 const Rig& PythonScene::rig() const
@@ -223,12 +229,14 @@ void set_worn(PythonScene& s, const nb::object& find, const NumbersIn& body, con
 
 void set_body_file(PythonScene& scene, const MeshFile& file)
 {
+    warn_of_file(scene, file);
     scene.body_file = file;
     scene.body_look = std::make_shared<const Appearance>(file.appearance());
 }
 
 void set_garment_look(PythonScene& scene, const MeshFile& file)
 {
+    warn_of_file(scene, file);
     scene.garment_looks.resize(scene.scene.garments.size());
     scene.garment_looks.back() = std::make_shared<const Appearance>(file.appearance());
 }

@@ -27,6 +27,8 @@
 #include <unistd.h>
 
 #include "garmentfit/io.h"
+#include "garmentfit/mesh.h"
+#include "garmentfit/skinned_gltf.h"
 
 namespace {
 
@@ -489,6 +491,33 @@ TEST_F(CommandLine, TakesTheSkeletonOfASkinnedBodyUnlessItIsWrongOrIgnored)
     const auto exchanged = rig({ (folder / "exchanged.glb").string() }, "exchanged");
     EXPECT_EQ(exchanged["body"]["skeleton"], "shape");
     EXPECT_NE(exchanged["warnings"].dump().find("different sides"), std::string::npos) << exchanged["warnings"];
+}
+
+TEST_F(CommandLine, LeavesClothesOfAnAvatarsFileOutOfTheBody)
+{
+    using namespace garmentfit;
+    ASSERT_EQ(run({ "rig", k_body, "-o", folder / "rigged" }).code, 0);
+    const ForeignRig rig = read_skinned_gltf(folder / "rigged/rigged.glb");
+    const MeshFile body = MeshFile::read(folder / "rigged/rigged.glb");
+    const Positions outside = body.positions() + 0.02 * vertex_normals(body.positions(), body.triangles());
+    write_skinned_glb(folder / "avatar.glb", rig.skeleton,
+                      { { "Body", { body.positions(), body.triangles() }, rig.weights },
+                        { "Bodysuit", { outside, body.triangles() }, rig.weights } });
+    for (const auto& [wears, faces] :
+         { std::pair("keep", 2 * body.triangles().rows()), std::pair("strip", body.triangles().rows()) }) {
+        const Ended ended = run({ "rig", folder / "avatar.glb", "--wears", wears, "-o", folder / wears });
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        const auto report = nlohmann::json::parse(read_text(folder / wears / "report.json"));
+        EXPECT_EQ(report["body"]["skeleton"], "file");
+        EXPECT_EQ(report["warnings"].dump().find("left out of the body: Bodysuit") != std::string::npos,
+                  wears == std::string("strip"));
+        const MeshFile rigged = MeshFile::read(folder / wears / "rigged.ply");
+        EXPECT_EQ(rigged.triangles().rows(), faces);
+        EXPECT_EQ(rigged.positions().rows(), 2 * body.positions().rows());
+    }
+    for (const char* done : { "rigged", "keep", "strip" })  // a refused call leaves no folder
+        fs::remove_all(folder / done);
+    expect_refused({ "rig", folder / "avatar.glb", "--wears", "nothing" }, { "give keep or strip" });
 }
 
 /// Triangles of a size in metres, here and there.

@@ -236,8 +236,14 @@ TEST(MakeBody, DoesNotMindVerticesWithoutFacesFarAway)
     TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
     const Eigen::Index n = mesh.positions.rows();
     mesh.positions.conservativeResize(n + 1, 3);
-    mesh.positions.row(n).setConstant(1e3);
-    EXPECT_NO_THROW(make_body(mesh.positions, mesh.triangles));
+    for (const double far : { 1e3, 1e30, 1e300, std::numeric_limits<double>::quiet_NaN() }) {
+        mesh.positions.row(n).setConstant(far);
+        const BodyMesh body = make_body(mesh.positions, mesh.triangles);
+        EXPECT_EQ(body.surface.positions.topRows(n), mesh.positions.topRows(n));
+        EXPECT_LT(body.surface.positions.row(n).norm(), 1) << far;
+        EXPECT_EQ(body.closed.positions.rows(), n);
+        EXPECT_TRUE(make_garment(mesh.positions, mesh.triangles).positions.allFinite());
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -268,6 +269,65 @@ TEST_F(Io, SaysWhatIsWrongAndWhere)
     std::string infinite = samples::binary_stl();
     infinite.replace(84 + 50 + 24, 4, samples::raw(std::numeric_limits<float>::infinity()));
     expect_complaint("a.stl", infinite, "facet 1 is not finite");
+}
+
+bool has_warning(const MeshFile& mesh, const std::string& words)
+{
+    const auto says = [&](const std::string& warning) { return warning.find(words) != std::string::npos; };
+    return std::any_of(mesh.warnings().begin(), mesh.warnings().end(), says);
+}
+
+TEST_F(Io, ObjNormalsThatAreMissingOrMangledAreAWarning)
+{
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn none\nvn 0 1\nvn nan 0 1\n"
+                             "f 1//1 2//9 3//-7\nf 1//2 3//x 4//\nf 1/ 2// 3/7/\n";
+    const MeshFile mesh = read("n.obj", text);
+    EXPECT_EQ(mesh.triangles(), rows({ { 0, 1, 2 }, { 0, 2, 3 }, { 0, 1, 2 } }));
+    EXPECT_TRUE(has_warning(mesh, "3 normals are not three numbers"));
+    EXPECT_TRUE(has_warning(mesh, "3 corners of faces name a normal that does not exist"));
+    const std::string moved = written(mesh, turned(mesh.positions()));
+    EXPECT_NE(moved.find("vn none\nvn 0 1\nvn nan 0 1\nf 1//1 2//9 3//-7\n"), std::string::npos) << moved;
+    EXPECT_TRUE(read("a.obj", samples::obj()).warnings().empty());
+}
+
+/// A strip of triangles with a vertex more that no face uses.
+std::string strip_with_a_stray(const std::string& stray)
+{
+    std::string obj = "v " + stray + "\n", faces;
+    for (int i = 0; i < 40; ++i) {
+        obj += "v " + std::to_string(0.1 * (i / 2)) + " " + std::to_string(i % 2) + " 0\n";
+        if (i > 1)
+            faces += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+    }
+    return obj + faces;
+}
+
+TEST_F(Io, VerticesThatNoFaceUsesAreLeftOutWhereTheyAreFarAwayAndWrittenAsTheyWere)
+{
+    for (const std::string stray : { "1e30 -1e30 1e30", "nan 0 0", "0 inf 0", "5000 0 0" }) {
+        const MeshFile mesh = read("s.obj", strip_with_a_stray(stray));
+        EXPECT_LE(mesh.positions().cwiseAbs().maxCoeff(), 2) << stray;
+        EXPECT_TRUE(has_warning(mesh, "1 vertices that no face uses")) << stray;
+        EXPECT_NE(written(mesh, turned(mesh.positions())).find("v " + stray + "\n"), std::string::npos) << stray;
+        EXPECT_EQ(written(mesh, mesh.positions()), strip_with_a_stray(stray));
+    }
+    const MeshFile near = read("s.obj", strip_with_a_stray("5 0 0"));
+    EXPECT_TRUE(near.warnings().empty());
+    EXPECT_EQ(near.positions()(0, 0), 5);
+    const std::string ply = with(samples::ascii_ply(), "8 0 1 1 -5 0\n4 0 1 2 3 42", "8 0 nan 1 -5 0\n3 0 1 2 42");
+    EXPECT_TRUE(read("s.ply", ply).positions().allFinite());
+    const std::string off = with(with(samples::off(), "0 1 0 255 0 0", "0 nan 0 255 0 0"), "3 0 2 3", "3 0 2 1");
+    EXPECT_TRUE(read("s.off", off).positions().allFinite());
+    expect_complaint("s.off", with(samples::off(), "0 1 0 255 0 0", "0 nan 0 255 0 0"), "is not finite");
+}
+
+TEST_F(Io, NormalsAgainstTheFacesTellOfALeftHandedProgram)
+{
+    EXPECT_TRUE(has_warning(read("l.off", with(samples::off_with_normals(), "4 0 1 2 3", "4 3 2 1 0")), "left-handed"));
+    EXPECT_TRUE(read("r.off", samples::off_with_normals()).warnings().empty());
+    const std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n";
+    EXPECT_TRUE(has_warning(read("l.obj", obj), "left-handed"));
+    EXPECT_TRUE(read("r.obj", with(obj, "vn 0 0 -1", "vn 0 0 1")).warnings().empty());
 }
 
 TEST_F(Io, RefusesToWriteWhereNothingCanBeWrittenAndLeavesNothing)

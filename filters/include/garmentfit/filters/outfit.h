@@ -34,6 +34,7 @@ struct OutfitRequest {
     bool hide_covered_skin
         = false;  ///< leaves out faces of the body that clothes cover in all poses of everyday movement
     std::optional<AvatarFile> avatar = {};  ///< whose file the body was read from, where it has a skin
+    bool is_stripped = false;  ///< vertices of the body without faces are clothes that its file is to lose
 };
 
 /// "garmentfit", "vrm", "mixamo", "unreal" and "smpl".

@@ -15,6 +15,12 @@
 
 namespace garmentfit {
 
+/// A run of triangles with names: a primitive of glTF. Names are empty where the file has none.
+struct MeshPart {
+    std::string material, mesh, node;
+    Eigen::Index first_triangle = 0, triangles = 0;
+};
+
 /// A mesh file that can be written again with other positions. Vertices, order, polygons, UVs, groups, materials,
 /// comments and extra properties stay as they are. Normals turn with the surface.
 class GARMENTFIT_API MeshFile {
@@ -27,7 +33,9 @@ public:
     /// The same for files that may have no faces, such as the points of a scanner. @throws InvalidInput.
     static MeshFile read_points(const std::filesystem::path& path);
 
-    const Positions& positions() const;  ///< in the file's units and axes; STL welded, glTF nodes applied
+    /// In the file's units and axes; STL welded, glTF nodes applied. Vertices without faces that lie far away, or are
+    /// not finite, are in the middle of the others here; write() keeps them as they were.
+    const Positions& positions() const;
     const Triangles& triangles() const;  ///< polygons cut into fans
     const std::filesystem::path& path() const;  ///< where it was read from
     const std::string& format() const;  ///< "obj", "ply", "off", "stl", "glb" (also of FBX and COLLADA) or "gltf"
@@ -42,6 +50,13 @@ public:
     /// warning. Reads files beside this one. O(n).
     Appearance appearance() const;
 
+    /// What was odd in the file and does not matter to the surface, in whole sentences: normals that are missing, or
+    /// that point against the faces; vertices without faces that lie far away.
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+    /// All triangles in named runs, in their order. Of glTF; empty for other formats.
+    std::vector<MeshPart> parts() const;
+
     /// Files beside this one that it names, as it names them, and those that these name: materials and pictures of OBJ.
     std::vector<std::string> companions() const;
 
@@ -50,6 +65,9 @@ public:
 private:
     std::shared_ptr<const Content> content_;
     std::filesystem::path path_;
+    Positions positions_;
+    std::vector<int> strays_;  ///< rows that were moved to the middle
+    std::vector<std::string> warnings_;
 };
 
 /// One named column of vertex data for write_ply; `integer` columns are written as int, the others as double.

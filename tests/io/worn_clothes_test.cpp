@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/worn_clothes.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+#include "garmentfit/skinned_gltf.h"
+#include "temporary_folder.h"
+
+namespace {
+
+using namespace garmentfit;
+
+/// A person of capsules in a shirt, trousers and hair, each a mesh of its own.
+class WornClothes : public fixtures::TemporaryFolder {
+protected:
+    const fixtures::Person person = fixtures::capsule_person();
+
+    /// Skin of some bones only.
+    TriangleMesh skin_of(const std::vector<Bone>& left_out) const
+    {
+        std::vector<int> rows;
+        for (Eigen::Index f = 0; f < person.mesh.triangles.rows(); ++f)
+            if (std::find(left_out.begin(), left_out.end(),
+                          nearest_bone(person.mesh.positions.row(person.mesh.triangles(f, 0))))
+                == left_out.end())
+                rows.push_back(int(f));
+        return { person.mesh.positions, person.mesh.triangles(rows, Eigen::all) };
+    }
+
+    Bone nearest_bone(const Vec3& place) const
+    {
+        const auto distance = [&](int b) {
+            return fixtures::segment_distance(place, person.skeleton.head(b), person.skeleton.tail(b));
+        };
+        int nearest = 0;
+        for (int b = 1; b < bone_count; ++b)
+            if (distance(b) < distance(nearest))
+                nearest = b;
+        return Bone(nearest);
+    }
+
+    SkinnedMesh part(const std::string& name, const TriangleMesh& mesh) const
+    {
+        SkinWeights weights = fixtures::on_bone(lowerback, mesh.positions.rows());
+        for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+            weights.bones(v, 0) = nearest_bone(mesh.positions.row(v));
+        return { name, mesh, weights };
+    }
+
+    SkinnedMesh sleeve(const std::string& name, Bone bone) const
+    {
+        const GarmentMesh tube = fixtures::sleeve_round(person.skeleton, bone, 0.12, 0.03, 0.2);
+        return part(name, { tube.positions, tube.triangles });
+    }
+
+    /// @param names  of the two sleeves and of a tuft of hair
+    MeshFile write(const TriangleMesh& skin, const std::vector<std::string>& names) const
+    {
+        write_skinned_glb(
+            folder / "avatar.glb", person.skeleton,
+            { part("Body", skin), sleeve(names[0], lhumerus), sleeve(names[1], lfemur), sleeve(names[2], upperneck) });
+        return MeshFile::read(folder / "avatar.glb");
+    }
+
+    static bool warns(const StrippedBody& body, const std::string& words)
+    {
+        return std::any_of(body.warnings.begin(), body.warnings.end(),
+                           [&](const std::string& text) { return text.find(words) != std::string::npos; });
+    }
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(WornClothes, AreLeftOutWhereSkinIsUnderThem)
+{
+    const MeshFile avatar = write(person.mesh, { "Wolf3D_Outfit_Top", "Bottoms01", "HatHair" });
+    const StrippedBody body = strip_clothes(avatar);
+    EXPECT_EQ(body.stripped, (Names { "Wolf3D_Outfit_Top", "Bottoms01" }));
+    EXPECT_TRUE(body.warnings.empty());
+    const Eigen::Index sleeve_triangles = fixtures::sleeve_round(person.skeleton, lfemur, 0.1, 0, 0.2).triangles.rows();
+    ASSERT_EQ(Eigen::Index(body.kept.size()), person.mesh.triangles.rows() + sleeve_triangles);
+    EXPECT_EQ(triangles_of(avatar, body).topRows(person.mesh.triangles.rows()), person.mesh.triangles);
+    EXPECT_EQ(body.kept.back(), int(avatar.triangles().rows()) - 1) << "the hair stays";
+}
+
+TEST_F(WornClothes, StayWhereTheFileHasNoSkinUnderThemAndAWarningSaysWhere)
+{
+    const MeshFile avatar = write(skin_of({ lhumerus }), { "Shirt", "Trousers", "Hair" });
+    const StrippedBody body = strip_clothes(avatar);
+    EXPECT_EQ(body.stripped, Names { "Trousers" });
+    EXPECT_TRUE(warns(body, "Shirt is not left out, as the file has no skin under it at lhumerus"));
+}
+
+TEST_F(WornClothes, AreNotGuessedAtWithoutNamesOrJoints)
+{
+    const StrippedBody unnamed = strip_clothes(write(person.mesh, { "part1", "eye_socket", "Headband_Hair" }));
+    EXPECT_TRUE(unnamed.stripped.empty());
+    EXPECT_TRUE(warns(unnamed, "no part of the file is named as clothes"));
+
+    write_ply(folder / "body.ply", person.mesh.positions, person.mesh.triangles);
+    const StrippedBody ply = strip_clothes(MeshFile::read(folder / "body.ply"));
+    EXPECT_EQ(Eigen::Index(ply.kept.size()), person.mesh.triangles.rows());
+    EXPECT_EQ(ply.warnings.size(), 1u);
+}
+
+TEST_F(WornClothes, TakeTheirMaterialsWithThem)
+{
+    Appearance look;
+    look.material_of = { 0, 1, 2 };
+    look.uv_corners = Triangles::Zero(3, 3);
+    look.uv_corners.row(2).setConstant(7);
+    StrippedBody body;
+    body.kept = { 0, 2 };
+    const Appearance left = appearance_of(look, body);
+    EXPECT_EQ(left.material_of, (std::vector<int> { 0, 2 }));
+    ASSERT_EQ(left.uv_corners.rows(), 2);
+    EXPECT_EQ(left.uv_corners(1, 0), 7);
+    EXPECT_TRUE(appearance_of({}, body).material_of.empty());
+}
+
+}  // namespace
