@@ -102,8 +102,7 @@ inline constexpr Angles k_hip_joint_range { radians(-5.0), radians(5.0), radians
     k_forearm_range { radians(-8.0), radians(145.0), radians(-45.0), radians(45.0) },
     k_spine_range { radians(-15.0), radians(20.0), radians(-15.0), radians(15.0) };
 
-// ---- joints without names (joints_by_tree.cpp)
-// ------------------------------------------------------------------------
+// ---- joints without names (joints_by_tree.cpp) ----------------------------------------------------------------------
 
 /// What a measure usually is, and how far it may be from that.
 struct Usual {
@@ -111,7 +110,8 @@ struct Usual {
 };
 /// Dimensionless, by the length of the limb from its first to its last joint: the logarithm of its lower bone by its
 /// upper one, its first joint from the joint that both limbs hang on, and what is beyond its last joint (hand, foot; 0
-/// where these have no joints). fitted: guess, on the skeletons of Mixamo, MakeHuman, VRoid and SMPL.
+/// where these have no joints). fitted: guess, by the looks of usual skeletons; tried on one of Ready Player Me and one
+/// of VRoid.
 struct UsualLimb {
     Usual log_ratio, from_trunk, beyond;
 };
