@@ -209,13 +209,11 @@ std::vector<Tie> ties_on_border(const std::vector<Foot>& feet)
 }
 
 /// Ties along a seam between two pieces, on both of their borders; none where there is no seam.
-std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q,
-                           double least_reach)
+std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q)
 {
     const double usual = std::clamp(k_seam_edges * std::min(pieces[p].border_edge, pieces[q].border_edge),
                                     k_seam_distance, k_lining_distance),
-                 of_panels = panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)),
-                 reach = std::max({ usual, of_panels, least_reach });
+                 reach = std::max(usual, panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)));
     std::vector<Tie> ties = ties_on_border(feet.find(pieces[p].border, q, reach));
     const std::vector<Tie> back = ties_on_border(feet.find(pieces[q].border, p, reach));
     const auto is_long = [&](std::size_t tied, const Piece& piece) {
@@ -335,8 +333,7 @@ private:
 
 }  // namespace
 
-SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<int>& garments,
-                            double seam_reach)
+SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<int>& garments)
 {
     const std::vector<Piece> pieces = collect_pieces(rest, topology, garments);
     if (pieces.size() < 2)
@@ -354,7 +351,7 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
         for (std::size_t q = 0; q < p; ++q) {
             if (pieces[p].garment != pieces[q].garment || pieces[p].box.exteriorDistance(pieces[q].box) > reach)
                 continue;
-            const std::vector<Tie> seam = find_seam(feet, pieces, p, q, seam_reach);
+            const std::vector<Tie> seam = find_seam(feet, pieces, p, q);
             is_seamed |= !seam.empty();
             sewing.add_seam(p, q, seam);
             on_pieces.push_back(feet.find(pieces[p].vertices, q, reach));

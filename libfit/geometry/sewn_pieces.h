@@ -40,9 +40,8 @@ struct SewnPieces {
 /// @param rest      welded
 /// @param topology  of rest.triangles
 /// @param garments  of each vertex its garment, where `rest` has several: these are not sewn to each other. Empty: one.
-/// @param seam_reach  m, from a border to the one that it is sewn to: at least this, where that is more than usual
 /// Cost O(n log n) for each pair of pieces that are close to each other, O(n) for a single piece.
 SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology,
-                            const std::vector<int>& garments = {}, double seam_reach = 0);
+                            const std::vector<int>& garments = {});
 
 }  // namespace garmentfit
