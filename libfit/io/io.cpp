@@ -75,8 +75,9 @@ MeshFile MeshFile::read_points(const std::filesystem::path& path)
     MeshFile mesh;
     mesh.content_ = read_content(read_file(path), path);
     mesh.path_ = path;
-    mesh.positions_ = gather_strays(mesh.content_->positions, mesh.triangles());
-    mesh.strays_ = stray_vertices(mesh.content_->positions, mesh.triangles());
+    const Positions& in_file = mesh.content_->positions;
+    mesh.strays_ = stray_vertices(in_file, mesh.triangles());
+    mesh.positions_ = mesh.strays_.empty() ? in_file : gather_strays(in_file, mesh.triangles());
     mesh.warnings_ = warnings_about(*mesh.content_, mesh.strays_.size());
     return mesh;
 }
