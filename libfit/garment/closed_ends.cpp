@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "disjoint_sets.h"
+#include "panel.h"
 #include "quantile.h"
 #include "surface_measures.h"
 #include "topology.h"
@@ -63,6 +64,42 @@ public:
     }
 
     bool is_closed() const { return topology_.border_edges().empty(); }
+
+    /// Whether each face belongs to a panel with thickness, whose sides are flat: a closed piece, like a sphere, with
+    /// less than half of the cloth.
+    std::vector<char> mark_panels() const
+    {
+        struct Piece {
+            double volume = 0, area = 0;  // m^3, m^2
+            int faces = 0, vertices = 0;
+            bool is_closed = true;
+        };
+        DisjointSets joined(int(positions_.rows()));
+        for (const auto& corners : faces_.rowwise())
+            for (int k = 0; k < 2; ++k)
+                joined.join(corners[k], corners[k + 1]);
+        std::vector<Piece> pieces(std::size_t(positions_.rows()));  // by the root
+        double area = 0;
+        for (int v = 0; v < int(positions_.rows()); ++v)
+            ++pieces[joined.root(v)].vertices;
+        for (int f = 0; f < int(faces_.rows()); ++f) {
+            Piece& piece = pieces[joined.root(faces_(f, 0))];
+            const Vec3 from = positions_.row(joined.root(faces_(f, 0)));
+            piece.volume += areas_[f].dot(Vec3(positions_.row(faces_(f, 0))) - from) / 3;
+            piece.area += areas_[f].norm();
+            ++piece.faces;
+            area += areas_[f].norm();
+        }
+        for (const int edge : topology_.border_edges())
+            pieces[joined.root(topology_.edges()(edge, 0))].is_closed = false;
+        std::vector<char> result;
+        for (int f = 0; f < int(faces_.rows()); ++f) {
+            const Piece& piece = pieces[joined.root(faces_(f, 0))];
+            result.push_back(piece.is_closed && piece.area < area / 2 && 2 * piece.vertices - piece.faces > 0
+                             && is_panel(thickness_of(piece.volume, piece.area), piece.area));
+        }
+        return result;
+    }
 
 private:
     /// Holes that were filled with a fan around a vertex. No garment has such a vertex elsewhere, so the cloth around
@@ -300,7 +337,9 @@ private:
 OpenedGarment open_ends(const GarmentMesh& garment)
 {
     Caps found(garment, Weld(garment));
-    const std::vector<std::vector<int>> caps = found.find();
+    std::vector<std::vector<int>> caps = found.find();
+    if (!caps.empty())
+        std::erase_if(caps, [panels = found.mark_panels()](const std::vector<int>& cap) { return panels[cap[0]]; });
     if (caps.empty() || (found.is_closed() && caps.size() < k_least_ends))
         return { garment, 0 };
     std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);

@@ -99,6 +99,21 @@ TEST(ClosedEnds, OfAGarmentClosedEverywhereAreOpenedThoughTheyAreNotFlat)
     EXPECT_EQ(result.garment.triangles, open.triangles);
 }
 
+TEST(ClosedEnds, AreNotTheSidesOfPanelsWithThickness)
+{
+    constexpr double size = 0.3, thickness = 0.002;
+    const TriangleMesh side = fixtures::sheet(10, size / 9, [](double, double) { return 0; });
+    const Positions down = Eigen::RowVector3d(0, -thickness, 0).replicate(side.positions.rows(), 1);
+    TriangleMesh panels = fixtures::thickened(side, down);
+    for (int i = 1; i < 4; ++i) {
+        TriangleMesh next = fixtures::thickened(side, down);
+        next.positions.col(0).array() += 1.01 * i * size;
+        panels = fixtures::joined(panels, next);
+    }
+    EXPECT_EQ(opened(panels).closed_ends, 0);
+    EXPECT_EQ(opened(panels).garment.triangles.rows(), panels.triangles.rows());
+}
+
 TEST(ClosedEnds, OfSolidsStayClosed)
 {
     for (const Cap cap : { Cap::around_centre, Cap::around_corner })
