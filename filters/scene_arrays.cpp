@@ -64,6 +64,7 @@ std::vector<NamedArray> certificate_arrays(const Certificate& c, double metres_p
              counts("SelfCrossings", { c.self_crossings }),
              counts("InputSelfCrossings", { c.input_self_crossings }),
              counts("KeptSelfCrossings", { int(c.kept_self_crossings.size()) }),
+             counts("ShiftedSelfCrossings", { c.shifted_self_crossings }),
              counts("LayerCrossings", { c.layer_crossings }),
              counts("VerticesInside", { c.vertices_inside }),
              numbers("GarmentMinDistance", { c.min_distance / metres_per_unit }),

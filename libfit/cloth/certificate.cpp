@@ -7,19 +7,16 @@
 #include "contact.h"
 #include "disjoint_sets.h"
 #include "exact_crossings.h"
+#include "given_crossings.h"
 #include "parallel.h"
 #include "quantile.h"
 #include "stretch.h"
-#include "topology.h"
 #include "used_vertices.h"
 #include "winding_number.h"
 
 namespace garmentfit {
 namespace {
 
-// unit: a fraction of the edge and of the triangle. What crosses nearer to a border may come out of any rounding as
-// crossing or as not.
-constexpr double k_inside_margin = 1e-7;
 // derived: around a closed surface winding numbers are 0 or 1.
 constexpr double k_inside = 0.5;
 
@@ -39,98 +36,6 @@ std::vector<Crossing> crossings(const IndexedMesh& a, const IndexedMesh& b)
 }
 
 std::vector<Crossing> self_crossings(const IndexedMesh& a) { return find_self_crossings(a.mesh, a.edges, a.tree); }
-
-// Well inside both of them.
-bool surely_crosses(const TriangleMesh& mesh, const Edges& edges, const Crossing& crossing)
-{
-    const auto corner = [&](int k) { return Vec3(mesh.positions.row(mesh.triangles(crossing.second, k))); };
-    const Vec3 p = mesh.positions.row(edges(crossing.first, 0)), q = mesh.positions.row(edges(crossing.first, 1));
-    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    const double along = (corner(0) - p).dot(normal) / (q - p).dot(normal);
-    const Vec3 place = p + along * (q - p);
-    const auto barycentric = [&](int k) {
-        const Vec3 from = corner((k + 1) % 3), to = corner((k + 2) % 3);
-        return (to - from).cross(place - from).dot(normal) / normal.squaredNorm();
-    };
-    return along > k_inside_margin && along < 1 - k_inside_margin
-        && std::min({ barycentric(0), barycentric(1), barycentric(2) }) > k_inside_margin;
-}
-
-/// The crossings of the input, sorted, by whether any rounding would find them.
-struct GivenCrossings {
-    std::vector<Crossing> sure;
-    std::vector<Crossing> touching;  ///< within a border, where the curve of a sure one passes on to the next triangle
-};
-
-// Two triangles cross along a segment, at whose ends an edge of one meets the other one.
-class SureSegments {
-public:
-    SureSegments(const MeshTopology& topology, const std::vector<Crossing>& sure) : topology_(topology)
-    {
-        for (const Crossing& crossing : sure)
-            add_segments(crossing, pairs_);
-        std::sort(pairs_.begin(), pairs_.end());
-    }
-
-    bool continue_at(const Crossing& crossing) const
-    {
-        std::vector<Pair> at;
-        add_segments(crossing, at);
-        return std::any_of(at.begin(), at.end(),
-                           [&](const Pair& pair) { return std::binary_search(pairs_.begin(), pairs_.end(), pair); });
-    }
-
-private:
-    using Pair = std::pair<int, int>;  // of triangles, the smaller number first
-
-    void add_segments(const Crossing& crossing, std::vector<Pair>& pairs) const
-    {
-        for (const int side : topology_.sides_at(crossing.first))
-            pairs.push_back(std::minmax(side / 3, crossing.second));
-    }
-
-    const MeshTopology& topology_;
-    std::vector<Pair> pairs_;
-};
-
-GivenCrossings given_crossings(const TriangleMesh& given, const Edges& edges, const std::vector<Crossing>& all)
-{
-    GivenCrossings result;
-    std::vector<Crossing> touching;
-    for (const Crossing& crossing : all)
-        (surely_crosses(given, edges, crossing) ? result.sure : touching).push_back(crossing);
-    if (result.sure.empty() || touching.empty())
-        return result;
-    const MeshTopology topology(given.triangles, int(given.positions.rows()));
-    const SureSegments segments(topology, result.sure);
-    for (const Crossing& crossing : touching)
-        if (segments.continue_at(crossing))
-            result.touching.push_back(crossing);
-    return result;
-}
-
-/// The present crossings, by whether the input had them.
-struct SelfCrossings {
-    std::vector<Crossing> kept;
-    int fresh = 0;
-};
-
-// A pair that only touched in the input did not cross there, unless cloth crosses on both sides of it. Where more pairs
-// cross now than surely did before, none that touched is known: others may count it as new.
-SelfCrossings compare_self_crossings(const GivenCrossings& given, const std::vector<Crossing>& present)
-{
-    const auto is_among = [](const std::vector<Crossing>& known, const Crossing& crossing) {
-        return std::binary_search(known.begin(), known.end(), crossing);
-    };
-    const bool forgives_touching = present.size() <= given.sure.size();
-    SelfCrossings result;
-    for (const Crossing& crossing : present)
-        if (is_among(given.sure, crossing) || (forgives_touching && is_among(given.touching, crossing)))
-            result.kept.push_back(crossing);
-        else
-            ++result.fresh;
-    return result;
-}
 
 // The winding number is the same along an edge that does not cross the body: one evaluation serves a whole piece.
 int count_vertices_inside(const TriangleMesh& body, const IndexedMesh& garment,
@@ -200,9 +105,10 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     result.body_crossings = int(through_body.size() + crossings(obstacle, garment).size());
     const std::vector<Crossing> crossed_before = self_crossings(IndexedMesh(given, garment.edges));
     result.input_self_crossings = int(crossed_before.size());
-    SelfCrossings self
-        = compare_self_crossings(given_crossings(given, garment.edges, crossed_before), self_crossings(garment));
-    result.self_crossings = self.fresh;
+    ComparedCrossings self
+        = GivenCrossings(given, garment.edges, crossed_before).compare(positions, self_crossings(garment));
+    result.self_crossings = int(self.fresh.size());
+    result.shifted_self_crossings = int(self.shifted.size());
     result.kept_self_crossings = std::move(self.kept);
     for (const TriangleMesh& mesh : under) {
         const IndexedMesh layer(mesh);

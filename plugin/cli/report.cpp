@@ -95,6 +95,7 @@ void put_certificate(Json& json, const WornGarment& garment, double metres_per_u
     json["crossings"] = { { "body", c.body_crossings },
                           { "self", c.self_crossings },
                           { "self_input", c.input_self_crossings },
+                          { "self_shifted", c.shifted_self_crossings },
                           { "layers", c.layer_crossings } };
     json["self_kept"] = crossings_of(c.kept_self_crossings, garment, metres_per_unit);
     json["vertices_inside"] = c.vertices_inside;

@@ -22,6 +22,7 @@ nb::dict certificate_of(const Certificate& c, double metres_per_unit)
     made["self_crossings"] = c.self_crossings;
     made["input_self_crossings"] = c.input_self_crossings;
     made["kept_self_crossings"] = c.kept_self_crossings.size();
+    made["shifted_self_crossings"] = c.shifted_self_crossings;
     made["layer_crossings"] = c.layer_crossings;
     made["vertices_inside"] = c.vertices_inside;
     made["min_distance"] = c.min_distance / metres_per_unit;

@@ -107,6 +107,42 @@ TEST(Certificate, KnowsACurveThatPassesExactlyThroughAnEdge)
     EXPECT_GT(after({ 0.01, -0.05, 0 }), 0) << "into the triangle that it only touched";
 }
 
+/// Two sheets of 1 m that lie on each other, one of them tilted about a line across, along which they cross.
+/// @param line  m, where it is
+TriangleMesh doubled_sheet(double line)
+{
+    constexpr int n = 60;
+    constexpr double tilt = 5e-4, spacing = 1. / (n - 1);
+    TriangleMesh lower = flat(n, spacing, Vec3::Zero()), upper = lower;
+    upper.positions.rowwise() += Eigen::RowVector3d(0.2 * spacing, 0, 0.3 * spacing);  // so that no edge meets an edge
+    upper.positions.col(1) = tilt * (upper.positions.col(0).array() - line);
+    return joined(lower, upper);
+}
+
+TEST(Certificate, FollowsACurveThatWentOnBetweenSheetsThatLieOnEachOther)
+{
+    const TriangleMesh given = doubled_sheet(0.503), body = ball(0.05, Vec3(0, 5, 0));
+    const GarmentMesh rest { given.positions, given.triangles };
+    const auto crossed_at = [&](double line) { return certify(body, rest, doubled_sheet(line).positions); };
+    EXPECT_EQ(crossed_at(0.503).shifted_self_crossings, 0);
+    const Certificate near = crossed_at(0.523);
+    EXPECT_GT(near.shifted_self_crossings, 0);
+    EXPECT_TRUE(near.clean());
+    EXPECT_GT(crossed_at(0.6).self_crossings, 0) << "far from where it was";
+}
+
+TEST(Certificate, CallsCrossingsNewThatAreMoreThanTheGivenOnes)
+{
+    const TriangleMesh given = doubled_sheet(0.503), body = ball(0.05, Vec3(0, 5, 0));
+    Positions moved = doubled_sheet(0.523).positions;
+    const int n = int(moved.rows()) / 2;
+    for (int v = n; v < 2 * n; v += 7)  // up and down through the lower sheet
+        moved(v, 1) *= -1;
+    const Certificate more = certify(body, { given.positions, given.triangles }, moved);
+    EXPECT_EQ(more.shifted_self_crossings, 0);
+    EXPECT_GT(more.self_crossings, more.input_self_crossings);
+}
+
 TEST(Certificate, MeasuresStrainAgainstTheRestLengths)
 {
     const TriangleMesh mesh = ball(0.2);

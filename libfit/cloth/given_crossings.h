@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Tells the crossings of a garment with itself from those that it was given with.
+
+#include <optional>
+#include <vector>
+
+#include "garmentfit/certificate.h"
+#include "nearest.h"
+#include "topology.h"
+
+namespace garmentfit {
+
+/// Crossings of a moved garment with itself, each in one of these, in ascending order.
+struct ComparedCrossings {
+    std::vector<Crossing> kept;  ///< pairs that it was given with
+    std::vector<Crossing> shifted;  ///< pairs beside these (Certificate::shifted_self_crossings)
+    std::vector<Crossing> fresh;
+};
+
+/// m; how far the two places that meet in a crossing were from each other at rest.
+double gap_at_rest(const TriangleMesh& rest, const Edges& edges, const Positions& positions, const Crossing& crossing);
+
+class GivenCrossings {
+public:
+    /// @param given     the garment at rest, its edges, and its crossings; ascending. The garment and its edges have to
+    ///                  live as long.
+    GivenCrossings(const TriangleMesh& given, const Edges& edges, const std::vector<Crossing>& crossings);
+
+    /// @param present  the crossings of the garment where it is now; ascending
+    ComparedCrossings compare(const Positions& positions, const std::vector<Crossing>& present) const;
+
+private:
+    bool is_shifted(const Positions& positions, const Crossing& crossing) const;
+
+    const TriangleMesh& given_;
+    const Edges& edges_;
+    std::size_t count_;  // of all that were given
+    std::vector<Crossing> sure_;  // whatever the rounding
+    std::vector<Crossing> touching_;  // within a border, where the curve of a sure one passes on to the next triangle
+    std::optional<NearestPoint> places_;  // of the sure ones
+    double largest_shift_ = 0, largest_gap_ = 0;  // m
+};
+
+}  // namespace garmentfit
