@@ -17,6 +17,7 @@
 #include "disjoint_sets.h"
 #include "garment_openings.h"
 #include "garmentfit/closed_ends.h"
+#include "kept_wraps.h"
 #include "near_vertices.h"
 #include "outer_sheet.h"
 #include "panel.h"
@@ -361,30 +362,110 @@ bool has_many_borders(const TriangleMesh& cloth)
     return length > k_longest_borders * diagonal(cloth.positions);
 }
 
-/// The outer sheet of what is wrapped closely round all parts. The wrap spans the gaps between them, but not the
-/// openings for a body.
-TriangleMesh wrap_parts(const TriangleMesh& cloth)
+/// A garment as it is read without a wrap.
+struct PlainReading {
+    Triangles opened;  ///< as given without closed ends
+    TriangleMesh cloth;  ///< without gaps between panels, each patch oriented outwards
+    TriangleMesh outer;  ///< without the inner sheets of thick cloth
+    bool serves;  ///< it is no garment in parts, and has openings or is a sealed one
+};
+
+/// A wrap round all parts, oriented outwards. It spans the gaps between them, but not the openings for a body.
+struct Wrap {
+    TriangleMesh surface;
+    std::vector<Patch> patches;
+};
+
+Wrap wrap_parts(const GarmentMesh& garment, const PlainReading& plain)
 {
-    TriangleMesh wrap = wrap_surface(cloth, k_garment_wrap, k_garment_wrap_offset);
-    const std::vector<Patch> patches = collect_patches(wrap);
-    orient_outwards(wrap, patches);
-    return drop_inner_sheets(wrap, patches, INFINITY);
+    static KeptWraps kept;
+    const auto make = [&] { return wrap_surface(plain.cloth, k_garment_wrap, k_garment_wrap_offset); };
+    Wrap wrap { kept.of(garment, plain.opened, make), {} };
+    wrap.patches = collect_patches(wrap.surface);
+    orient_outwards(wrap.surface, wrap.patches);
+    return wrap;
+}
+
+TriangleMesh outer_sheet_of(const Wrap& wrap) { return drop_inner_sheets(wrap.surface, wrap.patches, INFINITY); }
+
+/// The largest connected part of some faces.
+std::vector<int> largest_part(const std::vector<int>& faces, const std::vector<int>& opposite)
+{
+    std::vector<char> is_left(opposite.size() / 3, 0);
+    for (const int f : faces)
+        is_left[f] = 1;
+    std::vector<int> largest;
+    for (const int seed : faces) {
+        if (!is_left[seed])
+            continue;
+        std::vector<int> part { seed };
+        is_left[seed] = 0;
+        for (std::size_t next = 0; next < part.size(); ++next)
+            for (int k = 0; k < 3; ++k)
+                if (const int other = opposite[3 * part[next] + k]; other >= 0 && is_left[other / 3]) {
+                    is_left[other / 3] = 0;
+                    part.push_back(other / 3);
+                }
+        if (part.size() > largest.size())
+            largest = std::move(part);
+    }
+    return largest;
+}
+
+/// The other sheet of the largest patch, facing outwards, without what is cut off from its largest part.
+GarmentMesh inner_sheet_of(const Wrap& wrap)
+{
+    const Patch& patch = *std::max_element(wrap.patches.begin(), wrap.patches.end(),
+                                           [](const Patch& a, const Patch& b) { return a.area < b.area; });
+    const std::vector<int> opposite = opposite_edges(wrap.surface.triangles, int(wrap.surface.positions.rows()));
+    std::vector<char> is_outer(wrap.surface.triangles.rows(), 0);
+    for (const int f : outer_sheet(wrap.surface, patch.faces, opposite, thickness_of(patch)))
+        is_outer[f] = 1;
+    std::vector<int> inner;
+    std::copy_if(patch.faces.begin(), patch.faces.end(), std::back_inserter(inner),
+                 [&](int f) { return !is_outer[f]; });
+    GarmentMesh sheet;
+    sheet.positions = wrap.surface.positions;
+    sheet.triangles = wrap.surface.triangles(largest_part(inner, opposite), Eigen::all);
+    sheet.triangles.col(1).swap(sheet.triangles.col(2));
+    TriangleMesh used = weld_vertices(sheet);
+    return { std::move(used.positions), std::move(used.triangles) };
+}
+
+constexpr std::size_t k_fewest_openings = 2;  // derived: a body enters through one and comes out at another
+
+PlainReading read_plainly(const GarmentMesh& garment)
+{
+    const GarmentMesh opened = open_ends(garment).garment;
+    PlainReading reading { opened.triangles, close_gaps(weld(opened)), {}, false };
+    const std::vector<Patch> patches = collect_patches(reading.cloth);
+    const bool is_in_parts = has_panels(reading.cloth, patches) || has_many_borders(reading.cloth);
+    orient_outwards(reading.cloth, patches);
+    reading.outer = drop_inner_sheets(reading.cloth, patches);
+    reading.serves = !is_in_parts && (is_sealed(reading.outer) || count_openings(reading.outer) >= k_fewest_openings);
+    return reading;
 }
 
 }  // namespace
 
 TriangleMesh outward_cloth(const GarmentMesh& garment)
 {
-    constexpr std::size_t k_fewest_openings = 2;  // derived: a body enters through one and comes out at another
-    TriangleMesh cloth = close_gaps(weld(open_ends(garment).garment));
-    const std::vector<Patch> patches = collect_patches(cloth);
-    const bool is_in_parts = has_panels(cloth, patches) || has_many_borders(cloth);
-    orient_outwards(cloth, patches);
-    TriangleMesh outer = drop_inner_sheets(cloth, patches);
-    if (!is_in_parts && (is_sealed(outer) || count_openings(outer) >= k_fewest_openings))
-        return outer;
-    TriangleMesh wrapped = wrap_parts(cloth);
-    return count_openings(wrapped) >= k_fewest_openings ? wrapped : outer;
+    PlainReading plain = read_plainly(garment);
+    if (plain.serves)
+        return std::move(plain.outer);
+    TriangleMesh wrapped = outer_sheet_of(wrap_parts(garment, plain));
+    return count_openings(wrapped) >= k_fewest_openings ? wrapped : std::move(plain.outer);
+}
+
+std::optional<GarmentMesh> lining_of_parts(const GarmentMesh& garment)
+{
+    const PlainReading plain = read_plainly(garment);
+    if (plain.serves)
+        return {};
+    const Wrap wrap = wrap_parts(garment, plain);
+    if (count_openings(outer_sheet_of(wrap)) < k_fewest_openings)
+        return {};
+    return inner_sheet_of(wrap);
 }
 
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)

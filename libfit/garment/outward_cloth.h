@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "garmentfit/mesh.h"
 
 namespace garmentfit {
@@ -12,6 +14,10 @@ namespace garmentfit {
 /// which takes some seconds: of panels that are each closed by their thickness, of cloth with more border than openings
 /// have (sheets side by side or beside each other), and where only one opening is found.
 TriangleMesh outward_cloth(const GarmentMesh& garment);
+
+/// The inner sheet of that wrap: one layer of cloth that goes round the body inside of all parts, facing outwards, in
+/// one piece. None where outward_cloth needs no wrap. The same cost.
+std::optional<GarmentMesh> lining_of_parts(const GarmentMesh& garment);
 
 /// About the origin.
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn);
