@@ -63,6 +63,10 @@ void scale(WornGarment& garment, double factor)
     garment.certificate.min_distance *= factor;
     garment.slipped *= factor;
     garment.piece_shift *= factor;
+    if (garment.stand_in) {
+        garment.stand_in->rest.positions *= factor;
+        garment.stand_in->positions *= factor;
+    }
 }
 
 void scale(RecoverFrame& frame, double factor)
@@ -158,8 +162,11 @@ Scene scale_scene(Scene scene, double factor)
     scene.unit.metres *= factor;
     scene.body->surface.positions *= factor;
     scene.body->closed.positions *= factor;
-    for (GarmentInput& garment : scene.garments)
+    for (GarmentInput& garment : scene.garments) {
         garment.mesh.positions *= factor;
+        if (garment.stand_in && *garment.stand_in)
+            (*garment.stand_in)->positions *= factor;
+    }
     if (scene.rig)
         scale(*scene.rig, factor);
     for (FitResult& fit : scene.fits)

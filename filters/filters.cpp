@@ -12,6 +12,7 @@
 #include "garmentfit/number_text.h"
 #include "garmentfit/stopwatch.h"
 #include "other_wearings.h"
+#include "stand_ins.h"
 
 namespace garmentfit {
 namespace {
@@ -302,9 +303,9 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 }
 
 /// Without fits, the garments are in the order in which they were given.
-std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
+std::vector<std::size_t> worn_from_inside_out(const Scene& scene, const Dressing& dressing)
 {
-    std::vector<std::size_t> worn = scene.draped->worn();
+    std::vector<std::size_t> worn = dressing.worn();
     if (scene.fits.size() == scene.garments.size())
         std::stable_sort(worn.begin(), worn.end(),
                          [&](std::size_t a, std::size_t b) { return scene.fits[a].layer < scene.fits[b].layer; });
@@ -313,7 +314,7 @@ std::vector<std::size_t> worn_from_inside_out(const Scene& scene)
 
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    const std::vector<std::size_t> worn = worn_from_inside_out(scene);
+    const std::vector<std::size_t> worn = worn_from_inside_out(scene, *scene.draped);
     Dressing draped = select(*scene.draped, worn);
     for (std::size_t k = 0; k < worn.size(); ++k)
         draped.garments[k].fabric = scene.garments[worn[k]].fabric;
@@ -322,6 +323,31 @@ void recover(Scene& scene, const Parameters& p, const Progress& progress)
     recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
     write_given(scene, *scene.recovered, p.recover.cloth);
+}
+
+using RunStage = void(Scene&, const Parameters&, const Progress&);
+
+/// Runs a stage with stand-ins in the places of garments that need one.
+/// @param output  where it puts its dressing
+void run_with_stand_ins(RunStage& stage, std::optional<Dressing> Scene::*output, Scene& scene, const Parameters& p,
+                        const ClothOptions& cloth, const Progress& progress)
+{
+    if (!find_stand_ins(scene))
+        return stage(scene, p, progress);
+    Scene led = lead(scene);
+    stage(led, p, progress);
+    const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*output));
+    scene.*output = follow_stand_ins({ scene, led, order }, *std::move(led.*output), cloth);
+}
+
+void drape_stage(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    run_with_stand_ins(drape_all, &Scene::draped, scene, p, p.drape.cloth, progress);
+}
+
+void recover_stage(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    run_with_stand_ins(recover, &Scene::recovered, scene, p, p.recover.cloth, progress);
 }
 
 // ---- the tables ------------------------------------------------------------------------------------------------
@@ -335,8 +361,8 @@ struct StageRow {
 constexpr std::array<StageRow, k_stage_count> k_stages { {
     { "rig", "rigging the body", rig, 0.08 },
     { "fit", "fitting the skeleton", fit_all, 0.12 },
-    { "drape", "draping the garment", drape_all, 0.4 },
-    { "recover", "recovering the pose", recover, 0.4 },
+    { "drape", "draping the garment", drape_stage, 0.4 },
+    { "recover", "recovering the pose", recover_stage, 0.4 },
 } };
 
 const StageRow& row(Stage stage) { return k_stages[static_cast<int>(stage)]; }

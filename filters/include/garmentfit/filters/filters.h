@@ -47,6 +47,8 @@ struct GarmentInput {
     std::optional<bool> as_placed = {};  ///< empty: as in Parameters
     int skipped = 0;  ///< FitOptions::skipped
     std::optional<Fabric> fabric = {};  ///< empty: as in Parameters
+    /// Moves in its place (stand_in.h). Draping looks for one where there is none; without a mesh: it needs none.
+    std::optional<std::optional<GarmentMesh>> stand_in = {};
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.

@@ -44,6 +44,12 @@ struct HeldBack {
     double distance;  ///< m; of its furthest vertex from its place
 };
 
+/// Cloth that moved in the place of a garment (stand_in.h).
+struct WornStandIn {
+    GarmentMesh rest;  ///< as WornGarment::rest
+    Positions positions;
+};
+
 /// A garment on a body.
 struct WornGarment {
     GarmentMesh rest;  ///< as given without closed ends, or enlarged: edge lengths and folds
@@ -57,6 +63,7 @@ struct WornGarment {
     double piece_shift = 0;  ///< m; longest_piece_shift()
     int closed_ends = 0;  ///< flat caps at its ends, whose faces `rest` leaves out: a hand, foot or head passes there
     std::optional<Fabric> fabric = {};  ///< what it is made of, where not of the fabric of ClothOptions
+    std::optional<WornStandIn> stand_in = {};  ///< that it followed
 };
 
 /// What a garment is made of, among others of perhaps other fabrics.

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stand_ins.h"
+
+#include <algorithm>
+
+#include "garmentfit/closed_ends.h"
+#include "garmentfit/filters/outcome.h"
+#include "garmentfit/pieces.h"
+#include "garmentfit/stand_in.h"
+
+namespace garmentfit {
+namespace {
+
+bool has_stand_in(const GarmentInput& garment) { return garment.stand_in && garment.stand_in->has_value(); }
+
+GarmentMesh enlarged(GarmentMesh garment, double size)
+{
+    garment.positions *= size;
+    return garment;
+}
+
+/// Where a stand-in is that goes with a garment as it is worn. None where it would cross the body there.
+std::optional<WornStandIn> stand_in_under(const GarmentInput& garment, const WornGarment& worn,
+                                          const TriangleMesh& body)
+{
+    if (worn.stand_in)
+        return worn.stand_in;
+    GarmentMesh rest = enlarged(**garment.stand_in, worn.size);
+    Positions positions = follow(worn.rest, worn.positions, rest, { body });
+    if (crossing_count({ positions, rest.triangles }, body) > 0)
+        return {};
+    return WornStandIn { std::move(rest), std::move(positions) };
+}
+
+/// What the garments of a dressing have to keep clear of: the body and each other.
+class Company {
+public:
+    Company(const Positions& body, const Triangles& triangles, const std::vector<WornGarment>& garments) :
+        body_ { body, triangles }
+    {
+        for (const WornGarment& garment : garments)
+            clothes_.push_back({ garment.positions, garment.rest.triangles });
+    }
+
+    Surroundings around(std::size_t garment) const
+    {
+        Surroundings result { body_ };
+        for (std::size_t i = 0; i < clothes_.size(); ++i)
+            if (i != garment && clothes_[i].positions.rows() > 0)
+                result.clothes.push_back(clothes_[i]);
+        return result;
+    }
+
+    void replace(std::size_t garment, const WornGarment& worn)
+    {
+        clothes_[garment] = { worn.positions, worn.rest.triangles };
+    }
+
+private:
+    TriangleMesh body_;
+    std::vector<TriangleMesh> clothes_;
+};
+
+/// The garment in the place of its stand-in.
+WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Surroundings& around)
+{
+    auto [rest, closed_ends] = open_ends(garment.mesh);
+    WornGarment worn = led;
+    worn.stand_in = WornStandIn { led.rest, led.positions };
+    worn.rest = enlarged(std::move(rest), led.size);
+    worn.positions = follow(led.rest, led.positions, worn.rest, around);
+    worn.closed_ends = closed_ends;
+    worn.pieces = count_pieces_held(worn.rest);
+    worn.pieces.held += std::exchange(worn.pieces.free, 0);  // the stand-in takes all of them along
+    worn.piece_shift = longest_piece_shift(worn.rest, worn.positions);
+    return worn;
+}
+
+/// Certifies what is worn. @param order  from the inside out. @return whether all are clean
+bool certify_worn(std::vector<WornGarment>& garments, const std::vector<std::size_t>& order, const TriangleMesh& body)
+{
+    std::vector<WornGarment> worn;
+    for (const std::size_t i : order)
+        worn.push_back(garments[i]);
+    const bool clean = certify_all(worn, body);
+    for (std::size_t k = 0; k < order.size(); ++k)
+        garments[order[k]] = std::move(worn[k]);
+    return clean;
+}
+
+/// All garments that have stand-ins after these. @return whether all are clean
+bool follow_all(const Leading& leading, std::vector<WornGarment>& garments, const Positions& body)
+{
+    const auto& [scene, led, order] = leading;
+    const Triangles& triangles = scene.body->surface.triangles;
+    Company company(body, triangles, garments);
+    for (const std::size_t i : order)
+        if (has_stand_in(led.garments[i])) {
+            garments[i] = garment_after(scene.garments[i], garments[i], company.around(i));
+            company.replace(i, garments[i]);
+        }
+    return certify_worn(garments, order, { body, triangles });
+}
+
+/// @param led  the garments of the dressing as they were led
+void follow_in_frames(const Leading& leading, Dressing& dressing, const std::vector<WornGarment>& led)
+{
+    std::vector<RecoverFrame> clean;
+    for (RecoverFrame& frame : dressing.frames) {
+        std::vector<WornGarment> garments = led;
+        for (const std::size_t i : leading.order)
+            garments[i].positions = frame.garments[i];
+        if (!follow_all(leading, garments, frame.body))
+            continue;
+        for (const std::size_t i : leading.order)
+            frame.garments[i] = garments[i].positions;
+        clean.push_back(std::move(frame));
+    }
+    dressing.frames = std::move(clean);
+}
+
+}  // namespace
+
+bool find_stand_ins(Scene& scene)
+{
+    for (GarmentInput& garment : scene.garments)
+        if (!garment.stand_in)
+            garment.stand_in = make_stand_in(garment.mesh);
+    return std::any_of(scene.garments.begin(), scene.garments.end(), has_stand_in);
+}
+
+Scene lead(Scene scene)
+{
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+        GarmentInput& garment = scene.garments[i];
+        if (!has_stand_in(garment))
+            continue;
+        if (scene.draped && scene.draped->is_worn(i)) {
+            WornGarment& worn = scene.draped->garments[i];
+            auto stand_in = stand_in_under(garment, worn, { scene.draped->body, scene.body->surface.triangles });
+            if (!stand_in) {  // the garment itself moves on
+                garment.stand_in = std::optional<GarmentMesh>();
+                continue;
+            }
+            worn.rest = std::move(stand_in->rest);
+            worn.positions = std::move(stand_in->positions);
+        }
+        garment.mesh = **garment.stand_in;
+    }
+    return scene;
+}
+
+Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth)
+{
+    const auto& [scene, led, order] = leading;
+    const std::vector<WornGarment> led_garments = dressing.garments;
+    dressing.certified &= follow_all(leading, dressing.garments, dressing.body);
+    follow_in_frames(leading, dressing, led_garments);
+    const TriangleMesh body { dressing.body, scene.body->surface.triangles };
+    for (const std::size_t i : order)
+        if (has_stand_in(led.garments[i]))
+            dressing.maps[i] = fit_map(body, dressing.garments[i], cloth);
+    return dressing;
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Garments in many parts: their stand-ins are draped and return to the input pose, and they follow (stand_in.h,
+// docs/decisions/0033-stand-ins.md).
+
+#include "garmentfit/filters/filters.h"
+
+namespace garmentfit {
+
+/// Looks for the stand-ins of garments where nobody has. @return whether a garment has one
+bool find_stand_ins(Scene& scene);
+
+/// The scene with stand-ins in the places of their garments, also of those that are draped. A garment keeps its place,
+/// and has no stand-in there, where it is draped and its stand-in would cross the body.
+Scene lead(Scene scene);
+
+struct Leading {
+    const Scene& scene;
+    const Scene& led;  ///< lead(scene)
+    const std::vector<std::size_t>& order;  ///< which of the garments are worn, from the inside out
+};
+
+/// Takes the garments of a dressing of the led scene where their stand-ins went; each is certified. Frames in which one
+/// is not clean are left out.
+Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth);
+
+}  // namespace garmentfit

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One sheet of cloth that moves in the place of a garment in many parts, and takes it along.
+//
+// Method   The stand-in is the inner sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all parts. Each vertex of
+//          the garment keeps its place over the nearest triangle of it, in a frame that turns with the cloth (embedded
+//          deformation [sumner_2007_embedded_deformation]). What then meets the body is drawn in towards the stand-in,
+//          which does not, and parts that meet each other are untangled.
+// Units    metres.
+
+#include <optional>
+#include <vector>
+
+#include "garmentfit/export.h"
+#include "garmentfit/mesh.h"
+
+namespace garmentfit {
+
+/// A stand-in, for clothes that cannot be read as one layer of cloth: panels that are closed slabs, sheets that lie on
+/// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md). None for all others.
+/// Cost: 4 to 8 s where there is one, whatever the size of the garment; else O(n log n).
+/// @param garment  on a body of human size
+GARMENTFIT_API std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment);
+
+/// What a garment has to keep clear of.
+struct Surroundings {
+    TriangleMesh body;  ///< closed
+    std::vector<TriangleMesh> clothes = {};  ///< that are worn with it
+};
+
+/// Where a garment goes with its stand-in, n x 3. Clear of its surroundings as far as it can be, which a certificate has
+/// to tell. Cost O(n log n), and that of untangling.
+/// @param stand_in  at rest
+/// @param worn      positions of the stand-in
+/// @param garment   at rest
+GARMENTFIT_API Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
+                                const Surroundings& around);
+
+}  // namespace garmentfit

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/stand_in.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/SVD>
+
+#include "barycentric.h"
+#include "exact_crossings.h"
+#include "given_crossings.h"
+#include "nearest.h"
+#include "outward_cloth.h"
+#include "parallel.h"
+#include "prepared_cloth.h"
+#include "topology.h"
+#include "tuning.h"
+#include "untangle.h"
+#include "winding_number.h"
+
+namespace garmentfit {
+namespace {
+
+constexpr double k_inside = 0.5;  // derived: around a closed surface winding numbers are 0 or 1
+
+/// The rotation that takes the triangles round each vertex from rest to where they are, by least squares.
+std::vector<Eigen::Matrix3d> rotations(const GarmentMesh& rest, const Positions& worn)
+{
+    std::vector<Eigen::Matrix3d> moved(rest.positions.rows(), Eigen::Matrix3d::Zero());
+    for (const auto& corners : rest.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) {
+            const int a = corners[k], b = corners[(k + 1) % 3], c = corners[(k + 2) % 3];
+            const auto side = [a](const Positions& x, int to) { return Vec3(x.row(to) - x.row(a)); };
+            const Vec3 p = side(rest.positions, b), q = side(rest.positions, c), r = side(worn, b), s = side(worn, c);
+            moved[a] += r * p.transpose() + s * q.transpose() + r.cross(s).stableNormalized() * p.cross(q).transpose();
+        }
+    parallel_for(moved.size(), [&](std::size_t v) {
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moved[v], Eigen::ComputeFullU | Eigen::ComputeFullV);
+        Eigen::Matrix3d left = svd.matrixU();
+        if ((left * svd.matrixV().transpose()).determinant() < 0)
+            left.col(2) *= -1;
+        moved[v] = left * svd.matrixV().transpose();
+    });
+    return moved;
+}
+
+/// Where the vertices of a garment are, seen from its stand-in.
+struct Places {
+    Positions feet;  ///< on the stand-in
+    Positions offsets;  ///< from there
+};
+
+/// The vertices of a mesh from some of them on, over its edges, up to a distance from a place. The same object serves
+/// many searches.
+class Neighbourhood {
+public:
+    explicit Neighbourhood(const Positions& positions, const MeshTopology& topology) :
+        positions_(positions), topology_(topology), seen_(positions.rows(), 0)
+    {
+    }
+
+    const std::vector<int>& around(const Vec3& place, const Eigen::RowVector3i& first, double reach)
+    {
+        for (const int v : found_)
+            seen_[v] = 0;
+        found_.clear();
+        const auto add = [&](int v) {
+            if (!seen_[v])
+                found_.push_back(v);
+            seen_[v] = 1;
+        };
+        for (const int v : first)
+            add(v);
+        for (std::size_t next = 0; next < found_.size(); ++next)
+            for (const int n : topology_.neighbours(found_[next]))
+                if ((positions_.row(n) - place.transpose()).norm() < reach)
+                    add(n);
+        return found_;
+    }
+
+private:
+    const Positions& positions_;
+    const MeshTopology& topology_;
+    std::vector<char> seen_;
+    std::vector<int> found_;
+};
+
+/// Where a stand-in is, and how it takes along what is near it.
+class Motion {
+public:
+    Motion(const GarmentMesh& stand_in, const Positions& worn) :
+        rest_(stand_in), worn_(worn), topology_(stand_in.triangles, int(stand_in.positions.rows())),
+        turns_(rotations(stand_in, worn)), sheet_({ stand_in.positions, stand_in.triangles }),
+        reach_(k_following_reach * mean_edge_length(stand_in.positions, topology_.edges()))
+    {
+    }
+
+    Places apply(const Positions& garment) const
+    {
+        constexpr Eigen::Index k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
+        Places places { Positions::Zero(garment.rows(), 3), Positions::Zero(garment.rows(), 3) };
+        parallel_for((garment.rows() + k_grain - 1) / k_grain, [&](Eigen::Index piece) {
+            Neighbourhood neighbourhood(rest_.positions, topology_);
+            for (Eigen::Index v = piece * k_grain; v < std::min((piece + 1) * k_grain, garment.rows()); ++v) {
+                const auto [foot, target] = move(garment.row(v), neighbourhood);
+                places.feet.row(v) = foot;
+                places.offsets.row(v) = target - foot;
+            }
+        });
+        return places;
+    }
+
+private:
+    /// Where the nearest point of the stand-in goes, and the place itself. What lies side by side is moved alike,
+    /// whichever triangles are nearest to it: the motions of all vertices near by are blended.
+    std::pair<Vec3, Vec3> move(const Vec3& place, Neighbourhood& neighbourhood) const
+    {
+        constexpr double k_least = 1e-3;  // unit: a triangle larger than the reach has weights as well
+        const auto [nearest, triangle] = *sheet_.nearest_triangle(place);
+        const Eigen::RowVector3i corners = rest_.triangles.row(triangle);
+        const auto corner = [&](int k) { return Vec3(rest_.positions.row(corners[k])); };
+        const std::array<double, 3> shares = barycentric(nearest, corner(0), corner(1), corner(2));
+        Vec3 foot = Vec3::Zero(), sum = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            foot += shares[k] * worn_.row(corners[k]).transpose();
+        double weights = 0;
+        for (const int v : neighbourhood.around(nearest, corners, reach_)) {
+            const Vec3 at_rest = rest_.positions.row(v);
+            const double weight
+                = std::pow(std::max(1 - (at_rest - nearest).squaredNorm() / (reach_ * reach_), k_least), 3);
+            sum += weight * (worn_.row(v).transpose() + turns_[v] * (place - at_rest));
+            weights += weight;
+        }
+        return { foot, sum / weights };
+    }
+
+    const GarmentMesh& rest_;
+    const Positions& worn_;
+    const MeshTopology topology_;
+    const std::vector<Eigen::Matrix3d> turns_;
+    const TriangleTree sheet_;
+    const double reach_;  // m
+};
+
+/// The marked vertices and their neighbours.
+std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector<char>& is_marked)
+{
+    std::vector<int> result;
+    for (int v = 0; v < int(is_marked.size()); ++v) {
+        const auto& neighbours = topology.neighbours(v);
+        if (is_marked[v] || std::any_of(neighbours.begin(), neighbours.end(), [&](int n) { return is_marked[n]; }))
+            result.push_back(v);
+    }
+    return result;
+}
+
+/// Marks vertices of the cloth that lie in the body, or whose edges or triangles meet something.
+void mark_meeting(const PreparedCloth& cloth, const Positions& positions, const Surroundings& around,
+                  std::vector<char>& marks)
+{
+    const TriangleMesh moved { positions, cloth.rest.triangles };
+    const WindingNumber winding(around.body);
+    parallel_for(positions.rows(), [&](Eigen::Index v) { marks[v] |= winding(positions.row(v)) > k_inside; });
+    std::vector<TriangleMesh> others = around.clothes;
+    others.push_back(around.body);
+    for (const TriangleMesh& other : others) {
+        for (const auto& [edge, triangle] : find_crossings(moved, cloth.topology.edges(), TriangleTree(other)))
+            for (const int v : cloth.topology.edges().row(edge))
+                marks[v] = 1;
+        for (const auto& [edge, triangle] : find_crossings(other, edges_of(other.triangles), TriangleTree(moved)))
+            for (const int v : moved.triangles.row(triangle))
+                marks[v] = 1;
+    }
+}
+
+/// Marks vertices of parts of the cloth that meet each other though they lay apart at rest: in folds of the stand-in,
+/// whose sides are nearer to each other than the parts are thick.
+void mark_folds(const PreparedCloth& cloth, const Positions& positions, std::vector<char>& marks)
+{
+    const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
+    const Edges& edges = cloth.topology.edges();
+    const double apart = k_lying_apart * mean_edge_length(rest.positions, edges);
+    for (const Crossing& crossing : find_self_crossings(moved, edges, TriangleTree(moved)))
+        if (gap_at_rest(rest, edges, positions, crossing) > apart) {
+            for (const int v : edges.row(crossing.first))
+                marks[v] = 1;
+            for (const int v : moved.triangles.row(crossing.second))
+                marks[v] = 1;
+        }
+}
+
+/// Draws what meets something in towards the stand-in, by a half each time.
+Positions draw_in(const PreparedCloth& cloth, const Places& places, const Surroundings& around)
+{
+    Positions positions = places.feet + places.offsets;
+    Eigen::VectorXd share = Eigen::VectorXd::Ones(positions.rows());
+    for (int round = 0; round < k_drawing_rounds; ++round) {
+        std::vector<char> marks(positions.rows(), 0);
+        mark_meeting(cloth, positions, around, marks);
+        mark_folds(cloth, positions, marks);
+        const std::vector<int> drawn = with_neighbours(cloth.topology, marks);
+        if (drawn.empty())
+            break;
+        for (const int v : drawn)
+            positions.row(v) = places.feet.row(v) + (share[v] /= 2) * places.offsets.row(v);
+    }
+    return positions;
+}
+
+/// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
+/// that lie on each other, which do not come apart.
+Positions untangle_if_few(const PreparedCloth& cloth, const Positions& positions, const Surroundings& around)
+{
+    const TriangleMesh moved { positions, cloth.rest.triangles };
+    const Edges& edges = cloth.topology.edges();
+    if (find_self_crossings(moved, edges, TriangleTree(moved)).size() > k_few_crossings)
+        return positions;
+    Positions parted = untangle(moved, edges).positions;
+    for (int round = 0; round < k_drawing_rounds; ++round) {
+        std::vector<char> marks(positions.rows(), 0);
+        mark_meeting(cloth, parted, around, marks);
+        const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
+        if (meeting.empty())
+            return parted;
+        parted(meeting, Eigen::all) = positions(meeting, Eigen::all);
+    }
+    return positions;
+}
+
+}  // namespace
+
+std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment) { return lining_of_parts(garment); }
+
+Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
+                 const Surroundings& around)
+{
+    const PreparedCloth cloth = prepare_cloth(garment, garment.positions);
+    const Positions drawn = draw_in(cloth, Motion(stand_in, worn).apply(cloth.rest.positions), around);
+    return cloth.weld.place(untangle_if_few(cloth, drawn, around));
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/stand_in.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+#include "garmentfit/certificate.h"
+#include "topology.h"
+
+namespace {
+
+using namespace garmentfit;
+using namespace garmentfit::fixtures;
+
+/// A strip of a tube about the y axis, open, from one angle to another.
+/// @param n  vertices a side
+TriangleMesh strip(double radius, double height, double from, double to, int n)
+{
+    TriangleMesh mesh = sheet(n, 1. / (n - 1), [](double, double) { return 0; });
+    for (auto row : mesh.positions.rowwise()) {
+        const double angle = from + (to - from) * row.x();
+        row = Eigen::RowVector3d(radius * std::sin(angle), height * row.z(), radius * std::cos(angle));
+    }
+    return mesh;
+}
+
+/// A tube of panels, each closed by its thickness, side by side.
+GarmentMesh tube_of_panels(double radius, double height)
+{
+    constexpr int panels = 8;
+    constexpr double thickness = 0.002, turn = 2 * std::numbers::pi / panels, gap = 0.005;
+    TriangleMesh all;
+    for (int i = 0; i < panels; ++i) {
+        const TriangleMesh inner = strip(radius, height, i * turn, (i + 1) * turn - gap, 16);
+        Positions outwards = inner.positions;
+        outwards.col(1).setZero();
+        const TriangleMesh panel = thickened(inner, (thickness / radius * outwards).eval());
+        all = all.positions.rows() == 0 ? panel : joined(all, panel);
+    }
+    return make_garment(all.positions, all.triangles);
+}
+
+TriangleMesh ball(double radius, const Vec3& centre)
+{
+    TriangleMesh mesh = polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-2 * radius),
+                                   Vec3::Constant(2 * radius), radius / 8);
+    mesh.positions.rowwise() += centre.transpose();
+    return mesh;
+}
+
+const TriangleMesh k_far_body = ball(0.1, Vec3(0, 9, 0));
+
+/// A quarter of a tube, as it is bent.
+Positions bent(const Positions& positions)
+{
+    Positions result = positions;
+    for (auto row : result.rowwise()) {
+        const double angle = row.y(), radius = 1 - row.x();  // about an axis 1 m to the side
+        row << 1 - radius * std::cos(angle), radius * std::sin(angle), row.z();
+    }
+    return result;
+}
+
+TEST(StandIn, OfPanelsIsOneSheetInsideOfThem)
+{
+    const GarmentMesh panels = tube_of_panels(0.2, 0.6);
+    const auto stand_in = make_stand_in(panels);
+    ASSERT_TRUE(stand_in);
+    const MeshTopology topology(stand_in->triangles, int(stand_in->positions.rows()));
+    EXPECT_GT(topology.border_edges().size(), 0u);
+    int beyond = 0;
+    for (const auto& place : stand_in->positions.rowwise())
+        beyond += std::hypot(place.x(), place.z()) > 0.2;
+    EXPECT_LT(beyond, 0.1 * double(stand_in->positions.rows())) << "but where it ends within the rims";
+    EXPECT_EQ(crossing_count({ stand_in->positions, stand_in->triangles }, { panels.positions, panels.triangles }), 0);
+}
+
+TEST(StandIn, ClothOfOneLayerHasNone)
+{
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 2 * std::numbers::pi, 40);
+    EXPECT_FALSE(make_stand_in(make_garment(tube.positions, tube.triangles)));
+}
+
+TEST(StandIn, TakesThePartsAlong)
+{
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 80);
+    const GarmentMesh stand_in { tube.positions, tube.triangles }, garment = tube_of_panels(0.205, 0.6);
+    const Eigen::AngleAxisd turn(1, Vec3(1, 2, 3).normalized());
+    const Positions turned = stand_in.positions * turn.toRotationMatrix().transpose();
+    const Positions followed = follow(stand_in, turned, garment, { k_far_body });
+    EXPECT_LT((followed - garment.positions * turn.toRotationMatrix().transpose()).rowwise().norm().maxCoeff(), 1e-9);
+
+    const Positions along = follow(stand_in, bent(stand_in.positions), garment, { k_far_body });
+    EXPECT_LT((along - bent(garment.positions)).rowwise().norm().maxCoeff(), 0.005);
+    EXPECT_EQ(certify(k_far_body, garment, along).self_crossings, 0);
+}
+
+TEST(StandIn, DrawsInWhatWouldMeetTheBody)
+{
+    // the stand-in is wide enough for the ball, a sheet inside of it is not
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 60), inner = strip(0.18, 0.6, 0, 6, 60);
+    const GarmentMesh stand_in { tube.positions, tube.triangles }, garment { inner.positions, inner.triangles };
+    const Surroundings around { ball(0.19, Vec3(0, 0.3, 0)) };
+    ASSERT_GT(crossing_count({ garment.positions, garment.triangles }, around.body), 0);
+    const Positions followed = follow(stand_in, stand_in.positions, garment, around);
+    EXPECT_TRUE(certify(around.body, garment, followed).clean());
+    EXPECT_LT((followed - garment.positions).rowwise().norm().minCoeff(), 1e-6) << "what is clear stays";
+}
+
+}  // namespace
