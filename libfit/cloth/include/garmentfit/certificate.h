@@ -31,7 +31,8 @@ GARMENTFIT_API Strain strain_of(const GarmentMesh& rest, const Positions& positi
 
 struct Certificate {
     int body_crossings = 0;  ///< between garment and body, both ways
-    int self_crossings = 0;  ///< of the garment with itself, pairs that the input did not have, without the shifted ones
+    int self_crossings
+        = 0;  ///< of the garment with itself, pairs that the input did not have, without the shifted ones
     int input_self_crossings = 0;  ///< that the garment was given with
     std::vector<Crossing> kept_self_crossings;  ///< those of them that it still has
     /// Pairs beside those: where sheets that lie on each other were given crossing, the curve along which they cross went
