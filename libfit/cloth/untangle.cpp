@@ -82,14 +82,14 @@ public:
     {
     }
 
-    /// Moves the region's vertices until nothing crosses, or to where the fewest crossings are left.
-    const Region& run()
+    /// Moves the region's vertices until no more than `enough` crossings are left, or to where the fewest are.
+    const Region& run(std::size_t enough)
     {
         std::vector<Crossing> left = search_.find(region_.mesh.positions);
         std::size_t fewest = left.size();
         Positions best = region_.mesh.positions;
         for (int round = 0, stalled = 0;
-             round < k_untangle_rounds && stalled < k_untangle_stall_rounds && !left.empty(); ++round) {
+             round < k_untangle_rounds && stalled < k_untangle_stall_rounds && left.size() > enough; ++round) {
             region_.mesh.positions += motion(left);
             left = search_.find(region_.mesh.positions);
             ++stalled;
@@ -272,13 +272,13 @@ private:
 
 UntangleResult untangle(const TriangleMesh& cloth) { return untangle(cloth, edges_of(cloth.triangles)); }
 
-UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges)
+UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges, std::size_t enough)
 {
     const std::vector<Crossing> tangles = find_tangles(cloth, edges);
-    if (tangles.empty())
-        return { cloth.positions, {} };
+    if (tangles.size() <= enough)
+        return { cloth.positions, tangles };
     ContourMinimiser minimiser(cut_out_region(tangles, cloth, edges));
-    const Region& parted = minimiser.run();
+    const Region& parted = minimiser.run(enough);
     Positions positions = cloth.positions;
     positions(parted.vertices, Eigen::all) = parted.mesh.positions;
     return PartialResult(cloth, edges, tangles, positions).settle();

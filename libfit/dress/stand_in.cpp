@@ -14,10 +14,10 @@
 #include "nearest.h"
 #include "outward_cloth.h"
 #include "parallel.h"
-#include "prepared_cloth.h"
 #include "topology.h"
 #include "tuning.h"
 #include "untangle.h"
+#include "weld.h"
 #include "winding_number.h"
 
 namespace garmentfit {
@@ -144,6 +144,18 @@ private:
     const double reach_;  // m
 };
 
+/// The garment that follows. Only vertices at exactly the same place are one: parts that touch stay as they are.
+struct Parts {
+    Weld weld;
+    GarmentMesh rest;
+    MeshTopology topology;
+
+    explicit Parts(const GarmentMesh& garment) :
+        weld(garment), rest(weld.gather(garment)), topology(rest.triangles, int(rest.positions.rows()))
+    {
+    }
+};
+
 /// The marked vertices and their neighbours.
 std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector<char>& is_marked)
 {
@@ -157,8 +169,7 @@ std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector
 }
 
 /// Marks vertices of the cloth that lie in the body, or whose edges or triangles meet something.
-void mark_meeting(const PreparedCloth& cloth, const Positions& positions, const Surroundings& around,
-                  std::vector<char>& marks)
+void mark_meeting(const Parts& cloth, const Positions& positions, const Surroundings& around, std::vector<char>& marks)
 {
     const TriangleMesh moved { positions, cloth.rest.triangles };
     const WindingNumber winding(around.body);
@@ -177,7 +188,7 @@ void mark_meeting(const PreparedCloth& cloth, const Positions& positions, const 
 
 /// Marks vertices of parts of the cloth that meet each other though they lay apart at rest: in folds of the stand-in,
 /// whose sides are nearer to each other than the parts are thick.
-void mark_folds(const PreparedCloth& cloth, const Positions& positions, std::vector<char>& marks)
+void mark_folds(const Parts& cloth, const Positions& positions, std::vector<char>& marks)
 {
     const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
     const Edges& edges = cloth.topology.edges();
@@ -192,7 +203,7 @@ void mark_folds(const PreparedCloth& cloth, const Positions& positions, std::vec
 }
 
 /// Draws what meets something in towards the stand-in, by a half each time.
-Positions draw_in(const PreparedCloth& cloth, const Places& places, const Surroundings& around)
+Positions draw_in(const Parts& cloth, const Places& places, const Surroundings& around)
 {
     Positions positions = places.feet + places.offsets;
     Eigen::VectorXd share = Eigen::VectorXd::Ones(positions.rows());
@@ -210,14 +221,14 @@ Positions draw_in(const PreparedCloth& cloth, const Places& places, const Surrou
 }
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
-/// that lie on each other, which do not come apart.
-Positions untangle_if_few(const PreparedCloth& cloth, const Positions& positions, const Surroundings& around)
+/// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
+Positions untangled(const Parts& cloth, const Positions& positions, const Surroundings& around)
 {
-    const TriangleMesh moved { positions, cloth.rest.triangles };
+    const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
     const Edges& edges = cloth.topology.edges();
-    if (find_self_crossings(moved, edges, TriangleTree(moved)).size() > k_few_crossings)
-        return positions;
-    Positions parted = untangle(moved, edges).positions;
+    const std::size_t given = find_self_crossings(rest, edges, TriangleTree(rest)).size();
+    const std::size_t enough = given > k_few_crossings ? std::size_t(k_fewer_crossings * double(given)) : 0;
+    Positions parted = untangle(moved, edges, enough).positions;
     for (int round = 0; round < k_drawing_rounds; ++round) {
         std::vector<char> marks(positions.rows(), 0);
         mark_meeting(cloth, parted, around, marks);
@@ -236,9 +247,9 @@ std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment) { return li
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
                  const Surroundings& around)
 {
-    const PreparedCloth cloth = prepare_cloth(garment, garment.positions);
+    const Parts cloth(garment);
     const Positions drawn = draw_in(cloth, Motion(stand_in, worn).apply(cloth.rest.positions), around);
-    return cloth.weld.place(untangle_if_few(cloth, drawn, around));
+    return cloth.weld.place(untangled(cloth, drawn, around));
 }
 
 }  // namespace garmentfit
