@@ -380,3 +380,12 @@ def test_an_outfit_of_layers_has_the_ease_of_each_garment(tmp_path):
     assert outfit["layer1_verdict"] == "fits" and outfit["layer2_strain_max"] == 0.1
     assert single["ease_waist"] == 0.04 and single["layer1_ease_waist"] is None
     assert trial.rows()[1]["layer2_ease_waist"] == "0.05"
+
+
+def test_a_simulated_cluster_says_how_far_it_is_and_does_all_jobs():
+    script = Path(__file__).parent / "measure_scheduling.py"
+    done = subprocess.run([sys.executable, script, "--jobs", "300", "--no-processes", "--simulated", "120"],
+                          capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert "50 of 120 workers started\n" in done.stdout and "120 workers after" in done.stdout
+    assert "300 jobs" in done.stdout.splitlines()[-1]
