@@ -316,6 +316,7 @@ void write_dressed_avatar(const std::filesystem::path& path, const std::filesyst
                                + std::to_string(skin.hangs.size()) + " vertices; give one for each");
     try {
         embed_pictures(avatar.container.json, avatar_path.parent_path());
+        fill_missing_pictures(avatar.container.json);
         make_binary(avatar);
         if (!covered.empty())
             hide_covered(avatar, covered);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <set>
 
 #include "garmentfit/error.h"
 
@@ -104,6 +105,34 @@ std::string pad(std::string bytes, char filler)
     return bytes;
 }
 
+// A PNG of one pixel each: (255, 255, 255), (128, 128, 255), (0, 0, 0).
+constexpr const char *k_white_pixel
+    = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mP4//8/AAX+Av4zEpUUAAAAAElFTkSuQmCC",
+    *k_flat_pixel = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mNoaPgPAAODAgA+WCglAAAAAElFTkSuQmCC",
+    *k_black_pixel = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mNgYGAAAAAEAAHI6uv5AAAAAElFTkSuQmCC";
+
+/// By the first bytes, as names may lie. What glTF does not know without an extension is for the program that wrote it.
+std::string media_type(std::string_view bytes)
+{
+    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
+        return "image/webp";
+    if (bytes.starts_with("\xABKTX 20"))
+        return "image/ktx2";
+    return bytes.starts_with("\x89PNG") ? "image/png" : "image/jpeg";
+}
+
+/// Rows of images that materials show under this name.
+std::set<std::size_t> pictures_shown_as(const ordered_json& json, const char* name)
+{
+    std::set<std::size_t> pictures;
+    for (const ordered_json& material : json.value("materials", ordered_json::array()))
+        if (material.contains(name)) {
+            const ordered_json& texture = json.at("textures").at(material[name].at("index").get<std::size_t>());
+            pictures.insert(texture.value("source", std::size_t(-1)));
+        }
+    return pictures;
+}
+
 std::string chunk_bytes(std::uint32_t type, const std::string& bytes)
 {
     return word_bytes(bytes.size()) + word_bytes(type) + bytes;
@@ -180,21 +209,42 @@ std::string data_uri(std::string_view mime_type, std::string_view bytes)
     return uri;
 }
 
+std::string file_of_picture(const ordered_json& image)
+{
+    const std::string uri = image.is_object() && image.contains("uri") && image["uri"].is_string() ? image["uri"] : "";
+    return uri.starts_with("data:") ? "" : decode(uri);
+}
+
 void embed_pictures(ordered_json& json, const std::filesystem::path& folder)
 {
     if (!json.contains("images"))
         return;
     for (ordered_json& picture : json["images"]) {
-        const std::string uri
-            = picture.is_object() && picture.contains("uri") && picture["uri"].is_string() ? picture["uri"] : "";
-        if (uri.empty() || uri.starts_with("data:"))
+        const std::string name = file_of_picture(picture);
+        if (name.empty())
             continue;
         try {
-            const FileBytes file = read_file(folder / decode(uri));
-            picture["uri"] = data_uri(file.bytes.starts_with("\x89PNG") ? "image/png" : "image/jpeg", file.bytes);
+            const FileBytes file = read_file(folder / name);
+            picture["uri"] = data_uri(media_type(file.bytes), file.bytes);
         } catch (const InvalidInput&) {
             // the picture is missing; geometry does not need it
         }
+    }
+}
+
+void fill_missing_pictures(ordered_json& json)
+{
+    if (!json.contains("images"))
+        return;
+    const std::set<std::size_t> normals = pictures_shown_as(json, "normalTexture"),
+                                emissions = pictures_shown_as(json, "emissiveTexture");
+    for (std::size_t i = 0; i < json["images"].size(); ++i) {
+        ordered_json& picture = json["images"][i];
+        if (!file_of_picture(picture).empty())
+            picture["uri"] = std::string("data:image/png;base64,")
+                + (normals.count(i)         ? k_flat_pixel
+                       : emissions.count(i) ? k_black_pixel
+                                            : k_white_pixel);
     }
 }
 

@@ -44,6 +44,13 @@ std::string merge_buffers(const FileBytes& file, nlohmann::ordered_json& json, c
 std::string data_uri(std::string_view mime_type, std::string_view bytes);
 
 /// Copies pictures from beside the file into it, so that it can be written to another folder.
+/// Those that are missing stay as they are.
 void embed_pictures(nlohmann::ordered_json& json, const std::filesystem::path& folder);
+
+/// The file that an image names beside the glTF; empty where the image is in the file.
+std::string file_of_picture(const nlohmann::ordered_json& image);
+
+/// In place of pictures that are still beside the file: one pixel that changes nothing where a material shows it.
+void fill_missing_pictures(nlohmann::ordered_json& json);
 
 }  // namespace garmentfit

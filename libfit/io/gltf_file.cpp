@@ -12,6 +12,7 @@
 #include "gltf_materials.h"
 #include "gltf_model.h"
 #include "gltf_scene.h"
+#include "gltf_stale.h"
 #include "gltf_unpack.h"
 #include "mesh_content.h"
 #include "turned_normals.h"
@@ -172,14 +173,20 @@ struct GltfContent : MeshFile::Content {
         const Positions turned = turn_normals(normals, triangles, triangles, positions, moved);
         Buffers written = buffers;
         GltfContainer result = container;
+        std::vector<MovedNode> moved_nodes;
         for (const Block& block : blocks)
-            write_block(block, moved, turned, written, result.json);
+            if (write_block(block, moved, turned, written, result.json)
+                && (moved_nodes.empty() || moved_nodes.back().node != block.node))  // primitives of a node follow it
+                moved_nodes.push_back({ block.node, block.world_from_local });
+        if (!moved_nodes.empty())
+            remove_stale(result.json, moved_nodes);
         store(written, result);
         return bytes_of(result);
     }
 
 private:
-    void write_block(const Block& block, const Positions& moved, const Positions& turned, Buffers& written,
+    /// @return whether a vertex has moved
+    bool write_block(const Block& block, const Positions& moved, const Positions& turned, Buffers& written,
                      ordered_json& json) const
     {
         const Eigen::Affine3d local_from_world = block.world_from_local.inverse();
@@ -196,6 +203,7 @@ private:
         }
         if (has_moved)
             write_bounds(block.positions, written, json["accessors"][block.positions.accessor]);
+        return has_moved;
     }
 
     static void write_bounds(const Column& column, const Buffers& written, ordered_json& accessor)
@@ -240,6 +248,14 @@ void read_values(const FileBytes& file, GltfContent& content, Eigen::Index rows)
     }
 }
 
+std::vector<int> nodes_of(const std::vector<Block>& blocks)
+{
+    std::vector<int> nodes;
+    for (const Block& block : blocks)
+        nodes.push_back(block.node);
+    return nodes;
+}
+
 /// The model has only geometry.
 void name_materials(const std::vector<GltfPart>& parts, const ordered_json& json, std::vector<MeshPart>& named)
 {
@@ -266,8 +282,10 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
         content->blocks = std::move(scene.blocks);
         content->named_parts = std::move(scene.named_parts);
         embed_pictures(content->container.json, folder);
+        content->left_behind = list_stale(content->container.json, nodes_of(content->blocks));
         name_materials(scene.parts, content->container.json, content->named_parts);
-        content->look = gltf_appearance(file, model, content->container.json, scene.parts, content->triangles);
+        content->look
+            = gltf_appearance(file, model, content->container.json, scene.parts, content->triangles, content->warnings);
         content->buffers = std::move(model.buffers);
         read_values(file, *content, scene.rows());
     } catch (const InvalidInput&) {

@@ -16,8 +16,10 @@ using nlohmann::ordered_json;
 
 class AppearanceReader {
 public:
-    AppearanceReader(const FileBytes& file, const tinygltf::Model& model, const ordered_json& json) :
-        file_(file), model_(model), json_(json)
+    AppearanceReader(const FileBytes& file, const tinygltf::Model& model, const ordered_json& json,
+                     std::vector<std::string>& warnings) :
+        file_(file),
+        model_(model), json_(json), warnings_of_pictures_(warnings)
     {
     }
 
@@ -123,9 +125,12 @@ private:
         const std::string name = given.empty() ? "texture " + std::to_string(index) : given;
         const std::string bytes = picture_bytes(image);
         if (bytes.empty()) {
-            warn("texture " + name + " cannot be read; put it beside the file");
+            if (file_of_picture(image).empty())  // else said of the file already
+                warn("texture " + name + " cannot be read; put it beside the file");
             return -1;
         }
+        if (const std::string warning = warning_of_size(name, bytes); !warning.empty())
+            warnings_of_pictures_.push_back(warning);
         return add_picture(look_, name, bytes);
     }
 
@@ -187,19 +192,30 @@ private:
     const FileBytes& file_;
     const tinygltf::Model& model_;
     const ordered_json& json_;
+    std::vector<std::string>& warnings_of_pictures_;
     Appearance look_;
     std::map<int, int> picture_rows_;  // by image
     std::map<std::pair<int, Eigen::Index>, int> first_uv_;  // by accessor and first row
     std::vector<double> uvs_;
 };
 
+/// Those that stay beside the file once all others are in it.
+void warn_of_missing_pictures(const ordered_json& json, std::vector<std::string>& warnings)
+{
+    for (const ordered_json& image : json.value("images", ordered_json::array()))
+        if (const std::string name = file_of_picture(image); !name.empty())
+            warnings.push_back("texture " + first_line(name) + " cannot be read; put it beside the file");
+}
+
 }  // namespace
 
 Appearance gltf_appearance(const FileBytes& file, const tinygltf::Model& model, const ordered_json& json,
-                           const std::vector<GltfPart>& parts, const Triangles& triangles)
+                           const std::vector<GltfPart>& parts, const Triangles& triangles,
+                           std::vector<std::string>& warnings)
 {
     try {
-        return AppearanceReader(file, model, json).read(parts, triangles);
+        warn_of_missing_pictures(json, warnings);
+        return AppearanceReader(file, model, json, warnings).read(parts, triangles);
     } catch (const std::exception& error) {
         Appearance none;
         none.warnings.push_back(std::string("materials are left out of outfits: ") + first_line(error.what()));

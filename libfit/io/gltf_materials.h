@@ -21,8 +21,10 @@ struct GltfPart {
 
 /// @param json       of the file, its pictures embedded
 /// @param triangles  of all parts
+/// @param warnings   of pictures that are missing or too large, whether or not somebody wants the appearance
 /// What is mangled becomes a warning: the geometry does not need it.
 Appearance gltf_appearance(const FileBytes& file, const tinygltf::Model& model, const nlohmann::ordered_json& json,
-                           const std::vector<GltfPart>& parts, const Triangles& triangles);
+                           const std::vector<GltfPart>& parts, const Triangles& triangles,
+                           std::vector<std::string>& warnings);
 
 }  // namespace garmentfit

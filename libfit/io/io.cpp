@@ -13,6 +13,8 @@
 namespace garmentfit {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string extension_of(const std::filesystem::path& path)
 {
     std::string extension = path.extension().string();
@@ -58,6 +60,60 @@ std::vector<std::string> warnings_about(const MeshFile::Content& content, std::s
     return warnings;
 }
 
+// ---- companions ----------------------------------------------------------------------------------------------------
+
+struct Companions {
+    std::vector<std::string> names;  ///< that can be copied
+    std::vector<std::string> faults;
+};
+
+Companions find_companions(const std::vector<std::string>& given, const fs::path& folder)
+{
+    Companions result;
+    for (const std::string& name : given) {
+        const fs::path relative = fs::path(name).lexically_normal();
+        std::error_code none;
+        if (relative.is_absolute() || *relative.begin() == "..")
+            result.faults.push_back(name
+                                    + " lies outside of the file's folder and is not copied; put it beside the file");
+        else if (!fs::is_regular_file(folder / relative, none))
+            result.faults.push_back(name + " is missing and is not copied; put it beside the file");
+        else
+            result.names.push_back(relative.generic_string());
+    }
+    return result;
+}
+
+/// Whether one of them has the name of another file there.
+bool collide(const std::vector<std::string>& names, const fs::path& from, const fs::path& to)
+{
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        std::error_code none;
+        return fs::exists(to / name, none) && !fs::equivalent(from / name, to / name, none)
+            && read_file(from / name).bytes != read_file(to / name).bytes;
+    });
+}
+
+/// Programs split the names of .mtl files at blanks.
+std::string free_folder_name(const fs::path& mesh)
+{
+    std::string stem = mesh.stem().string();
+    std::replace(stem.begin(), stem.end(), ' ', '_');
+    std::string name = stem;
+    for (int k = 2; fs::exists(mesh.parent_path() / name); ++k)
+        name = stem + "_" + std::to_string(k);
+    return name;
+}
+
+void copy_files(const std::vector<std::string>& names, const fs::path& from, const fs::path& to)
+{
+    for (const std::string& name : names) {
+        fs::create_directories((to / name).parent_path());
+        std::error_code none;
+        fs::copy_file(from / name, to / name, fs::copy_options::skip_existing, none);
+    }
+}
+
 }  // namespace
 
 MeshFile MeshFile::read(const std::filesystem::path& path)
@@ -96,8 +152,33 @@ const std::string& MeshFile::format() const { return content_->format; }
 Appearance MeshFile::appearance() const { return content_->appearance(); }
 std::vector<MeshPart> MeshFile::parts() const { return content_->parts(); }
 std::vector<std::string> MeshFile::companions() const { return content_->companions(); }
+const std::vector<std::string>& MeshFile::left_behind() const { return content_->left_behind; }
 
 void MeshFile::write(const std::filesystem::path& path, const Positions& positions) const
+{
+    write_file(path, bytes_for(path, positions));
+}
+
+std::vector<std::string> MeshFile::lost_companions() const
+{
+    return find_companions(content_->companions(), path_.parent_path()).faults;
+}
+
+void MeshFile::write_with_companions(const std::filesystem::path& path, const Positions& positions) const
+{
+    std::string bytes = bytes_for(path, positions);
+    const fs::path from = path_.parent_path();
+    const std::vector<std::string> names = find_companions(content_->companions(), from).names;
+    std::string folder;
+    if (collide(names, from, path.parent_path())) {
+        folder = free_folder_name(path);
+        bytes = content_->naming_companions_in(bytes, folder);
+    }
+    copy_files(names, from, path.parent_path() / folder);
+    write_file(path, bytes);
+}
+
+std::string MeshFile::bytes_for(const std::filesystem::path& path, const Positions& positions) const
 {
     if (positions.rows() != content_->positions.rows())
         throw InvalidInput(ErrorCode::count_mismatch,
@@ -110,7 +191,7 @@ void MeshFile::write(const std::filesystem::path& path, const Positions& positio
     Positions written = positions;
     for (const int v : strays_)
         written.row(v) = content_->positions.row(v);
-    write_file(path, content_->bytes_with(written));
+    return content_->bytes_with(written);
 }
 
 }  // namespace garmentfit

@@ -21,9 +21,12 @@ struct MeshFile::Content {
     virtual std::string bytes_with(const Positions& positions) const = 0;
     virtual Appearance appearance() const { return {}; }
     virtual std::vector<std::string> companions() const { return {}; }
+    /// Bytes of a file of this format, its companions in a folder beside it.
+    virtual std::string naming_companions_in(const std::string& bytes, const std::string&) const { return bytes; }
     virtual std::vector<MeshPart> parts() const { return {}; }
     /// Of the surface with normals, the share whose normals point against the winding of the faces; 0 without normals.
     virtual double against_faces() const { return 0; }
+    std::vector<std::string> left_behind;  ///< what bytes_with leaves out where vertices have moved
     std::vector<std::string> warnings;  ///< of what is mangled and was left out, in whole sentences
 };
 

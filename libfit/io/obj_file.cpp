@@ -12,6 +12,10 @@ namespace {
 struct ObjContent : TextContent {
     Appearance appearance() const override { return obj_appearance(file); }
     std::vector<std::string> companions() const override { return obj_companions(file); }
+    std::string naming_companions_in(const std::string& bytes, const std::string& folder) const override
+    {
+        return with_libraries_in(file, bytes, folder);
+    }
 };
 
 /// Programs write normals as nothing reads them: without numbers, of two numbers. Such a normal is none.

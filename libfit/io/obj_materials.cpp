@@ -146,8 +146,11 @@ private:
         const auto [entry, is_new] = pictures_.try_emplace(name, -1);
         if (is_new && !name.empty())
             try {
-                entry->second = add_picture(look_, fs::path(name).filename().string(),
-                                            read_file(fs::path(file_.name).parent_path() / name).bytes);
+                const FileBytes file = read_file(fs::path(file_.name).parent_path() / name);
+                const std::string short_name = fs::path(name).filename().string();
+                if (const std::string warning = warning_of_size(short_name, file.bytes); !warning.empty())
+                    look_.warnings.push_back(warning);
+                entry->second = add_picture(look_, short_name, file.bytes);
             } catch (const InvalidInput&) {
                 look_.warnings.push_back(fs::path(file_.name).filename().string() + ": texture " + name
                                          + " cannot be read; put it beside the file");
@@ -162,24 +165,30 @@ private:
     int material_ = -1;
 };
 
-/// The names after mtllib: one file with blanks in its name, or several without.
+/// The names in a line that begins with mtllib: one file with blanks in its name, or several without.
+std::vector<std::string> libraries_in(const FileBytes& file, Words words, Span line)
+{
+    const std::string whole = rest_of_line(file, words, line);
+    if (std::error_code none; fs::exists(fs::path(file.name).parent_path() / whole, none))
+        return { whole };
+    std::vector<std::string> names;
+    while (!words.done()) {
+        std::string name(words.next_text());
+        std::replace(name.begin(), name.end(), '\\', '/');
+        names.push_back(name);
+    }
+    return names;
+}
+
 std::vector<std::string> libraries_of(const FileBytes& file)
 {
-    const fs::path folder = fs::path(file.name).parent_path();
     std::vector<std::string> names;
     for (Lines lines(file); lines.advance(true);) {
         Words words(file, lines.line());
         if (words.done() || words.next_text() != "mtllib")
             continue;
-        const std::string whole = rest_of_line(file, words, lines.line());
-        if (std::error_code none; fs::exists(folder / whole, none))
-            names.push_back(whole);
-        else
-            while (!words.done()) {
-                std::string name(words.next_text());
-                std::replace(name.begin(), name.end(), '\\', '/');
-                names.push_back(name);
-            }
+        const std::vector<std::string> more = libraries_in(file, words, lines.line());
+        names.insert(names.end(), more.begin(), more.end());
     }
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -308,6 +317,22 @@ std::vector<std::string> obj_companions(const FileBytes& file)
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
+}
+
+std::string with_libraries_in(const FileBytes& given, const std::string& bytes, const std::string& folder)
+{
+    const FileBytes file { given.name, bytes };
+    Rewriter rewriter(file.bytes);
+    for (Lines lines(file); lines.advance(true);) {
+        Words words(file, lines.line());
+        if (words.done() || words.next_text() != "mtllib")
+            continue;
+        std::string names;
+        for (const std::string& name : libraries_in(file, words, lines.line()))
+            names += " " + folder + "/" + name;
+        rewriter.replace({ words.at(), lines.line().end }, names);
+    }
+    return rewriter.finish();
 }
 
 }  // namespace garmentfit

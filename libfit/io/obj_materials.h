@@ -18,4 +18,7 @@ Appearance obj_appearance(const FileBytes& file);
 /// The .mtl files that it names, and the pictures that those name: as written there, each once.
 std::vector<std::string> obj_companions(const FileBytes& file);
 
+/// The file's text with other numbers, its .mtl files in a folder beside it.
+std::string with_libraries_in(const FileBytes& file, const std::string& bytes, const std::string& folder);
+
 }  // namespace garmentfit

@@ -46,6 +46,15 @@ std::pair<int, int> picture_size(std::string_view bytes)
     return type == "image/jpeg" ? jpeg_size(bytes) : std::pair(0, 0);
 }
 
+std::string warning_of_size(const std::string& name, std::string_view bytes)
+{
+    const auto [width, height] = picture_size(bytes);
+    return std::max(width, height) <= k_largest_side
+        ? ""
+        : "texture " + name + " has " + std::to_string(width) + " x " + std::to_string(height)
+            + " pixels, which some programs cannot show; scale it down to " + std::to_string(k_largest_side);
+}
+
 int add_picture(Appearance& look, const std::string& name, std::string bytes)
 {
     const std::string type = picture_type(bytes);
@@ -53,10 +62,6 @@ int add_picture(Appearance& look, const std::string& name, std::string bytes)
         look.warnings.push_back("texture " + name + " is neither PNG nor JPEG and is left out; convert it");
         return -1;
     }
-    if (const auto [width, height] = picture_size(bytes); std::max(width, height) > k_largest_side)
-        look.warnings.push_back("texture " + name + " has " + std::to_string(width) + " x " + std::to_string(height)
-                                + " pixels, which some programs cannot show; scale it down to "
-                                + std::to_string(k_largest_side));
     look.pictures.push_back({ name, type, std::move(bytes) });
     return int(look.pictures.size()) - 1;
 }

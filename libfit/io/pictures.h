@@ -18,7 +18,10 @@ std::string picture_type(std::string_view bytes);
 /// Width and height in pixels of a PNG or JPEG; zeros where its header does not say.
 std::pair<int, int> picture_size(std::string_view bytes);
 
-/// Adds a picture with its warnings. @return its row, -1 where it cannot be kept
+/// Empty where any program can show as many pixels.
+std::string warning_of_size(const std::string& name, std::string_view bytes);
+
+/// Adds a picture; of a type that glTF does not know with a warning only. @return its row, -1 where it cannot be kept
 int add_picture(Appearance& look, const std::string& name, std::string bytes);
 
 }  // namespace garmentfit

@@ -67,30 +67,12 @@ Positions body_in_file(const Session& session, const Positions& in_metres)
                                                               : session.body.frame.frame.to_file(in_metres);
 }
 
-/// Materials and pictures of a mesh, beside it under the same names. What lies elsewhere would overwrite other files.
-void copy_companions(const MeshFile& file, const fs::path& from, const fs::path& folder)
-{
-    for (const std::string& name : file.companions()) {
-        const fs::path relative = fs::path(name).lexically_normal(), source = from / relative;
-        std::error_code none;
-        if (relative.is_absolute() || *relative.begin() == ".." || !fs::is_regular_file(source, none))
-            continue;
-        fs::create_directories((folder / relative).parent_path());
-        fs::copy_file(source, folder / relative, fs::copy_options::skip_existing, none);
-    }
-}
-
-void write_garment(const GarmentFile& garment, const Positions& positions, const fs::path& folder)
-{
-    garment.file.write(folder / garment.name(), positions);
-    copy_companions(garment.file, garment.path.parent_path(), folder);
-}
-
 void write_garments(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
     fs::create_directories(folder);
     for (const std::size_t i : dressing.worn())
-        write_garment(session.garments[i], session.body.frame.frame.to_file(dressing.garments[i].positions), folder);
+        session.garments[i].file.write_with_companions(
+            folder / session.garments[i].name(), session.body.frame.frame.to_file(dressing.garments[i].positions));
 }
 
 void write_body(const Session& session, const Dressing& dressing, const fs::path& folder)
@@ -182,7 +164,7 @@ void write_rest_shapes(const Session& session, const fs::path& folder)
     for (std::size_t i = 0; i < session.garments.size(); ++i) {
         const GarmentFile& garment = session.garments[i];
         const double size = draped && draped->is_worn(i) ? draped->garments[i].size : 1;
-        write_garment(garment, size * garment.file.positions(), folder);
+        garment.file.write_with_companions(folder / garment.name(), size * garment.file.positions());
     }
 }
 

@@ -37,6 +37,20 @@ void warn_of_file(Session& session, const MeshFile& file)
         session.warnings.push_back(file.path().filename().string() + ": " + warning);
 }
 
+/// What the dressed garment will lack.
+void warn_of_losses(Session& session, const MeshFile& file)
+{
+    const std::string name = file.path().filename().string();
+    for (const std::string& loss : file.lost_companions())
+        session.warnings.push_back(name + ": " + loss);
+    std::string left;
+    for (const std::string& part : file.left_behind())
+        left += (left.empty() ? "" : ", ") + part;
+    if (!left.empty())
+        session.warnings.push_back(name + " has " + left
+                                   + "; they belong to the shape in the file, and the dressed garment has none");
+}
+
 void make_scene_body(Session& session)
 {
     put_body(session.scene, session.body.frame.frame, session.body.file.positions(), session.body.triangles);
@@ -76,6 +90,7 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
 {
     require_own_name(session, garment.name());
     warn_of_file(session, garment.file);
+    warn_of_losses(session, garment.file);
     const GarmentChoice choice = garment.choice.value_or(GarmentChoice());
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
     session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name(),

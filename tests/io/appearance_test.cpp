@@ -114,9 +114,8 @@ TEST(Pictures, TellTheirTypeAndSize)
     EXPECT_EQ(picture_size(jpeg), std::pair(512, 256));
     EXPECT_EQ(picture_size(jpeg.substr(0, 12)), std::pair(0, 0));
     EXPECT_EQ(picture_type("BM"), "");
-    Appearance look;
-    EXPECT_EQ(add_picture(look, "huge.png", png(16384, 20)), 0);
-    EXPECT_TRUE(mentions(look.warnings, "16384 x 20"));
+    EXPECT_NE(warning_of_size("huge.png", png(16384, 20)).find("16384 x 20"), std::string::npos);
+    EXPECT_EQ(warning_of_size("large.png", png(8192, 8192)), "");
 }
 
 SkinWeights on_root_bone(Eigen::Index rows)
@@ -179,7 +178,7 @@ TEST_F(Look, OfPicturesBesideAGltfIsKept)
     const Appearance without = MeshFile::read(folder / "other.glb").appearance();
     EXPECT_TRUE(without.pictures.empty());
     EXPECT_EQ(without.materials.size(), 2u);
-    EXPECT_TRUE(mentions(without.warnings, "cannot be read"));
+    EXPECT_TRUE(mentions(MeshFile::read(folder / "other.glb").warnings(), "tex/my weave.png cannot be read"));
 }
 
 TEST_F(Look, OfMangledUvsIsAWarningForEachMaterial)
@@ -213,6 +212,56 @@ TEST_F(Look, CoveredFacesAreLeftOutAndTheMaskStays)
     body.covered.assign(6, 1);
     write_skinned_glb(folder / "none.glb", Skeleton(), { body });
     EXPECT_EQ(MeshFile::read(folder / "none.glb").triangles().rows(), 4) << "glTF knows no empty mesh";
+}
+
+TEST_F(Look, OfLargePicturesIsKeptWithAWarning)
+{
+    write_text(write_cloth(folder).parent_path() / "tex" / "my weave.png", png(16384, 16384));
+    const MeshFile file = MeshFile::read(folder / "cloth.obj");
+    EXPECT_EQ(file.appearance().pictures.size(), 1u);
+    EXPECT_TRUE(mentions(file.appearance().warnings, "my weave.png has 16384 x 16384 pixels"));
+    write_skinned_glb(folder / "outfit.glb", Skeleton(),
+                      { { "cloth", { file.positions(), file.triangles() }, on_root_bone(6), file.appearance() } });
+    EXPECT_TRUE(mentions(MeshFile::read(folder / "outfit.glb").warnings(), "has 16384 x 16384 pixels"));
+}
+
+/// What materials and pictures a mesh has in its new place: the colour of the first material, and its picture.
+std::pair<double, std::string> look_at(const fs::path& obj)
+{
+    const Appearance look = MeshFile::read(obj).appearance();
+    return { look.materials.at(0).colour[2], look.pictures.at(0).bytes };
+}
+
+TEST_F(Look, OfFilesWithEqualNamesFromOtherFoldersStaysTheirOwn)
+{
+    for (const char* part : { "a", "b", "c" })
+        write_cloth(folder / part);
+    write_text(folder / "b" / "tex" / "my weave.png", png(8, 8));
+    fs::rename(folder / "b" / "cloth.obj", folder / "b" / "a skirt.obj");
+    fs::rename(folder / "c" / "cloth.obj", folder / "c" / "copy.obj");
+    const fs::path out = folder / "out";
+    fs::create_directories(out);
+    for (const char* name : { "a/cloth.obj", "b/a skirt.obj", "c/copy.obj" }) {
+        const MeshFile file = MeshFile::read(folder / name);
+        file.write_with_companions(out / file.path().filename(), 2 * file.positions());
+    }
+    EXPECT_EQ(look_at(out / "cloth.obj"), std::pair(1.0, png(64, 32)));
+    EXPECT_EQ(look_at(out / "a skirt.obj"), std::pair(1.0, png(8, 8)));
+    EXPECT_EQ(look_at(out / "copy.obj"), std::pair(1.0, png(64, 32)));
+    EXPECT_TRUE(fs::exists(out / "a_skirt" / "tex" / "my weave.png"));
+    EXPECT_FALSE(fs::exists(out / "copy")) << "equal files need no folder";
+    EXPECT_EQ(MeshFile::read(out / "a skirt.obj").positions(), 2 * MeshFile::read(folder / "a/cloth.obj").positions());
+}
+
+TEST_F(Look, SaysWhichCompanionsAreNotCopied)
+{
+    write_cloth(folder / "in");
+    write_text(folder / "in" / "cloth.obj", "mtllib ../far.mtl\n" + k_obj);
+    const std::vector<std::string> lost = MeshFile::read(folder / "in" / "cloth.obj").lost_companions();
+    ASSERT_EQ(lost.size(), 3u);
+    EXPECT_TRUE(mentions(lost, "../far.mtl lies outside"));
+    EXPECT_TRUE(mentions(lost, "gone.png is missing"));
+    EXPECT_TRUE(mentions(lost, "holes.png is missing"));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -181,6 +183,30 @@ TEST_F(DressedAvatar, RefusesWhatDoesNotBelongTogether)
     save("odd.glb", bytes_of(container));
     EXPECT_THROW(write_dressed_avatar(folder / "out.glb", folder / "odd.glb", { garment_on(4) }), InvalidInput);
     EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+}
+
+TEST_F(DressedAvatar, WithoutItsPicturesIsAGoodFileThatSaysSo)
+{
+    GltfContainer container = read_gltf_container(read_file(folder / "avatar.glb"));
+    container.json["images"] = { { { "uri", "skin.png" } }, { { "uri", "relief.png" } }, { { "uri", "glow.png" } } };
+    container.json["textures"] = { { { "source", 0 } }, { { "source", 1 } }, { { "source", 2 } } };
+    container.json["materials"] = { { { "pbrMetallicRoughness", { { "baseColorTexture", { { "index", 0 } } } } },
+                                      { "normalTexture", { { "index", 1 } } },
+                                      { "emissiveTexture", { { "index", 2 } } } } };
+    save("bare.glb", bytes_of(container));
+    const std::vector<std::string> warnings = MeshFile::read(folder / "bare.glb").warnings();
+    ASSERT_EQ(warnings.size(), 3u);
+    EXPECT_EQ(warnings[0], "texture skin.png cannot be read; put it beside the file");
+
+    write_dressed_avatar(folder / "out.glb", folder / "bare.glb", { garment_on(4) });
+    const Json images = json_of(folder / "out.glb").at("images");
+    std::set<std::string> different;
+    for (int i = 0; i < 3; ++i)
+        different.insert(images[std::size_t(i)].at("uri").get<std::string>());
+    EXPECT_EQ(different.size(), 3u) << "white, flat and black";
+    for (const std::string& uri : different)
+        EXPECT_TRUE(uri.starts_with("data:image/png;base64,")) << uri;
+    EXPECT_TRUE(MeshFile::read(folder / "out.glb").warnings().empty());
 }
 
 }  // namespace

@@ -60,9 +60,22 @@ public:
     /// Files beside this one that it names, as it names them, and those that these name: materials and pictures of OBJ.
     std::vector<std::string> companions() const;
 
+    /// Companions that are missing, or lie outside of the file's folder, in whole sentences.
+    std::vector<std::string> lost_companions() const;
+
+    /// The same as write(), and copies all other companions beside it, so that it looks there as here. Where one of
+    /// them has the name of another file there, all go into a folder with the name of the mesh, which names them there.
+    void write_with_companions(const std::filesystem::path& path, const Positions& positions) const;
+
+    /// What write() leaves out of glTF where vertices have moved, as it would be wrong: "a skin", "morph targets",
+    /// "tangents", "animations".
+    const std::vector<std::string>& left_behind() const;
+
     struct Content;  ///< one kind for each format, private
 
 private:
+    std::string bytes_for(const std::filesystem::path& path, const Positions& positions) const;
+
     std::shared_ptr<const Content> content_;
     std::filesystem::path path_;
     Positions positions_;
