@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures dressed folders by the benchmark posed_outfits, prints a table in Markdown. Run by scripts/measure-outfits."""
+"""Measures dressed folders by a benchmark, prints a table in Markdown. Run by scripts/measure-outfits."""
 
 import json
 import subprocess
@@ -8,6 +8,10 @@ from pathlib import Path
 
 HEAD = """| outfit | nearest point | weights of clothes | nearest point, covered skin hidden | both | share | faces hidden |
 | --- | ---: | ---: | ---: | ---: | ---: | ---: |"""
+
+
+HOLES_HEAD = """| outfit | faces hidden | pixels of skin | through | deep |
+| --- | ---: | ---: | ---: | ---: |"""
 
 
 def measure(program: str, folder: Path) -> list:
@@ -32,7 +36,27 @@ def line(name: str, nearest: int, ours: int, nearest_shown: int, ours_shown: int
     return f"| {name} | {nearest} | {ours} | {nearest_shown} | {ours_shown} | {share} | {hidden:.0%} |"
 
 
+def holes_row(name: str, results: list) -> tuple:
+    hidden = sum(1 - result["shown_faces"] / result["faces"] for result in results) / len(results)
+    return name, hidden, *(sum(result[what] for result in results) for what in ("skin", "through", "deep"))
+
+
+def print_holes(program: str, outfits: list) -> None:
+    """What views of each garment by itself show where covered skin was left out."""
+    rows = []
+    print(HOLES_HEAD)
+    for outfit in outfits:
+        name, _, folder = outfit.partition("=")
+        rows.append(holes_row(name, measure(program, Path(folder))))
+        print("| {} | {:.0%} | {} | {} | {} |".format(*rows[-1]), flush=True)
+    sums = [sum(column) for column in list(zip(*rows))[1:]]
+    print("| all | {:.0%} | {} | {} | {} |".format(sums[0] / len(rows), *sums[1:]))
+
+
 def main(program: str, *outfits: str) -> None:
+    if outfits[0] == "--holes":
+        print_holes(program, outfits[1:])
+        return
     rows = []
     print(HEAD)
     for outfit in outfits:

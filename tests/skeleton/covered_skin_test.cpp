@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "garmentfit/garment_weights.h"
+#include "keyframes.h"
+#include "views.h"
 
 namespace {
 
@@ -78,6 +81,40 @@ TEST(CoveredSkin, IsSeenWhereAPoseOpensTheCloth)
     const auto worn = count();
     shirt.weights.bones.setConstant(lradius);  // all of it follows the left forearm, and leaves the trunk
     EXPECT_LT(count(), worn / 10);
+}
+
+TEST(CoveredSkin, LeavesNoHoleThatAViewOfAPoseShows)
+{
+    const Person person = capsule_person();
+    const Rig rig = simple_rig(person);
+    const TriangleMesh mesh = garment_round(person.skeleton, 0.025, is_shirt);
+    const SkinnedCloth shirt {
+        mesh, garment_weights(person.mesh, rig.weights, make_garment(mesh.positions, mesh.triangles), mesh.positions)
+    };
+    std::vector<char> is_covered = find_covered_skin(person.mesh, rig, { shirt });
+    const auto count = [&] {
+        const Triangles shown = uncovered_faces(person.mesh.triangles, is_covered);
+        Holes holes;
+        int view = 0;
+        for (const Keyframe& key : keyframes_of(rig)) {
+            const BoneTransforms transforms = bone_transforms(rig.skeleton, key.pose);
+            const Worn posed { blend_linearly(person.mesh.positions, rig.weights, transforms),
+                               blend_linearly(mesh.positions, shirt.weights, transforms), person.mesh.triangles, shown,
+                               mesh.triangles };
+            for (int k = 0; k < 2; ++k)
+                holes += holes_seen(posed, direction_of(view++, 72), 120);
+        }
+        return holes;
+    };
+    const Holes holes = count();
+    EXPECT_GT(std::count(is_covered.begin(), is_covered.end(), 1), 20);
+    EXPECT_GT(holes.skin, 10000);
+    EXPECT_LE(holes.through, holes.skin / 10000) << "skin that blending pushes out of its clothes counts as covered";
+    EXPECT_EQ(holes.deep, 0);
+    for (std::size_t v = 0; v < is_covered.size(); ++v)
+        is_covered[v] = is_covered[v] || is_shirt(person.mesh.positions.row(Eigen::Index(v)));
+    const Holes wrong = count();
+    EXPECT_GT(wrong.through + wrong.deep, 100) << "all skin below the shirt, up to its borders";
 }
 
 TEST(CoveredSkin, LeavesOutFacesOfWhichAllCornersAreCovered)
