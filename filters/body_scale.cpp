@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "garmentfit/filters/frame_choice.h"
+#include "moved_scene.h"
+#include "near_origin.h"
 
 namespace garmentfit {
 namespace {
@@ -22,9 +24,10 @@ constexpr double k_shortest_adult = 1, k_tallest_adult = 2.5, k_middle = 1.7;
 /// Enclosed by a closed surface, m^3.
 double volume_of(const TriangleMesh& closed)
 {
+    const Vec3 origin = origin_of(closed.positions);  // far from it, the volumes of the tetrahedra would hide the sum
     double sum = 0;
     for (Eigen::Index f = 0; f < closed.triangles.rows(); ++f) {
-        const auto corner = [&](int k) { return Vec3(closed.positions.row(closed.triangles(f, k))); };
+        const auto corner = [&](int k) { return Vec3(Vec3(closed.positions.row(closed.triangles(f, k))) - origin); };
         sum += corner(0).dot(corner(1).cross(corner(2))) / 6;
     }
     return std::abs(sum);
@@ -109,37 +112,6 @@ void scale(Dressing& dressing, double factor)
     scale_measures(dressing, factor);
 }
 
-/// What was given, in each row that is still where scaling took it.
-void restore_rows(Positions& positions, const Positions& at_human_size, const Positions& scaled, const Positions& given)
-{
-    if (positions.rows() != given.rows())
-        return;
-    for (Eigen::Index v = 0; v < given.rows(); ++v)
-        if (at_human_size.row(v) == scaled.row(v))
-            positions.row(v) = given.row(v);
-}
-
-/// @param human_size  the dressing that `dressing` was scaled back from
-void restore_rows(Dressing& dressing, const Dressing& human_size, const Scene& scaled, const Scene& given)
-{
-    const Positions &body = given.body->surface.positions, &scaled_body = scaled.body->surface.positions;
-    restore_rows(dressing.body, human_size.body, scaled_body, body);
-    for (std::size_t i = 0; i < dressing.frames.size(); ++i)
-        restore_rows(dressing.frames[i].body, human_size.frames[i].body, scaled_body, body);
-    for (const std::size_t i : dressing.worn())
-        restore_rows(dressing.garments[i].rest.positions, human_size.garments[i].rest.positions,
-                     scaled.garments[i].mesh.positions, given.garments[i].mesh.positions);
-}
-
-std::optional<Dressing> restore_given(const std::optional<Dressing>& made, const std::optional<Dressing>& human_size,
-                                      const Scene& scaled, const Scene& given)
-{
-    std::optional<Dressing> result = made;
-    if (result)
-        restore_rows(*result, *human_size, scaled, given);
-    return result;
-}
-
 }  // namespace
 
 double stature_of(const BodyMesh& body)
@@ -191,24 +163,7 @@ GivenJoints scale_joints(GivenJoints joints, double factor)
 
 void restore_size(Scene& scene, const Scene& at_human_size, double factor, const std::vector<Data>& outputs)
 {
-    const Scene made = scale_scene(at_human_size, 1 / factor);
-    for (const Data output : outputs)
-        switch (output) {
-        case Data::rig: scene.rig = made.rig; break;
-        case Data::fits:
-            scene.fits = made.fits;
-            scene.automatic_layers = made.automatic_layers;
-            scene.one_pose = made.one_pose;
-            scene.conflicts = made.conflicts;
-            break;
-        case Data::draped: scene.draped = restore_given(made.draped, at_human_size.draped, at_human_size, scene); break;
-        case Data::recovered:
-            scene.recovered = restore_given(made.recovered, at_human_size.recovered, at_human_size, scene);
-            break;
-        case Data::body:
-        case Data::garments: break;  // no filter makes them
-        }
-    scene.seconds = made.seconds;
+    take_outputs(scene, scale_scene(at_human_size, 1 / factor), at_human_size, outputs);
 }
 
 FitMap fit_map_on(const BodyMesh& body, const TriangleMesh& posed, const WornGarment& worn, const ClothOptions& cloth)

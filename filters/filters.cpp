@@ -11,6 +11,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/number_text.h"
 #include "garmentfit/stopwatch.h"
+#include "near_origin.h"
 #include "other_wearings.h"
 #include "stand_ins.h"
 
@@ -479,6 +480,49 @@ void run_at_human_size(const Filter& filter, Scene& scene, const Parameters& par
     }
 }
 
+void run_at_any_size(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    const double factor = factor_to_human_size(*scene.body);
+    if (factor == 1)
+        run_stages(filter, scene, parameters, progress);
+    else
+        run_at_human_size(filter, scene, parameters, progress, factor);
+}
+
+/// Runs on a copy of the scene near the origin. What was made is moved back, also by the stages before one that fails.
+void run_moved(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress,
+               const Origins& origins)
+{
+    Scene copy = move_to_origin(scene, origins);
+    parameters.rig.joints = move_to_origin(parameters.rig.joints, origins);
+    try {
+        run_at_any_size(filter, copy, parameters, progress);
+    } catch (...) {
+        move_back(scene, copy, origins, filter.outputs);
+        throw;
+    }
+    move_back(scene, copy, origins, filter.outputs);
+}
+
+std::string near_origin(const std::string& line, const Vec3& origin)
+{
+    return line + " (places as seen from " + rounded_text(origin.x(), 9) + ", " + rounded_text(origin.y(), 9) + ", "
+        + rounded_text(origin.z(), 9) + " m)";
+}
+
+/// An error's places are those of the copy, and say so.
+void run_near_origin(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress,
+                     const Origins& origins)
+{
+    try {
+        run_moved(filter, scene, parameters, progress, origins);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(error.code(), near_origin(error.what(), origins.body));
+    } catch (const SolverFailure& error) {
+        throw SolverFailure(near_origin(error.what(), origins.body));
+    }
+}
+
 }  // namespace
 
 std::string_view name_of(Stage stage) { return row(stage).name; }
@@ -573,11 +617,11 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
     Parameters p = parameters;
     p.recover.cloth = cloth(parameters);
     const Progress limited = progress.until(Deadline::in(p.time_limit));
-    const double factor = factor_to_human_size(*scene.body);
-    if (factor == 1)
-        run_stages(*this, scene, p, limited);
+    const Origins origins = origins_of(scene);
+    if (origins.all_zero())
+        run_at_any_size(*this, scene, p, limited);
     else
-        run_at_human_size(*this, scene, p, limited, factor);
+        run_near_origin(*this, scene, p, limited, origins);
 }
 
 }  // namespace garmentfit
