@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_file.h"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -20,15 +21,27 @@ namespace {
 constexpr std::chrono::seconds k_time_limit { 60 };  // unit: files of 100 MB take less
 constexpr std::size_t k_beginning = 4096;  // unit: what may stand before the first element, comments included
 
+/// Without what may stand before the first character: the mark of UTF-8, and blanks.
+std::string_view beginning_of(std::string_view bytes)
+{
+    if (bytes.starts_with("\xef\xbb\xbf"))
+        bytes.remove_prefix(3);
+    bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+    return bytes.substr(0, k_beginning);
+}
+
+/// Other formats may name FBX and COLLADA, too: a glTF that was made from one in the name of its generator, say.
 bool is_fbx(std::string_view bytes)
 {
-    const std::string_view beginning = bytes.substr(0, k_beginning);
-    return bytes.starts_with("Kaydara FBX Binary") || beginning.find("FBXHeaderExtension") != std::string_view::npos;
+    const std::string_view beginning = beginning_of(bytes);
+    return bytes.starts_with("Kaydara FBX Binary") || beginning.starts_with("FBXHeaderExtension")
+        || (beginning.starts_with(';') && beginning.find("FBXHeaderExtension") != std::string_view::npos);
 }
 
 bool is_collada(std::string_view bytes)
 {
-    return bytes.substr(0, k_beginning).find("<COLLADA") != std::string_view::npos;
+    const std::string_view beginning = beginning_of(bytes);
+    return beginning.starts_with('<') && beginning.find("<COLLADA") != std::string_view::npos;
 }
 
 /// Throws what Assimp throws, and its messages as std::runtime_error.

@@ -16,6 +16,7 @@
 #include "fixtures.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
+#include "mesh_file_samples.h"
 #include "run_apart.h"
 #include "temporary_folder.h"
 
@@ -81,6 +82,15 @@ TEST_F(SceneFile, ASkinnedBodyKeepsItsSkeleton)
     for (const int bone : { lfemur, ltibia, rfemur, lhumerus, rradius })
         EXPECT_LT((read.skeleton.head(bone) - person.skeleton.head(bone)).norm(), 1e-4) << bone_name(bone);
     EXPECT_EQ(read.weights.weights.rows(), MeshFile::read(folder / "body.dae").positions().rows());
+}
+
+TEST_F(SceneFile, FilesThatOnlyNameTheseFormatsAreReadAsWhatTheyAre)
+{
+    std::string json = samples::gltf_json("");
+    json.replace(json.find("by hand"), 7, "<COLLADA> to glTF, FBXHeaderExtension");
+    EXPECT_EQ(MeshFile::read(save("square.glb", samples::glb(json))).positions().rows(), 4);
+    EXPECT_EQ(MeshFile::read(save("roof.obj", "# from <COLLADA\n" + samples::obj())).format(), "obj");
+    EXPECT_EQ(MeshFile::read(save("square.dae", "\xef\xbb\xbf\n" + k_collada)).positions().rows(), 5);
 }
 
 TEST_F(SceneFile, WhatIsMangledIsRefused)
