@@ -6,6 +6,7 @@
 #include <string>
 
 #include "garmentfit/error.h"
+#include "garmentfit/rig_body.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -81,6 +82,16 @@ Rig rig_on(Rig rig, const Positions& own, const std::string& called)
         require_same_radii(rig.radii, here, k_same_place * std::min(1.0, diagonal_of(own)), called);
     rig.radii = here;
     return rig;
+}
+
+std::string doubt_about(const Rig& rig, const BodyMesh& body)
+{
+    try {
+        check_skeleton(body, rig.skeleton);
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return "";
 }
 
 }  // namespace garmentfit

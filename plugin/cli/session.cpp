@@ -136,6 +136,14 @@ Rig read_skinned(Session& session, const fs::path& glb)
     return rig_on(std::move(rig), session.scene.body->surface.positions, glb.string());
 }
 
+void take_given(Session& session, Rig rig, const fs::path& path)
+{
+    if (const std::string doubt = doubt_about(rig, *session.scene.body); !doubt.empty())
+        session.warnings.push_back("the skeleton in " + path.filename().string() + " may be wrong: " + doubt);
+    session.scene.rig = std::move(rig);
+    session.skeleton = "given";
+}
+
 /// Body, rig and fits as `fit` and `drape` write them; the garments as given are in `rest`.
 void read_continued(Session& session, const fs::path& folder, const fs::path& rest)
 {
@@ -220,8 +228,7 @@ bool read_rig(Session& session, const fs::path& rig)
 {
     const Stopwatch watch(session.read_seconds);
     if (rig.extension() != ".json") {
-        session.scene.rig = read_skinned(session, rig);
-        session.skeleton = "given";
+        take_given(session, read_skinned(session, rig), rig);
         return true;
     }
     if (!fs::exists(rig.parent_path() / "rigged.ply") && !read_rig_file(rig).has_weights())
@@ -231,8 +238,7 @@ bool read_rig(Session& session, const fs::path& rig)
         throw InvalidInput(ErrorCode::rig_mismatch,
                            rig.string() + ": other units or axes than those of " + session.body.path.string()
                                + "; give the same --unit, --up and --height as to garmentfit rig");
-    session.scene.rig = rig_on(contents.rig, session.scene.body->surface.positions, rig.string());
-    session.skeleton = "given";
+    take_given(session, rig_on(contents.rig, session.scene.body->surface.positions, rig.string()), rig);
     return true;
 }
 

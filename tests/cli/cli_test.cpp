@@ -493,6 +493,26 @@ TEST_F(CommandLine, TakesTheSkeletonOfASkinnedBodyUnlessItIsWrongOrIgnored)
     EXPECT_NE(exchanged["warnings"].dump().find("different sides"), std::string::npos) << exchanged["warnings"];
 }
 
+TEST_F(CommandLine, WarnsOfAGivenRigThatIsWrongForTheBody)
+{
+    ASSERT_EQ(run({ "rig", k_body, "-o", folder / "rigged" }).code, 0);
+    const auto warnings_with = [&](const fs::path& rig) {
+        const fs::path fitted = folder / rig.stem();
+        const Ended ended = run({ "fit", k_body, k_skirt, "--type", "skirt", "--rig", rig, "-o", fitted });
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return nlohmann::json::parse(read_text(fitted / "report.json"))["warnings"].dump();
+    };
+    EXPECT_EQ(warnings_with(folder / "rigged/rigged.glb").find("may be wrong"), std::string::npos);
+    std::string bytes = read_text(folder / "rigged/rigged.glb");  // arms exchanged
+    const std::size_t left = bytes.find("\"lhumerus\""), right = bytes.find("\"rhumerus\"");
+    ASSERT_TRUE(left != std::string::npos && right != std::string::npos);
+    bytes[left + 1] = 'r';
+    bytes[right + 1] = 'l';
+    std::ofstream(folder / "exchanged.glb", std::ios::binary) << bytes;
+    EXPECT_NE(warnings_with(folder / "exchanged.glb").find("the skeleton in exchanged.glb may be wrong"),
+              std::string::npos);
+}
+
 TEST_F(CommandLine, LeavesClothesOfAnAvatarsFileOutOfTheBody)
 {
     using namespace garmentfit;

@@ -54,5 +54,15 @@ TEST_F(GivenRig, IsNotOneWhoseDirectionsOrWeightsWereSpoilt)
     expect_invalid([&] { rig_on(spoilt, own); }, "vertex 5 sum to 0");
 }
 
+TEST_F(GivenRig, IsDoubtedWhereItsSkeletonIsWrong)
+{
+    const BodyMesh body = make_body(person.mesh.positions, person.mesh.triangles);
+    EXPECT_EQ(doubt_about(rig, body), "");
+    Rig wrong = rig;
+    for (const int left : { lhipjoint, lfemur, ltibia })
+        std::swap(wrong.skeleton.tails[left], wrong.skeleton.tails[mirror_of(left)]);
+    EXPECT_NE(doubt_about(wrong, body).find("lie on different sides"), std::string::npos) << doubt_about(wrong, body);
+}
+
 }  // namespace
 }  // namespace garmentfit

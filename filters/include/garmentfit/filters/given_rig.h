@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
 
 namespace garmentfit {
@@ -16,5 +17,9 @@ namespace garmentfit {
 /// @param own  the body's positions in its input pose, metres
 /// @param called  the rig's name in messages
 Rig rig_on(Rig rig, const Positions& own, const std::string& called = "the rig");
+
+/// Why a rig that a user gave may be wrong for the body: the line of check_skeleton(); empty where nothing speaks
+/// against it. The user may know better: a body may have lost a forearm.
+std::string doubt_about(const Rig& rig, const BodyMesh& body);
 
 }  // namespace garmentfit
