@@ -201,6 +201,15 @@ const std::vector<std::string_view>& wears_names()
     return names;
 }
 
+Wears wears_called(std::string_view name)
+{
+    const std::vector<std::string_view>& names = wears_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw InvalidInput(ErrorCode::unknown_name, "wears " + std::string(name) + ": give keep or strip");
+    return Wears(found - names.begin());
+}
+
 StrippedBody strip_clothes(const MeshFile& avatar)
 {
     const std::vector<MeshPart> parts = avatar.parts();
@@ -237,6 +246,14 @@ StrippedBody strip_clothes(const MeshFile& avatar)
     }
     body.kept = rows_of(parts, is_left_out);
     return body;
+}
+
+std::vector<std::string> notes_on(const StrippedBody& body)
+{
+    std::vector<std::string> notes = body.warnings;
+    if (!body.stripped.empty())
+        notes.push_back("left out of the body: " + list_of(body.stripped));
+    return notes;
 }
 
 Triangles triangles_of(const MeshFile& avatar, const StrippedBody& body)

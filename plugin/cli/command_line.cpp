@@ -83,15 +83,6 @@ double scale_from(const std::string& text)
     return sizes.scale;
 }
 
-Wears wears_called(const std::string& name)
-{
-    const std::vector<std::string_view>& names = wears_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-        throw InvalidInput(ErrorCode::unknown_name, "--wears " + name + ": give keep or strip");
-    return Wears(found - names.begin());
-}
-
 void add_mesh_options(CLI::App& command, const Filter& filter, Call& call)
 {
     command.add_option("BODY", call.body, "Body mesh: OBJ, PLY, OFF, STL, glTF, GLB, FBX, DAE")->required();

@@ -63,13 +63,8 @@ void strip_body(Session& session, BodyFile& body)
 {
     body.without_clothes = strip_clothes(body.file);
     body.triangles = triangles_of(body.file, *body.without_clothes);
-    for (const std::string& warning : body.without_clothes->warnings)
-        session.warnings.push_back(body.path.filename().string() + ": " + warning);
-    std::string names;
-    for (const std::string& name : body.without_clothes->stripped)
-        names += (names.empty() ? "" : ", ") + name;
-    if (!names.empty())
-        session.warnings.push_back(body.path.filename().string() + ": left out of the body: " + names);
+    for (const std::string& note : notes_on(*body.without_clothes))
+        session.warnings.push_back(body.path.filename().string() + ": " + note);
 }
 
 /// Dressed garments are written beside body.ply and the other results.

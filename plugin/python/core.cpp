@@ -5,12 +5,14 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -19,6 +21,7 @@
 #include "garmentfit/io.h"
 #include "garmentfit/reconstruct.h"
 #include "garmentfit/version.h"
+#include "garmentfit/worn_clothes.h"
 #include "plugin/cli/program.h"
 #include "python_results.h"
 #include "python_scene.h"
@@ -105,6 +108,18 @@ void bind_mesh_file(nb::module_& m)
             "triangles", [](const MeshFile& file) { return array_of(file.triangles()); }, nb::rv_policy::automatic)
         .def_prop_ro("format", [](const MeshFile& file) { return file.format(); })
         .def("write", &write, "path"_a, "positions"_a);
+    nb::class_<StrippedBody>(m, "StrippedBody", "What is left of an avatar's body without its clothes")
+        .def_ro("stripped", &StrippedBody::stripped);
+    m.def(
+        "without_clothes",
+        [](const MeshFile& file, const std::string& wears) {
+            return wears_called(wears) == Wears::strip ? std::optional(strip_clothes(file)) : std::nullopt;
+        },
+        "file"_a, "wears"_a, "None where all parts of the file stay");
+    m.def(
+        "triangles_without_clothes",
+        [](const MeshFile& file, const StrippedBody& left) { return array_of(triangles_of(file, left)); }, "file"_a,
+        "left"_a);
 }
 
 void bind_snapshot(nb::module_& m)
@@ -129,8 +144,8 @@ void bind_scene(nb::module_& m)
         .def("copy", [](const PythonScene& s) { return PythonScene(s); })
         .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "type"_a, "unit"_a, "up"_a, "front"_a,
              "sizes"_a, "name"_a, "find"_a = nb::none())
-        .def("set_body_file", &set_body_file, "file"_a)
-        .def("set_garment_look", &set_garment_look, "file"_a)
+        .def("set_body_file", &set_body_file, "file"_a, "left"_a.none())
+        .def("set_garment_look", &set_garment_look, "file"_a, "left"_a.none())
         .def("write_outfit", &write_outfit_of, "path"_a, "bones"_a, "hide_covered_skin"_a)
         .def("set_worn", &set_worn, "find"_a, "body"_a, "garments"_a)
         .def("run", &run, "filter"_a, "parameters"_a, "progress"_a.none())

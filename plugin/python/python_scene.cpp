@@ -145,10 +145,18 @@ std::optional<Fabric> fabric_from(const nb::dict& sizes)
     return fabric_of(nb::cast<std::string>(sizes["garment_fabric"]));
 }
 
-void warn_of_file(PythonScene& scene, const MeshFile& file)
+void warn_of_file(PythonScene& scene, const MeshFile& file, const StrippedBody* left)
 {
-    for (const std::string& warning : file.warnings())
-        scene.frame_warnings.push_back(file.path().filename().string() + ": " + warning);
+    std::vector<std::string> notes = file.warnings();
+    for (const std::string& note : left ? notes_on(*left) : std::vector<std::string>())
+        notes.push_back(note);
+    for (const std::string& note : notes)
+        scene.frame_warnings.push_back(file.path().filename().string() + ": " + note);
+}
+
+std::shared_ptr<const Appearance> look_of(const MeshFile& file, const StrippedBody* left)
+{
+    return std::make_shared<const Appearance>(left ? appearance_of(file.appearance(), *left) : file.appearance());
 }
 
 }  // namespace
@@ -227,18 +235,19 @@ void set_worn(PythonScene& s, const nb::object& find, const NumbersIn& body, con
     s.scene.draped = dressing_from(s.scene, dressed_pose_from(find_with(find)), left, worn, s.names);
 }
 
-void set_body_file(PythonScene& scene, const MeshFile& file)
+void set_body_file(PythonScene& scene, const MeshFile& file, const StrippedBody* left)
 {
-    warn_of_file(scene, file);
+    warn_of_file(scene, file, left);
     scene.body_file = file;
-    scene.body_look = std::make_shared<const Appearance>(file.appearance());
+    scene.is_stripped = left != nullptr;
+    scene.body_look = look_of(file, left);
 }
 
-void set_garment_look(PythonScene& scene, const MeshFile& file)
+void set_garment_look(PythonScene& scene, const MeshFile& file, const StrippedBody* left)
 {
-    warn_of_file(scene, file);
+    warn_of_file(scene, file, left);
     scene.garment_looks.resize(scene.scene.garments.size());
-    scene.garment_looks.back() = std::make_shared<const Appearance>(file.appearance());
+    scene.garment_looks.back() = look_of(file, left);
 }
 
 void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, const std::string& bones,
@@ -255,6 +264,7 @@ void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, co
     const nb::gil_scoped_release other_threads_run;
     if (s.body_file && !request.bones)
         request.avatar = avatar_in(*s.body_file, s.body_frame);
+    request.is_stripped = s.is_stripped;
     write_outfit(s.scene, part("body", s.body_look), garments, request);
 }
 

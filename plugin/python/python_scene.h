@@ -15,6 +15,7 @@
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/io.h"
 #include "garmentfit/units.h"
+#include "garmentfit/worn_clothes.h"
 #include "numpy_arrays.h"
 
 namespace garmentfit::python {
@@ -28,6 +29,7 @@ struct PythonScene {
     std::optional<Vec3> front;
     GivenJoints joints;
     std::optional<MeshFile> body_file;  ///< none where the body was made of arrays
+    bool is_stripped = false;  ///< clothes in that file are left out of the body
     std::shared_ptr<const Appearance> body_look;  ///< of the body's file; null where it was made of arrays
     std::vector<std::shared_ptr<const Appearance>> garment_looks;  ///< of each garment, or null
     ClothOptions cloth;  ///< of the last step that moved the garments
@@ -55,8 +57,9 @@ void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);
 
 /// UVs, materials and pictures of the file that the body, or the garment that was added last, was read from.
-void set_body_file(PythonScene& scene, const MeshFile& file);
-void set_garment_look(PythonScene& scene, const MeshFile& file);
+/// @param left  what is left of the file without its clothes; null where all of it is the body or the garment
+void set_body_file(PythonScene& scene, const MeshFile& file, const StrippedBody* left);
+void set_garment_look(PythonScene& scene, const MeshFile& file, const StrippedBody* left);
 
 /// Body and garments as one skinned file that other programs can pose. Other Python threads run meanwhile.
 /// @throws InvalidInput.

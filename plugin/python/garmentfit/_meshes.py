@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, Optional, Tuple, Union
+from typing import Any, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -21,14 +21,20 @@ class Mesh:
     """Positions (n x 3, in any unit, any axis up) and triangles (m x 3) of a body or a garment."""
 
     def __init__(self, positions: npt.ArrayLike, triangles: npt.ArrayLike, *, name: str = "the garment",
-                 file: Optional[_core.MeshFile] = None) -> None:
+                 file: Optional[_core.MeshFile] = None, left: Optional[_core.StrippedBody] = None) -> None:
         self.positions: Positions = _numbers(positions, "positions")
         self.triangles: Triangles = _indices(triangles)
         self.name = name
         self.file = file  #: what it was read from, with UVs, materials and textures; None for arrays
+        self._left = left
 
     def __repr__(self) -> str:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
+
+    @property
+    def stripped(self) -> List[str]:
+        """Names of the parts of the file that were left out as clothes."""
+        return [] if self._left is None else self._left.stripped
 
     def write(self, path: Union[str, "os.PathLike[str]"], positions: Optional[npt.ArrayLike] = None) -> None:
         """Writes the file that this mesh was read from with other positions. Vertices, order, UVs, groups and materials
@@ -42,14 +48,21 @@ class Mesh:
             raise invalid_input("wrong_call", f"{path}: a mesh made from arrays needs a name that ends in .ply")
 
 
-def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False) -> Mesh:
-    """Reads OBJ, PLY, OFF, STL, glTF or GLB. `reconstruct` makes a surface from points without faces."""
+def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False, wears: str = "keep") -> Mesh:
+    """Reads OBJ, PLY, OFF, STL, glTF, GLB, FBX or COLLADA. `reconstruct` makes a surface from points without faces.
+
+    wears: what is done with clothes that an avatar wears in its file: "keep" (all parts are the body), or "strip"
+    (parts that are named as clothes and have skin under them are left out; `Mesh.stripped` names them).
+    """
     path = Path(path)
     file = _core.MeshFile.read_points(path) if reconstruct else _core.MeshFile.read(path)
     triangles = file.triangles
     if reconstruct and len(triangles) == 0:
         triangles = _core.reconstruct_surface(file.positions)
-    return Mesh(file.positions, triangles, name=path.name, file=file)
+    left = _core.without_clothes(file, wears)
+    if left is not None:
+        triangles = _core.triangles_without_clothes(file, left)
+    return Mesh(file.positions, triangles, name=path.name, file=file, left=left)
 
 
 def as_mesh(given: MeshLike) -> Mesh:

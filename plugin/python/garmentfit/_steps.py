@@ -244,7 +244,7 @@ def _scene_of(body: MeshLike, unit: str, up: str, front: str,
     known = {name: [float(x) for x in place] for name, place in (joints or {}).items()}
     scene = _core.Scene.of_body(mesh.positions, mesh.triangles, unit, up, front, known, dict(parameters))
     if mesh.file is not None:
-        scene.set_body_file(mesh.file)
+        scene.set_body_file(mesh.file, mesh._left)
     return scene
 
 
@@ -266,7 +266,7 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
         dressed.add_garment(mesh.positions, mesh.triangles, garment.type, unit, up, garment.front or front,
                             dict(_sizes_of(garment, parameters)), named)
         if mesh.file is not None:
-            dressed.set_garment_look(mesh.file)
+            dressed.set_garment_look(mesh.file, mesh._left)
     return dressed
 
 

@@ -256,6 +256,25 @@ def test_an_outfit_on_a_skinned_body_keeps_its_file(dressed, skirt, tmp_path):
     assert "left_hip" in [node.get("name") for node in _glb_json(tmp_path / "other.glb")["nodes"]]
 
 
+def test_clothes_of_an_avatar_are_left_out_of_the_body(dressed, body, skirt, tmp_path):
+    dressed.write_outfit(tmp_path / "in_a_skirt.glb", bones="mixamo")
+    clothed = garmentfit.read_mesh(tmp_path / "in_a_skirt.glb")
+    bare = garmentfit.read_mesh(tmp_path / "in_a_skirt.glb", wears="strip")
+    assert (clothed.stripped, bare.stripped) == ([], ["skirt"])
+    assert len(clothed.triangles) == len(body.triangles) + len(skirt.triangles)
+    assert len(bare.triangles) == len(body.triangles) and len(bare.positions) == len(clothed.positions)
+    with pytest.raises(InvalidInput, match="keep or strip"):
+        garmentfit.read_mesh(tmp_path / "in_a_skirt.glb", wears="nothing")
+
+    worn = garmentfit.dress(bare, Garment(skirt, "skirt"), **QUICK)
+    assert any("left out of the body: skirt" in warning for warning in worn.warnings)
+    worn.write_outfit(tmp_path / "outfit.glb")
+    outfit = _glb_json(tmp_path / "outfit.glb")
+    faces = [sum(outfit["accessors"][part["indices"]]["count"] for part in mesh["primitives"]) // 3
+             for mesh in outfit["meshes"] if mesh["name"].startswith("skirt")]
+    assert sorted(faces)[0] <= 1 and sorted(faces)[1:] == [len(skirt.triangles)]
+
+
 def test_an_outfit_keeps_materials_of_files(body, skirt, tmp_path):
     shape = "\n".join([f"v {x} {y} {z}" for x, y, z in skirt.positions] + ["vt .5 .5", "usemtl red"]
                       + [f"f {a}/1 {b}/1 {c}/1" for a, b, c in skirt.triangles + 1])

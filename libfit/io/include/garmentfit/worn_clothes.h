@@ -17,6 +17,8 @@ enum class Wears { keep, strip };
 
 /// In the order of Wears.
 GARMENTFIT_API const std::vector<std::string_view>& wears_names();
+/// @throws InvalidInput naming both.
+GARMENTFIT_API Wears wears_called(std::string_view name);
 
 /// What is left of an avatar's body without its clothes.
 struct StrippedBody {
@@ -30,6 +32,9 @@ struct StrippedBody {
 /// skin under it stays, with a warning; so does everything where no part is named as clothes, or where joints are
 /// unknown, so that nothing tells where skin has to be.
 GARMENTFIT_API StrippedBody strip_clothes(const MeshFile& avatar);
+
+/// Which parts were left out, and which could not be, in whole sentences for the user.
+GARMENTFIT_API std::vector<std::string> notes_on(const StrippedBody& body);
 
 /// Rows of triangles and what belongs to them.
 GARMENTFIT_API Triangles triangles_of(const MeshFile& avatar, const StrippedBody& body);
