@@ -82,8 +82,10 @@ private:
         if (block.node != node)
             file_.fail("nodes " + std::to_string(block.node) + " and " + std::to_string(node)
                        + " show the same mesh; give each its own copy");
-        if (!block.normals)
+        if (!block.normals) {
             block.normals = normals;
+            require_as_many_normals(block);
+        }
         const bool same_normals = !normals || normals->place() == block.normals->place();
         if (block.positions.place() != positions.place() || !same_normals)
             file_.fail("two primitives share POSITION (accessor " + std::to_string(positions.accessor)
@@ -91,14 +93,19 @@ private:
         return block;
     }
 
+    void require_as_many_normals(const Block& block) const
+    {
+        if (block.normals && block.normals->count != block.positions.count)
+            file_.fail("POSITION (accessor " + std::to_string(block.positions.accessor)
+                       + ") and NORMAL have different counts; export the file again");
+    }
+
     void add_block(const Block& block)
     {
         const double volume = std::abs(block.world_from_local.linear().determinant());
         if (!block.world_from_local.matrix().allFinite() || !std::isnormal(volume))
             file_.fail("node " + std::to_string(block.node) + " flattens its mesh; give it a scale other than 0");
-        if (block.normals && block.normals->count != block.positions.count)
-            file_.fail("POSITION (accessor " + std::to_string(block.positions.accessor)
-                       + ") and NORMAL have different counts; export the file again");
+        require_as_many_normals(block);
         if (block.positions.count > static_cast<std::size_t>(INT_MAX - rows_))
             file_.fail("has more vertices than this program can count; decimate the mesh");
         blocks.push_back(block);

@@ -226,6 +226,9 @@ TEST_F(Io, SaysWhatCannotBeDoneWithAGltf)
     expect("\"byteOffset\":12,", "\"byteOffset\":4,", "overlap");
     expect("\"2.0\"", "\"1.0\"", "version");
     expect_complaint("a.gltf", samples::gltf_json("\"uri\":\"none.bin\","), "none.bin");
+    const std::string five = with(json, "\"count\":4", "\"count\":5");  // the first primitive has no normals
+    expect_complaint("a.glb", samples::glb(with(five, "\"POSITION\":0,\"NORMAL\":1", "\"POSITION\":0")),
+                     "different counts");
     expect_complaint("a.gltf", std::string(100000, '['), "levels deep");
 }
 
