@@ -128,10 +128,10 @@ inline std::string gltf_json(const std::string& buffer)
         + buffer + "\"byteLength\":108}]}";
 }
 
-inline std::string glb(std::string json = gltf_json(""))
+inline std::string glb(std::string json = gltf_json(""), std::string buffer = gltf_buffer())
 {
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::string buffer = gltf_buffer();
+    buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
     return "glTF" + raw<std::uint32_t>(2) + raw(std::uint32_t(12 + 8 + json.size() + 8 + buffer.size()))
         + raw(std::uint32_t(json.size())) + "JSON" + json + raw(std::uint32_t(buffer.size())) + std::string("BIN\0", 4)
         + buffer;
