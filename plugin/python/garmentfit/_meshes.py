@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import invalid_input
+from ._usd_input import ENDINGS, read_usd
 
 Positions = npt.NDArray[np.float64]
 Triangles = npt.NDArray[np.int32]
@@ -49,12 +50,15 @@ class Mesh:
 
 
 def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False, wears: str = "keep") -> Mesh:
-    """Reads OBJ, PLY, OFF, STL, glTF, GLB, FBX or COLLADA. `reconstruct` makes a surface from points without faces.
+    """Reads OBJ, PLY, OFF, STL, glTF, GLB, FBX or COLLADA; and USD with the extra `usd`, whose meshes come in metres
+    with +y up, without materials or skin. `reconstruct` makes a surface from points without faces.
 
     wears: what is done with clothes that an avatar wears in its file: "keep" (all parts are the body), or "strip"
     (parts that are named as clothes and have skin under them are left out; `Mesh.stripped` names them).
     """
     path = Path(path)
+    if path.suffix.lower() in ENDINGS:
+        return Mesh(*read_usd(path), name=path.name)
     file = _core.MeshFile.read_points(path) if reconstruct else _core.MeshFile.read(path)
     triangles = file.triangles
     if reconstruct and len(triangles) == 0:
