@@ -268,20 +268,33 @@ private:
     std::vector<int> widened_;
 };
 
-}  // namespace
-
-UntangleResult untangle(const TriangleMesh& cloth) { return untangle(cloth, edges_of(cloth.triangles)); }
-
-UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges, std::size_t enough)
+/// Moves the cloth around its tangles until no more than `enough` are left, or to where the fewest are.
+Positions minimise_contours(const TriangleMesh& cloth, const Edges& edges, const std::vector<Crossing>& tangles,
+                            std::size_t enough)
 {
-    const std::vector<Crossing> tangles = find_tangles(cloth, edges);
-    if (tangles.size() <= enough)
-        return { cloth.positions, tangles };
     ContourMinimiser minimiser(cut_out_region(tangles, cloth, edges));
     const Region& parted = minimiser.run(enough);
     Positions positions = cloth.positions;
     positions(parted.vertices, Eigen::all) = parted.mesh.positions;
-    return PartialResult(cloth, edges, tangles, positions).settle();
+    return positions;
+}
+
+}  // namespace
+
+UntangleResult untangle(const TriangleMesh& cloth) { return untangle(cloth, edges_of(cloth.triangles)); }
+
+UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges)
+{
+    const std::vector<Crossing> tangles = find_tangles(cloth, edges);
+    if (tangles.empty())
+        return { cloth.positions, {} };
+    return PartialResult(cloth, edges, tangles, minimise_contours(cloth, edges, tangles, 0)).settle();
+}
+
+Positions reduce_crossings(const TriangleMesh& cloth, const Edges& edges, std::size_t enough)
+{
+    const std::vector<Crossing> tangles = find_tangles(cloth, edges);
+    return tangles.size() <= enough ? cloth.positions : minimise_contours(cloth, edges, tangles, enough);
 }
 
 }  // namespace garmentfit

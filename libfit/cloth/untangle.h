@@ -20,9 +20,12 @@ struct UntangleResult {
 /// `cloth` (n x 3, metres, equal vertices welded) with its sheets parted. Where a part of a tangle does not come apart
 /// without crossings that were not given, the cloth is put back there; everything that is further than a few edges from a
 /// tangle stays as given. Cost O(n log n) to find the tangles, and some hundred times their own size to part them.
-/// @param edges   of the triangles of `cloth`
-/// @param enough  crossings that may be left, so that it ends earlier
-UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges, std::size_t enough = 0);
+/// @param edges  of the triangles of `cloth`
+UntangleResult untangle(const TriangleMesh& cloth, const Edges& edges);
 UntangleResult untangle(const TriangleMesh& cloth);
+
+/// Where the cloth goes by the same method until no more than `enough` pairs cross, or to where the fewest do. Others
+/// may cross then than did before. Cost O(n log n) a round.
+Positions reduce_crossings(const TriangleMesh& cloth, const Edges& edges, std::size_t enough);
 
 }  // namespace garmentfit

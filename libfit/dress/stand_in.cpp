@@ -220,6 +220,23 @@ Positions draw_in(const Parts& cloth, const Places& places, const Surroundings& 
     return positions;
 }
 
+/// Parts the cloth as far as needed for no more than `enough` crossings, in eighths, quarters and halves of the way to
+/// where that many are left.
+Positions parted_to(const TriangleMesh& cloth, const Edges& edges, std::size_t enough)
+{
+    const auto count = [&](const Positions& positions) {
+        const TriangleMesh moved { positions, cloth.triangles };
+        return find_self_crossings(moved, edges, TriangleTree(moved)).size();
+    };
+    if (count(cloth.positions) <= enough)
+        return cloth.positions;
+    const Positions motion = reduce_crossings(cloth, edges, enough) - cloth.positions;
+    for (double share = k_least_parting; share < 1; share *= 2)
+        if (Positions part = cloth.positions + share * motion; count(part) <= enough)
+            return part;
+    return cloth.positions + motion;
+}
+
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
 Positions untangled(const Parts& cloth, const Positions& positions, const Surroundings& around)
@@ -227,8 +244,9 @@ Positions untangled(const Parts& cloth, const Positions& positions, const Surrou
     const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
     const Edges& edges = cloth.topology.edges();
     const std::size_t given = find_self_crossings(rest, edges, TriangleTree(rest)).size();
-    const std::size_t enough = given > k_few_crossings ? std::size_t(k_fewer_crossings * double(given)) : 0;
-    Positions parted = untangle(moved, edges, enough).positions;
+    Positions parted = given <= k_few_crossings
+        ? untangle(moved, edges).positions
+        : parted_to(moved, edges, std::size_t(k_fewer_crossings * double(given)));
     for (int round = 0; round < k_drawing_rounds; ++round) {
         std::vector<char> marks(positions.rows(), 0);
         mark_meeting(cloth, parted, around, marks);

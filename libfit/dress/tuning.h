@@ -159,7 +159,7 @@ inline constexpr double k_lying_apart = 1;
 /// Crossings that such a garment is given with, up to which all are untangled; of more, a few fewer than given are left.
 /// fitted: guess, between 20 of a polo shirt, which come apart, and 14,000 of doubled sheets, which do not
 inline constexpr std::size_t k_few_crossings = 1000;
-inline constexpr double k_fewer_crossings = 0.99;
+inline constexpr double k_fewer_crossings = 0.99, k_least_parting = 1. / 16;
 /// How often cloth that follows its stand-in is drawn in, where it meets something: up to 1/64 of its distance; and how
 /// often it is put back, where it was untangled. fitted: guess
 inline constexpr int k_drawing_rounds = 6;
