@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -448,79 +449,49 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
         std::rethrow_exception(refusal);
 }
 
-std::string at_human_size(const std::string& line, double factor)
-{
-    return line + " (lengths as on a body of human size, that is times " + rounded_text(factor, 6) + ")";
-}
-
-/// Runs on a copy of the scene at human size. What was made is scaled back, also by the stages before one that fails.
-void run_scaled(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress, double factor)
-{
-    Scene copy = scale_scene(scene, factor);
-    parameters.rig.joints = scale_joints(parameters.rig.joints, factor);
-    try {
-        run_stages(filter, copy, parameters, progress);
-    } catch (...) {
-        restore_size(scene, copy, factor, filter.outputs);
-        throw;
-    }
-    restore_size(scene, copy, factor, filter.outputs);
-}
-
-/// An error's lengths are those of the copy, and say so.
-void run_at_human_size(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress,
-                       double factor)
+/// Runs on a copy of the scene. What was made is taken back, also by the stages before one that fails.
+/// @param remark  an error's lengths and places are those of the copy, and its line says so
+void run_on_copy(const std::function<void()>& run, const std::function<void()>& take_back, const std::string& remark)
 {
     try {
-        run_scaled(filter, scene, parameters, progress, factor);
+        try {
+            run();
+        } catch (...) {
+            take_back();
+            throw;
+        }
+        take_back();
     } catch (const InvalidInput& error) {
-        throw InvalidInput(error.code(), at_human_size(error.what(), factor));
+        throw InvalidInput(error.code(), error.what() + remark);
     } catch (const SolverFailure& error) {
-        throw SolverFailure(at_human_size(error.what(), factor));
+        throw SolverFailure(error.what() + remark);
     }
 }
 
-void run_at_any_size(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+void run_at_human_size(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress)
 {
     const double factor = factor_to_human_size(*scene.body);
     if (factor == 1)
-        run_stages(filter, scene, parameters, progress);
-    else
-        run_at_human_size(filter, scene, parameters, progress, factor);
+        return run_stages(filter, scene, parameters, progress);
+    Scene copy = scale_scene(scene, factor);
+    parameters.rig.joints = scale_joints(parameters.rig.joints, factor);
+    run_on_copy([&] { run_stages(filter, copy, parameters, progress); },
+                [&] { restore_size(scene, copy, factor, filter.outputs); },
+                " (lengths as on a body of human size, that is times " + rounded_text(factor, 6) + ")");
 }
 
-/// Runs on a copy of the scene near the origin. What was made is moved back, also by the stages before one that fails.
-void run_moved(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress,
-               const Origins& origins)
+void run_near_origin(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress)
 {
+    constexpr int k_digits = 9;  // unit: far away, the last metre is what counts
+    const Origins origins = origins_of(scene);
+    if (origins.all_zero())
+        return run_at_human_size(filter, scene, parameters, progress);
     Scene copy = move_to_origin(scene, origins);
     parameters.rig.joints = move_to_origin(parameters.rig.joints, origins);
-    try {
-        run_at_any_size(filter, copy, parameters, progress);
-    } catch (...) {
-        move_back(scene, copy, origins, filter.outputs);
-        throw;
-    }
-    move_back(scene, copy, origins, filter.outputs);
-}
-
-std::string near_origin(const std::string& line, const Vec3& origin)
-{
-    return line + " (places as seen from " + rounded_text(origin.x(), 9) + ", " + rounded_text(origin.y(), 9) + ", "
-        + rounded_text(origin.z(), 9) + " m)";
-}
-
-/// An error's places are those of the copy, and say so.
-void run_near_origin(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress,
-                     const Origins& origins)
-{
-    try {
-        run_moved(filter, scene, parameters, progress, origins);
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(error.code(), near_origin(error.what(), origins.body));
-    } catch (const SolverFailure& error) {
-        throw SolverFailure(near_origin(error.what(), origins.body));
-    }
+    const auto along = [&](int axis) { return rounded_text(origins.body[axis], k_digits); };
+    run_on_copy([&] { run_at_human_size(filter, copy, parameters, progress); },
+                [&] { move_back(scene, copy, origins, filter.outputs); },
+                " (places as seen from " + along(0) + ", " + along(1) + ", " + along(2) + " m)");
 }
 
 }  // namespace
@@ -617,11 +588,7 @@ void Filter::run(Scene& scene, const Parameters& parameters, const Progress& pro
     Parameters p = parameters;
     p.recover.cloth = cloth(parameters);
     const Progress limited = progress.until(Deadline::in(p.time_limit));
-    const Origins origins = origins_of(scene);
-    if (origins.all_zero())
-        run_at_any_size(*this, scene, p, limited);
-    else
-        run_near_origin(*this, scene, p, limited, origins);
+    run_near_origin(*this, scene, p, limited);
 }
 
 }  // namespace garmentfit
