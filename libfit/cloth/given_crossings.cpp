@@ -98,11 +98,11 @@ bool is_among(const std::vector<Crossing>& known, const Crossing& crossing)
 
 }  // namespace
 
-double gap_at_rest(const TriangleMesh& rest, const Edges& edges, const Positions& positions, const Crossing& crossing)
+Vec3 offset_at_rest(const TriangleMesh& rest, const Edges& edges, const Positions& positions, const Crossing& crossing)
 {
     const auto [a, b] = points_at(rest.positions, rest.triangles, edges, crossing,
                                   meeting_place(positions, rest.triangles, edges, crossing));
-    return (a - b).norm();
+    return a - b;
 }
 
 GivenCrossings::GivenCrossings(const TriangleMesh& given, const Edges& edges, const std::vector<Crossing>& crossings) :

@@ -19,8 +19,8 @@ struct ComparedCrossings {
     std::vector<Crossing> fresh;
 };
 
-/// m; how far the two places that meet in a crossing were from each other at rest.
-double gap_at_rest(const TriangleMesh& rest, const Edges& edges, const Positions& positions, const Crossing& crossing);
+/// m; of the two places that meet in a crossing, how that on the edge lay from that on the triangle at rest.
+Vec3 offset_at_rest(const TriangleMesh& rest, const Edges& edges, const Positions& positions, const Crossing& crossing);
 
 class GivenCrossings {
 public:

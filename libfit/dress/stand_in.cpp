@@ -194,7 +194,7 @@ void mark_folds(const Parts& cloth, const Positions& positions, std::vector<char
     const Edges& edges = cloth.topology.edges();
     const double apart = k_lying_apart * mean_edge_length(rest.positions, edges);
     for (const Crossing& crossing : find_self_crossings(moved, edges, TriangleTree(moved)))
-        if (gap_at_rest(rest, edges, positions, crossing) > apart) {
+        if (offset_at_rest(rest, edges, positions, crossing).norm() > apart) {
             for (const int v : edges.row(crossing.first))
                 marks[v] = 1;
             for (const int v : moved.triangles.row(crossing.second))
@@ -237,16 +237,68 @@ Positions parted_to(const TriangleMesh& cloth, const Edges& edges, std::size_t e
     return cloth.positions + motion;
 }
 
+/// The rotation that takes a triangle from rest to where it is; an error of its strain.
+Eigen::Matrix3d rotation_of(const Eigen::RowVector3i& corners, const Positions& rest, const Positions& positions)
+{
+    const auto frame = [&corners](const Positions& x) {
+        const Vec3 along = (x.row(corners[1]) - x.row(corners[0])).transpose(),
+                   normal = along.cross(Vec3(x.row(corners[2]) - x.row(corners[0])));
+        Eigen::Matrix3d axes;
+        axes << along.stableNormalized(), normal.stableNormalized(), along.cross(normal).stableNormalized();
+        return axes;
+    };
+    return frame(positions) * frame(rest).transpose();
+}
+
+/// Moves apart what meets and did not as given, where that is little, to where it lay from each other at rest; cloth
+/// beside it half as far.
+Positions with_gaps_of_rest(const Parts& cloth, const GivenCrossings& given, Positions positions)
+{
+    const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles };
+    const Edges& edges = cloth.topology.edges();
+    for (int round = 0; round < k_drawing_rounds; ++round) {
+        const TriangleMesh moved { positions, rest.triangles };
+        const auto fresh = given.compare(positions, find_self_crossings(moved, edges, TriangleTree(moved))).fresh;
+        if (fresh.empty() || fresh.size() > k_few_crossings)
+            return positions;
+        Positions sum = Positions::Zero(positions.rows(), 3);
+        Eigen::VectorXd count = Eigen::VectorXd::Zero(positions.rows());
+        const auto push = [&](int v, const Vec3& by) {
+            sum.row(v) += by;
+            count[v] += 1;
+        };
+        for (const Crossing& crossing : fresh) {
+            const Eigen::RowVector3i corners = rest.triangles.row(crossing.second);
+            const Vec3 by = rotation_of(corners, rest.positions, positions)
+                * offset_at_rest(rest, edges, positions, crossing) / 2;
+            for (const int v : edges.row(crossing.first))
+                push(v, by);
+            for (const int v : corners)
+                push(v, -by);
+        }
+        const Positions motion = sum.array().colwise() / count.array().max(1);
+        Positions beside = Positions::Zero(positions.rows(), 3);
+        add_neighbours(edges, motion, beside);
+        for (Eigen::Index v = 0; v < positions.rows(); ++v)
+            positions.row(v) += count[v] > 0
+                ? Eigen::RowVector3d(motion.row(v))
+                : Eigen::RowVector3d(beside.row(v)
+                                     / std::max<double>(1, double(cloth.topology.neighbours(int(v)).size())) / 2);
+    }
+    return positions;
+}
+
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
 Positions untangled(const Parts& cloth, const Positions& positions, const Surroundings& around)
 {
     const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
     const Edges& edges = cloth.topology.edges();
-    const std::size_t given = find_self_crossings(rest, edges, TriangleTree(rest)).size();
-    Positions parted = given <= k_few_crossings
+    const std::vector<Crossing> given = find_self_crossings(rest, edges, TriangleTree(rest));
+    Positions parted = given.size() <= k_few_crossings
         ? untangle(moved, edges).positions
-        : parted_to(moved, edges, std::size_t(k_fewer_crossings * double(given)));
+        : with_gaps_of_rest(cloth, GivenCrossings(rest, edges, given),
+                            parted_to(moved, edges, std::size_t(k_fewer_crossings * double(given.size()))));
     for (int round = 0; round < k_drawing_rounds; ++round) {
         std::vector<char> marks(positions.rows(), 0);
         mark_meeting(cloth, parted, around, marks);
