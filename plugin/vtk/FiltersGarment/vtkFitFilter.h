@@ -24,8 +24,8 @@
  * - point data `RestPosition`: the points of the input; `Ease`: gap to the skin; `Strain`: mean stretch of the edges;
  *   `Pressure`: Pa
  * - field data `FoundType`, `FoundTypeProbability`, `Worn`, `BodyCrossings`, `SelfCrossings`, `InputSelfCrossings`,
- *   `KeptSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentMinDistance`, `StrainMedian`, `StrainP95`,
- *   `StrainMax`,
+ *   `KeptSelfCrossings`, `ShiftedSelfCrossings`, `LayerCrossings`, `VerticesInside`, `GarmentMinDistance`,
+ *   `StrainMedian`, `StrainP95`, `StrainMax`,
  *   `OverstretchedEdges`, `LargestStretch`, `OverstretchedPart`, `TooTightPart`, `MissingGirth`, `GirthPlace`,
  *   `GirthBody`, `GirthGarment`, `Verdict`, `VerdictPlace`, `PlaceVerdict`, `PlaceStretch`, `PlacePressure` (Pa),
  *   `FabricThatWouldDo`
