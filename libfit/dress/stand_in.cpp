@@ -228,9 +228,9 @@ Positions parted_to(const TriangleMesh& cloth, const Edges& edges, std::size_t e
         const TriangleMesh moved { positions, cloth.triangles };
         return find_self_crossings(moved, edges, TriangleTree(moved)).size();
     };
-    if (count(cloth.positions) <= enough)
-        return cloth.positions;
     const Positions motion = reduce_crossings(cloth, edges, enough) - cloth.positions;
+    if (motion.isZero(0))
+        return cloth.positions;
     for (double share = k_least_parting; share < 1; share *= 2)
         if (Positions part = cloth.positions + share * motion; count(part) <= enough)
             return part;

@@ -4,9 +4,9 @@
 // One sheet of cloth that moves in the place of a garment in many parts, and takes it along.
 //
 // Method   The stand-in is the inner sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all parts. Each vertex of
-//          the garment keeps its place over the nearest triangle of it, in a frame that turns with the cloth (embedded
-//          deformation [sumner_2007_embedded_deformation]). What then meets the body is drawn in towards the stand-in,
-//          which does not, and parts that meet each other are untangled.
+//          the garment goes with the blended motions of the stand-in's vertices near it (embedded deformation
+//          [sumner_2007_embedded_deformation]). What then meets the body, or another side of a fold, is drawn in towards
+//          the stand-in, which meets nothing, and parts that meet each other are parted.
 // Units    metres.
 
 #include <optional>
