@@ -356,22 +356,20 @@ double share_covered(const TriangleMesh& surface, const TriangleMesh& closed, do
 
 }  // namespace
 
-std::vector<JoinedParts> join_parts(const TriangleMesh& surface)
+std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps)
 {
-    std::vector<JoinedParts> joined;
     const double near = k_cover_distance * diagonal(surface.positions);
-    for (const double alpha : k_join_alphas)
-        try {
-            const CgalMesh mesh = wrapped_body(surface, alpha).mesh;
-            if (!is_solid(mesh))
-                continue;
-            TriangleMesh closed = orient_outwards(from_cgal(mesh));
-            if (share_covered(surface, closed, near) > k_least_cover)
-                joined.push_back({ std::move(closed), alpha > k_wrap_alpha });
-        } catch (const CGAL::Failure_exception&) {
-            // a wider wrap may do
-        }
-    return joined;
+    try {
+        const CgalMesh mesh = wrapped_body(surface, gaps == Gaps::wide ? k_join_wide : k_join_narrow).mesh;
+        if (!is_solid(mesh))
+            return {};
+        TriangleMesh closed = orient_outwards(from_cgal(mesh));
+        if (share_covered(surface, closed, near) > k_least_cover)
+            return closed;
+    } catch (const CGAL::Failure_exception&) {
+        // another wrap may do
+    }
+    return {};
 }
 
 TriangleMesh close_surface(const TriangleMesh& given, bool& repaired)

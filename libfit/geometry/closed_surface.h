@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "garmentfit/types.h"
 
@@ -11,13 +11,11 @@ namespace garmentfit {
 /// @throws InvalidInput when nothing can be closed.
 TriangleMesh close_surface(const TriangleMesh& surface, bool& repaired);
 
-struct JoinedParts {
-    TriangleMesh closed;
-    bool is_wide;  ///< joins what lies further apart than a wrap usually does, such as arms and trunk
-};
+/// What a wrap of a body in parts spans: little, so that arms stay off the trunk, or also what lies further apart.
+enum class Gaps { narrow, wide };
 
-/// Wraps of a surface in parts as one body, from a narrow wrap, which keeps what is apart, to a wide one, which spans
-/// gaps: those whose largest piece holds nearly all of the surface; perhaps none. Some seconds.
-std::vector<JoinedParts> join_parts(const TriangleMesh& surface);
+/// Wraps a surface in parts as one body. Nothing where the largest piece of the wrap does not hold nearly all of the
+/// surface. Up to a second for wide gaps, a few for narrow ones.
+std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps);
 
 }  // namespace garmentfit

@@ -78,9 +78,9 @@ inline constexpr double k_wrap_alpha = 0.012, k_wrap_offset = 0.001;
 
 /// The same for bodies in parts that lie further apart, in turn. fitted: guess, on bodies cut into shells.
 inline constexpr double k_wide_wrap_alphas[] = { 0.025, 0.05 };
-/// The same, tried in turn where no human is found in a body in parts: narrow ones keep arms off the trunk. fitted:
-/// guess, on figures of 2 to 94 parts.
-inline constexpr double k_join_alphas[] = { 0.005, 0.025 };
+/// The same where no human is found in a body in parts: the narrow wrap keeps arms off the trunk. fitted: guess, on
+/// figures of 2 to 94 parts.
+inline constexpr double k_join_narrow = 0.005, k_join_wide = 0.025;
 /// Samples of a surface, how near a closed surface has to be, a share of the diagonal, and the least share of samples
 /// there, where it counts as joined. fitted: guess.
 inline constexpr int k_cover_samples = 400;

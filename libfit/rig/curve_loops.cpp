@@ -54,16 +54,42 @@ std::vector<int> loop_through(const Neighbours& neighbours, const Edge& edge)
     return loop;
 }
 
+/// Without the branches that end: what is left lies on loops or between them.
+Neighbours without_ends(Neighbours neighbours)
+{
+    std::vector<int> ends;
+    const auto note_end = [&](int n) {
+        if (neighbours[n].size() == 1)
+            ends.push_back(n);
+    };
+    for (int n = 0; n < int(neighbours.size()); ++n)
+        note_end(n);
+    while (!ends.empty()) {
+        const int end = ends.back();
+        ends.pop_back();
+        for (const int n : neighbours[end]) {
+            neighbours[n].erase(std::find(neighbours[n].begin(), neighbours[n].end(), end));
+            note_end(n);
+        }
+        neighbours[end].clear();
+    }
+    return neighbours;
+}
+
 std::vector<int> shortest_loop(const CurveSkeleton& skeleton, const Neighbours& neighbours)
 {
+    const Neighbours inner = without_ends(neighbours);
     std::vector<int> shortest;
     double least = std::numeric_limits<double>::max();
-    for (const Edge& edge : skeleton.edges)
-        if (const std::vector<int> loop = loop_through(neighbours, edge); !loop.empty())
+    for (const Edge& edge : skeleton.edges) {
+        if (inner[edge[0]].empty() || inner[edge[1]].empty())
+            continue;
+        if (const std::vector<int> loop = loop_through(inner, edge); !loop.empty())
             if (const double l = length(skeleton, loop); l < least) {
                 least = l;
                 shortest = loop;
             }
+    }
     return shortest;
 }
 

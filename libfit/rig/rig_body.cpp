@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "body_graph.h"
 #include "closed_surface.h"
@@ -206,26 +208,59 @@ constexpr double k_human_search = 0.97;  // unit: share of the progress bar; the
 constexpr Attempt k_attempts[]
     = { { 1, 0, 0.9 }, { k_coarser_proxy, 0.9, 0.95 }, { k_finer_proxy, 0.95, k_human_search } };
 
-/// What was contracted so far, one for each attempt.
-using Attempts = std::vector<Contracted>;
-
-Contracted contract(const TriangleMesh& closed, int proxy_vertices, const Progress& progress)
+Contracted contract(TriangleMesh proxy, const Progress& progress)
 {
-    Contracted contracted { proxy_surface(closed, proxy_vertices), {} };
-    progress.at(0.15);
-    contracted.curves = curve_skeleton(contracted.proxy, progress.part(0.15, 1));
-    return contracted;
+    CurveSkeleton curves = curve_skeleton(proxy, progress.part(0.15, 1));
+    return { std::move(proxy), std::move(curves) };
 }
 
-/// What `make` returns for the first attempt that it accepts. @throws InvalidInput of the first attempt, when it refuses
-/// all, or at the first doubt.
+/// The copies of a closed body, decimated and contracted one by one. Those of a body with few vertices may be the body
+/// itself each time, or quarter its triangles into far more than asked: after the first, these are left out.
+class Copies {
+public:
+    Copies(const TriangleMesh& closed, const RigOptions& options) : closed_(closed), vertices_(options.proxy_vertices)
+    {
+    }
+
+    int count() const { return int(contracted_.size()); }
+    /// @pre 0 <= i < count()
+    const Contracted& at(int i) const { return *contracted_[i]; }
+    bool has_more() const { return next_ < int(std::size(k_attempts)); }
+
+    /// Adds the copy of the next attempt, unless it is left out. @pre has_more()
+    /// @throws InvalidInput when it does not contract to curves.
+    bool add_next(const Progress& progress)
+    {
+        const int vertices = int(k_attempts[next_++].proxy * vertices_);
+        TriangleMesh proxy = proxy_surface(closed_, vertices);
+        progress.at(0.15);
+        if (next_ > 1 && double(proxy.positions.rows()) > k_most_quartered * vertices)
+            return false;
+        for (const auto& other : contracted_)
+            if (other->proxy.positions.rows() == proxy.positions.rows() && other->proxy.positions == proxy.positions
+                && other->proxy.triangles.rows() == proxy.triangles.rows() && other->proxy.triangles == proxy.triangles)
+                return false;
+        contracted_.push_back(std::make_unique<Contracted>(contract(std::move(proxy), progress)));
+        return true;
+    }
+
+private:
+    const TriangleMesh& closed_;
+    int vertices_;
+    int next_ = 0;
+    std::vector<std::unique_ptr<Contracted>> contracted_;
+};
+
+/// What `make` returns for the first attempt that it accepts; it may return nothing, where nothing is new.
+/// @throws InvalidInput of the first attempt, when it refuses all, or at the first doubt.
 template <class Make>
 Rig first_valid_rig(const Make& make)
 {
     std::optional<InvalidInput> refusal;
     for (const Attempt& attempt : k_attempts)
         try {
-            return make(attempt);
+            if (std::optional<Rig> rig = make(attempt))
+                return *std::move(rig);
         } catch (const Doubtful&) {
             throw;
         } catch (const InvalidInput& reason) {
@@ -235,16 +270,18 @@ Rig first_valid_rig(const Make& make)
     throw *refusal;
 }
 
-/// @param tried  gets what was contracted on the way
-Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Attempts& tried, const Progress& progress)
+/// @param copies  gets what was contracted on the way
+Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Copies& copies, const Progress& progress)
 {
-    return first_valid_rig([&](const Attempt& attempt) {
+    return first_valid_rig([&](const Attempt& attempt) -> std::optional<Rig> {
         const Progress part = progress.part(attempt.from, attempt.to);
-        tried.push_back(contract(body.closed, int(attempt.proxy * options.proxy_vertices), part.part(0, 0.8)));
-        VisibleRig found = find_bones(tried.back(), options);
+        if (!copies.add_next(part.part(0, 0.8)))
+            return {};
+        const Contracted& copy = copies.at(copies.count() - 1);
+        VisibleRig found = find_bones(copy, options);
         part.at(0.8);
-        check_rig(tried.back().proxy, found.rig.skeleton);
-        Rig rig = weigh(std::move(found), tried.back().proxy, body, part.part(0.8, 1));
+        check_rig(copy.proxy, found.rig.skeleton);
+        Rig rig = weigh(std::move(found), copy.proxy, body, part.part(0.8, 1));
         progress.at(1);
         return rig;
     });
@@ -278,7 +315,7 @@ public:
     explicit FigureSearch(const RigOptions& options) : options_(options) { }
 
     /// @param doubt  costs of the surface
-    void look_at(Contracted body, double doubt = 0)
+    void look_at(const Contracted& body, double doubt = 0)
     {
         try {
             const Figure figure = figure_graph(body.curves, body.proxy);
@@ -292,7 +329,7 @@ public:
             found.rig.not_human = human.furthest.empty() ? k_other_lengths : human.furthest;
             score_ = score;
             best_ = std::move(found);
-            proxy_ = std::move(body.proxy);
+            proxy_ = body.proxy;
         } catch (const InvalidInput&) {
             // another triangulation may do
         }
@@ -316,28 +353,33 @@ private:
 
 /// A figure in what was contracted for a human, in finer and coarser copies, or, of a body in parts, in other ways to
 /// join them. @throws `refusal` when there is none.
-Rig find_figure(const BodyMesh& body, const RigOptions& options, const Attempts& tried, const InvalidInput& refusal,
+Rig find_figure(const BodyMesh& body, const RigOptions& options, Copies& copies, const InvalidInput& refusal,
                 const Progress& progress)
 {
     FigureSearch search(options);
-    const auto look_at = [&](const TriangleMesh& closed, double proxy, double from, double to, double doubt = 0) {
+    for (int i = 0; i < copies.count(); ++i)
+        search.look_at(copies.at(i));
+    for (; copies.has_more() && !search.is_sure(); progress.at(0.2))
         try {
-            search.look_at(contract(closed, int(proxy * options.proxy_vertices), progress.part(from, to)), doubt);
+            if (copies.add_next(progress.part(0, 0.2)))
+                search.look_at(copies.at(copies.count() - 1));
         } catch (const InvalidInput&) {
-            // this surface does not contract to curves
+            // this copy does not contract to curves
         }
-    };
-    for (const Contracted& contracted : tried)
-        search.look_at(contracted);
-    for (std::size_t i = tried.size(); i < std::size(k_attempts) && !search.is_sure(); ++i)
-        look_at(body.closed, k_attempts[i].proxy, 0.1 * double(i), 0.1 * double(i + 1));
-    if (body.repaired && !search.is_sure()) {
-        progress.at(0.3);
-        double done = 0.4;
-        for (const auto& [closed, is_wide] : join_parts(body.surface)) {
-            look_at(closed, 1, done, done + 0.2, is_wide ? k_wide_wrap_cost : 0);
-            done += 0.2;
+    double done = 0.2;
+    for (const Gaps gaps : { Gaps::wide, Gaps::narrow }) {
+        if (!body.repaired || search.is_sure())
+            break;
+        try {
+            if (const std::optional<TriangleMesh> joined = join_parts(body.surface, gaps)) {
+                TriangleMesh proxy = proxy_surface(*joined, options.proxy_vertices);
+                search.look_at(contract(std::move(proxy), progress.part(done + 0.15, done + 0.3)),
+                               gaps == Gaps::wide ? k_wide_wrap_cost : 0);
+            }
+        } catch (const InvalidInput&) {
+            // this wrap does not contract to curves
         }
+        progress.at(done += 0.3);
     }
     if (!search.has_found())
         throw refusal;
@@ -348,13 +390,13 @@ Rig rig_at_origin(const BodyMesh& body, const RigOptions& options, const Progres
 {
     if (options.joints.is_complete())
         return rig_by_given_joints(body, options, progress);
-    Attempts tried;
+    Copies copies(body.closed, options);
     try {
-        return rig_as_human(body, options, tried, progress);
+        return rig_as_human(body, options, copies, progress);
     } catch (const InvalidInput& refusal) {
         if (options.humanlike == Humanlike::strict)
             throw;
-        return find_figure(body, options, tried, refusal, progress.part(k_human_search, 1));
+        return find_figure(body, options, copies, refusal, progress.part(k_human_search, 1));
     }
 }
 

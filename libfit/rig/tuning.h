@@ -276,5 +276,8 @@ inline constexpr double k_figure_inside_share = 0.6;
 /// fitted: guess, on the dirty bodies. Number of proxy vertices of the second and third attempt, as shares of the
 /// first.
 inline constexpr double k_coarser_proxy = 2.0 / 3, k_finer_proxy = 1.5;
+/// fitted: by time. A second or third copy is left out that is more than so many times as large as asked, because its
+/// triangles were quartered: it is slow, and has the first one's shape.
+inline constexpr double k_most_quartered = 1.5;
 
 }  // namespace garmentfit::rig_tuning
