@@ -287,13 +287,26 @@ Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Copies& copies
     });
 }
 
+constexpr const char* k_other_lengths = "the lengths between head, hands and feet are not a human's";
+
+/// @param cost  of the names of the limbs, half a sum of squares
+void say_how_human(const HumanLikeness& human, double cost, Rig& rig)
+{
+    rig.human_probability = std::exp(-0.5 * human.squares - cost);
+    if (rig.human_probability < 1)
+        rig.not_human = human.furthest.empty() ? k_other_lengths : human.furthest;
+}
+
 Rig rig_by_given_joints(const BodyMesh& body, const RigOptions& options, const Progress& progress)
 {
     return first_valid_rig([&](const Attempt& attempt) {
         const TriangleMesh proxy = proxy_surface(body.closed, int(attempt.proxy * options.proxy_vertices));
         VisibleRig given = take_given_bones(proxy, options.joints);
         progress.at(attempt.to * 0.8);
-        check_rig(proxy, given.rig.skeleton);
+        if (options.humanlike == Humanlike::strict)
+            check_rig(proxy, given.rig.skeleton);
+        else
+            say_how_human(human_likeness(proxy, given.rig.skeleton), 0, given.rig);
         return weigh(std::move(given), proxy, body, progress.part(attempt.to * 0.8, 1));
     });
 }
@@ -306,8 +319,6 @@ int count_divided(const BodyJoints& joints)
         count += !limb.whole && !limb.widens;
     return count;
 }
-
-constexpr const char* k_other_lengths = "the lengths between head, hands and feet are not a human's";
 
 /// Finds the likeliest figure among several contracted surfaces.
 class FigureSearch {
@@ -325,8 +336,7 @@ public:
             const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints) - doubt;
             if (best_ && score <= score_)
                 return;
-            found.rig.human_probability = std::exp(-0.5 * human.squares - figure.cost);
-            found.rig.not_human = human.furthest.empty() ? k_other_lengths : human.furthest;
+            say_how_human(human, figure.cost, found.rig);
             score_ = score;
             best_ = std::move(found);
             proxy_ = body.proxy;

@@ -53,6 +53,15 @@ public:
 
     const TriangleMesh& mesh() const { return mesh_; }
 
+    /// All joints, as a user would give them.
+    GivenJoints joints() const
+    {
+        GivenJoints joints { skeleton_.root, {}, {} };
+        for (int b = 0; b < bone_count; ++b)
+            joints.tails[b] = skeleton_.tail(b);
+        return joints;
+    }
+
     /// Of the twelve joints of the limbs from where they were moved, a share of the height.
     double mean_error(const Skeleton& found) const
     {
@@ -99,6 +108,20 @@ TEST(Slow, CartoonsAreRiggedAndSaidToBeFarFromHuman)
             EXPECT_FALSE(found.not_human.empty());
         }
     }
+}
+
+TEST(Figures, JointsOfACartoonAreTakenWhereAllAreGiven)
+{
+    const TriangleMesh mesh = human("man_a_pose");
+    const Cartoon ape(mesh, rig_body(make_body(mesh.positions, mesh.triangles)), { 1, 1.5, 0.5 });
+    const BodyMesh body = make_body(ape.mesh().positions, ape.mesh().triangles);
+    RigOptions options { .joints = ape.joints() };
+    const Rig rig = rig_body(body, options);
+    EXPECT_LT(ape.mean_error(rig.skeleton), 1e-6);
+    EXPECT_LT(rig.human_probability, k_clearly_human);
+    EXPECT_NE(rig.not_human.find("arm to leg"), std::string::npos) << rig.not_human;
+    options.humanlike = Humanlike::strict;
+    fixtures::expect_invalid([&] { rig_body(body, options); }, "a human has");
 }
 
 TEST(Slow, StrictRefusesApes)
