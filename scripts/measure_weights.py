@@ -6,8 +6,8 @@
 
 Each avatar is rigged three times: by its own skeleton and weights; by its own joints, weights found; by its shape alone.
 "Segments": mean over the vertices of half the sum of differences of weights in nine segments (trunk, upper arms,
-forearms with hands, thighs, shins with feet). "Posed": mean distance between the vertices, a share of the stature, when
-each rig takes four poses by its own joints and weights. What is refused has a dash, and the reason on stderr.
+forearms with hands, thighs, shins with feet). "Posed": mean distance between the vertices, a share of the stature,
+when each rig takes four poses by its own joints and weights. What is refused has a dash, and the reason on stderr.
 """
 import argparse
 import json
@@ -22,8 +22,8 @@ SEGMENTS = {"humerus": 0, "radius": 1, "femur": 2, "tibia": 3}  # of the left si
 TRUNK, SEGMENT_COUNT = 8, 9
 PLY_TYPES = {"double": "<f8", "float": "<f4", "int": "<i4", "uchar": "u1"}
 
-# Degrees about the body's axes: left (legs swing back), up (the left arm swings back), front (the left arm rises). Right
-# limbs turn about the last two the other way. One entry for both sides, or one for each.
+# Degrees about the body's axes: left (legs swing back), up (the left arm swings back), front (the left arm rises).
+# Right limbs turn about the last two the other way. One entry for both sides, or one for each.
 POSES = {
     "walk": {"lfemur": (-35, 0, 0), "ltibia": (45, 0, 0), "rfemur": (20, 0, 0), "rtibia": (20, 0, 0),
              "lhumerus": (20, 0, -25), "rhumerus": (-20, 0, -25), "radius": (0, -20, 0), "lowerback": (0, 10, 0)},
