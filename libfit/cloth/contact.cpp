@@ -181,10 +181,14 @@ void ContactDetector::find_edge_edges(const Surface& a, const Surface& b, std::v
 void ContactDetector::add_candidate(Candidate c, Found& found)
 {
     const int split = first_size(c.kind);
-    if (c.reason == ContactReason::self && (share_a_vertex(c.vertices, split) || ignored(c.kind).count(c.key)))
+    if (c.reason == ContactReason::self && share_a_vertex(c.vertices, split))
         return;
-    c.distance = closest_points(c.kind, corners_of(region_.start, c.vertices)).distance;
-    if (c.distance <= approach_bound(region_.path, c.vertices, split) + sum_of(region_.margins, c.reason))
+    const Corners corners = corners_of(region_.start, c.vertices);
+    const double near = approach_bound(region_.path, c.vertices, split) + sum_of(region_.margins, c.reason);
+    if (are_surely_apart(c.kind, corners, near))
+        return;
+    c.distance = closest_points(c.kind, corners).distance;
+    if (c.distance <= near && !(c.reason == ContactReason::self && ignored(c.kind).count(c.key)))
         (c.distance > 0 ? found.apart : found.touching).push_back(c);
 }
 

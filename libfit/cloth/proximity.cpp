@@ -83,6 +83,19 @@ ClosestPoints closest_points(PairKind kind, const Corners& x)
     return kind == PairKind::vertex_face ? closest_of_vertex_and_face(x) : closest_of_edges(x);
 }
 
+bool are_surely_apart(PairKind kind, const Corners& x, double distance)
+{
+    constexpr double k_rounding = 1e-9;  // unit: far more than the products round by
+    const bool is_face = kind == PairKind::vertex_face;
+    const Vec3 axis = is_face ? Vec3((x[1] + x[2] + x[3]) / 3 - x[0]) : Vec3(0.5 * (x[2] + x[3] - x[0] - x[1]));
+    const double first = is_face ? x[0].dot(axis) : std::max(x[0].dot(axis), x[1].dot(axis));
+    double second = std::min(x[2].dot(axis), x[3].dot(axis));
+    if (is_face)
+        second = std::min(second, x[1].dot(axis));
+    const double gap = second - first;
+    return gap > 0 && gap * gap > (1 + k_rounding) * distance * distance * axis.squaredNorm();
+}
+
 double relative_travel(PairKind kind, const Corners& d)
 {
     const Vec3 mean = 0.25 * (d[0] + d[1] + d[2] + d[3]);

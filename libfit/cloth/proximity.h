@@ -32,6 +32,10 @@ inline Corners corners_of(const Positions& x, const std::array<int, 4>& v)
 
 ClosestPoints closest_points(PairKind kind, const Corners& x);
 
+/// Whether two primitives are farther apart than this, as far as a look along the line between their middles tells:
+/// a fifth of the work of closest_points. False where it does not tell.
+bool are_surely_apart(PairKind kind, const Corners& x, double distance);
+
 inline Vec3 separation(const std::array<double, 4>& weights, const Corners& x)
 {
     return weights[0] * x[0] + weights[1] * x[1] + weights[2] * x[2] + weights[3] * x[3];
