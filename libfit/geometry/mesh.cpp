@@ -33,6 +33,23 @@ void require_no_stray(const std::string& name, const Positions& positions, const
                                      "repair the file");
 }
 
+// unit: sizes of a mesh. Of the 16 digits of a coordinate, 5 are left so far away; a wrap keeps 3 off the surface.
+constexpr double k_farthest_from_origin = 1e11;
+
+/// What is as far away as its coordinates have digits is flat, and CGAL's wrap of it runs out of its arrays.
+void require_digits(const std::string& name, const Positions& positions, const Triangles& triangles)
+{
+    Eigen::AlignedBox3d box;
+    for (const int v : used_vertices(triangles))
+        box.extend(Vec3(positions.row(v)));
+    const double away = box.center().norm() / box.diagonal().norm();
+    if (away > k_farthest_from_origin && !box.diagonal().isZero())
+        throw InvalidInput(ErrorCode::degenerate_mesh,
+                           name + ": it lies " + rounded_text(away, 2)
+                               + " times its own size away from the origin, where coordinates have lost their digits; "
+                                 "move it to the origin in the program that made it");
+}
+
 void check(const char* what, const Positions& positions, const Triangles& triangles)
 {
     const std::string name(what);
@@ -44,6 +61,7 @@ void check(const char* what, const Positions& positions, const Triangles& triang
                                name + ": vertex " + std::to_string(v) + " is not finite; repair the file");
     require_named_vertices(name, positions.rows(), triangles);
     require_no_stray(name, positions, triangles);
+    require_digits(name, positions, triangles);
 }
 
 }  // namespace

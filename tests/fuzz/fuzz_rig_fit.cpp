@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The input is a list of edits of a small body and a garment round it: whatever they make of both, rigging and fitting
-// end in a result or in one line.
+// The input is a first byte, which chooses a small body, a garment round it and what is searched, and a list of edits:
+// whatever they make of both, rigging and fitting end in a result or in one line. One execution takes two tenths of a
+// second, where figures or other ways of wearing are searched some seconds.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,6 +16,8 @@ namespace {
 using namespace garmentfit;
 
 constexpr double k_seconds = 10;  // for both; what takes longer ends at its time limit
+constexpr int k_proxy_vertices = 1000;  // the fewest that may be given
+constexpr std::uint8_t k_ways = 224, k_figures = 240;  // first bytes from which these are searched, too
 constexpr std::size_t k_edit_bytes = 8, k_most_edits = 64;
 
 struct Edit {
@@ -71,10 +74,12 @@ void apply(const Edit& edit, TriangleMesh& mesh)
 
 const TriangleMesh& body_of_kind(int kind)
 {
-    static const std::array<TriangleMesh, 4> bodies { fixtures::capsule_person().mesh,
-                                                      fixtures::capsule_person({ 0, 15, 0, 0, 0, 1, 0.06 }).mesh,
-                                                      fixtures::capsule_person({ 70, 15, 0, 80, 80, 1, 0.05 }).mesh,
-                                                      fixtures::capsule_person({ -60, 60, 30, 0, 0, 0.1, 0.05 }).mesh };
+    static const std::array<TriangleMesh, 4> bodies {
+        fixtures::capsule_person({ 45, 15, 0, 0, 0, 1, 0.095 }).mesh,
+        fixtures::capsule_person({ 0, 15, 0, 0, 0, 1, 0.07 }).mesh,
+        fixtures::capsule_person({ 20, 45, 0, 0, 0, 1, 0.095 }).mesh,
+        fixtures::capsule_person({ -60, 60, 30, 0, 0, 0.1, 0.085 }).mesh
+    };  // spacings at which the first search succeeds
     return bodies[kind % bodies.size()];
 }
 
@@ -84,8 +89,8 @@ const TriangleMesh& garment_of_kind(int kind)
         return [low, high](const Vec3& p) { return p.y() > low && p.y() < high && std::abs(p.x()) < 0.45; };
     };
     static const std::array<TriangleMesh, 2> garments {
-        fixtures::garment_round(fixtures::person_skeleton({}), 0.03, between(0.85, 1.45), 0.05),
-        fixtures::garment_round(fixtures::person_skeleton({}), 0.03, between(0.2, 1.02), 0.05)
+        fixtures::garment_round(fixtures::person_skeleton({}), 0.03, between(0.85, 1.45), 0.1),
+        fixtures::garment_round(fixtures::person_skeleton({}), 0.03, between(0.2, 1.02), 0.1)
     };
     return garments[kind % garments.size()];
 }
@@ -99,13 +104,16 @@ void require_rig(const Rig& rig, Eigen::Index vertices)
         fuzz::require(tail.allFinite(), "that joints are finite");
 }
 
-void rig_and_fit(const TriangleMesh& body, const TriangleMesh& garment)
+void rig_and_fit(const TriangleMesh& body, const TriangleMesh& garment, std::uint8_t searched)
 {
     Scene scene;
     scene.body = make_body(body.positions, body.triangles);
     scene.garments = { { make_garment(garment.positions, garment.triangles) } };
     Parameters parameters;
     parameters.time_limit = k_seconds;
+    parameters.rig.proxy_vertices = k_proxy_vertices;
+    parameters.rig.humanlike = searched >= k_figures ? Humanlike::any : Humanlike::strict;
+    parameters.fit.as_placed = searched < k_ways || searched >= k_figures;
     filter_of("rig").run(scene, parameters);
     require_rig(*scene.rig, body.positions.rows());
     filter_of("fit").run(scene, parameters);
@@ -124,7 +132,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
         apply(edit, edit.kind >= 200 ? garment : body);
     }
     try {
-        rig_and_fit(body, garment);
+        rig_and_fit(body, garment, data[0]);
     } catch (const InvalidInput& error) {
         fuzz::require_one_line(error.what());
     } catch (const SolverFailure& error) {

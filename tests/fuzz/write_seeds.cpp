@@ -38,7 +38,7 @@ std::string edit(int kind, int axis, int row, float value)
 /// As given; with one edit of each kind of the body; and with all of them of the garment.
 void write_edits(const std::filesystem::path& folder)
 {
-    for (int shape = 0; shape < 5; ++shape)
+    for (const int shape : { 0, 1, 2, 3, 4, 224, 240 })  // the last two also search ways of wearing, figures
         save(folder / ("shape" + std::to_string(shape)), std::string(1, char(shape)));
     std::string of_garment(1, '\0');
     for (int kind = 0; kind < 10; ++kind) {

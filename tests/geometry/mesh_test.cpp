@@ -231,6 +231,25 @@ TEST(MakeBody, RefusesAVertexFarFromAllOthers)
     }
 }
 
+TEST(MakeBody, RefusesWhatLiesWhereCoordinatesHaveLostTheirDigits)
+{
+    const TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
+    const auto moved = [&](double by) {
+        TriangleMesh far = mesh;
+        far.positions.col(2).array() += by;
+        return far;
+    };
+    const TriangleMesh far = moved(1e10), too_far = moved(-1e33);
+    EXPECT_NO_THROW(make_body(far.positions, far.triangles));
+    TriangleMesh torn = moved(1e10);
+    for (Eigen::Index f = 0; f < torn.triangles.rows(); f += 3)
+        torn.triangles.row(f) = torn.triangles.row(f + 1).eval();
+    EXPECT_NO_THROW(make_body(torn.positions, torn.triangles));
+    EXPECT_NO_THROW(make_garment(far.positions, far.triangles));
+    fixtures::expect_invalid([&] { make_body(too_far.positions, too_far.triangles); }, "away from the origin");
+    fixtures::expect_invalid([&] { make_garment(too_far.positions, too_far.triangles); }, "away from the origin");
+}
+
 TEST(MakeBody, DoesNotMindVerticesWithoutFacesFarAway)
 {
     TriangleMesh mesh = ball(Vec3::Zero(), 0.5, 0.1);
