@@ -75,6 +75,21 @@ TEST(Proximity, ClosestPointsAreNoFurtherThanAnySample)
     }
 }
 
+TEST(Proximity, SurelyApartIsNeverSaidOfWhatIsNearer)
+{
+    std::mt19937 random(2);
+    int said = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Corners x = random_corners(random);
+        for (const PairKind kind : { PairKind::vertex_face, PairKind::edge_edge }) {
+            const double distance = closest_points(kind, x).distance;
+            EXPECT_FALSE(are_surely_apart(kind, x, 1.0000001 * distance));
+            said += are_surely_apart(kind, x, 0.5 * distance);
+        }
+    }
+    EXPECT_GT(said, 2000);  // of 4,000
+}
+
 TEST(Proximity, DegeneratePrimitivesHaveDistances)
 {
     const Vec3 o = Vec3::Zero(), x = Vec3::UnitX(), y = Vec3::UnitY();
