@@ -162,9 +162,8 @@ void BlockCholesky::link_fronts()
         parent.children.push_back(int(f));
         for (const int row : front.rows)
             front.in_parent.push_back(
-                row < parent.end
-                    ? row - parent.begin
-                    : parent.columns()
+                row < parent.end ? row - parent.begin
+                                 : parent.columns()
                         + int(std::lower_bound(parent.rows.begin(), parent.rows.end(), row) - parent.rows.begin()));
     }
 }
