@@ -9,6 +9,7 @@
 #include <queue>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "buckets.h"
@@ -192,24 +193,24 @@ std::vector<Slice> slices_along(const TriangleMesh& mesh, const std::vector<doub
 }
 
 /// For each vertex whether it lies on another opening than `ring`.
-std::vector<char> mark_others(const std::vector<Ring>& rings, std::size_t ring, Eigen::Index vertices)
+std::vector<char> mark_others(const std::vector<Ring>& rings, const Ring& ring, Eigen::Index vertices)
 {
     std::vector<char> result(std::size_t(vertices), 0);
-    for (std::size_t r = 0; r < rings.size(); ++r)
-        if (r != ring)
-            for (const auto& [a, b] : rings[r])
-                result[a] = 1;
+    for (const Ring& other : rings)
+        for (const auto& [a, b] : other)
+            result[a] = 1;
+    for (const auto& [a, b] : ring)
+        result[a] = 0;
     return result;
 }
 
 /// Distance to the nearest other opening, m. Farther slices are incomplete.
-double distance_to_others(const std::vector<double>& distance, const std::vector<Ring>& rings, std::size_t ring)
+double distance_to_others(const std::vector<double>& distance, const std::vector<char>& is_other)
 {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t r = 0; r < rings.size(); ++r)
-        if (r != ring)
-            for (const auto& [a, b] : rings[r])
-                nearest = std::min(nearest, distance[a]);
+    for (std::size_t v = 0; v < distance.size(); ++v)
+        if (is_other[v])
+            nearest = std::min(nearest, distance[v]);
     return nearest;
 }
 
@@ -302,31 +303,96 @@ void measure_heights(Opening& opening, const std::vector<Range>& ranges)
     opening.piece_height = ranges[opening.piece].high - opening.piece_low;
 }
 
-}  // namespace
-
-std::vector<Opening> openings_of(const TriangleMesh& outward)
+/// The largest extent of a rim across the direction along which it is longest, as a share of its extent there: near 0
+/// for a slit.
+double roundness_of(const Positions& rim)
 {
-    const double width = k_slice * diagonal(outward.positions);
-    const std::vector<int> pieces = pieces_of(outward);
-    const std::vector<Range> ranges = ranges_of(outward.positions, pieces);
-    const std::vector<Ring> rings = large_rings(outward, pieces);
-    const EdgeGraph graph(outward);
-    std::vector<Opening> openings(rings.size());
-    parallel_for<std::size_t>(rings.size(), [&](std::size_t r) {
-        Opening& opening = openings[r] = opening_of(outward.positions, rings[r]);
-        opening.piece = pieces[rings[r][0].first];
-        measure_heights(opening, ranges);
-        const std::vector<double> distance
-            = graph.distances_from(rings[r], mark_others(rings, r, outward.positions.rows()));
-        std::vector<Slice> slices = slices_along(outward, distance, width);
-        slices.resize(
-            std::size_t(std::clamp(distance_to_others(distance, rings, r) / width, 1.0, double(slices.size()))));
-        measure_tube(opening, slices, width);
-    });
-    return openings;
+    const Positions about = rim.rowwise() - rim.colwise().mean();
+    const Eigen::Matrix3d axes
+        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(about.transpose() * about).eigenvectors();  // longest last
+    const auto extent = [&](int axis) {
+        const Eigen::VectorXd along = about * axes.col(axis);
+        return along.maxCoeff() - along.minCoeff();
+    };
+    return extent(1) / std::max(extent(2), k_no_length);
 }
 
-std::size_t count_openings(const TriangleMesh& outward) { return large_rings(outward, pieces_of(outward)).size(); }
+/// The borders of a garment that a body can pass through, and the tubes that lead to them.
+class Openings {
+public:
+    explicit Openings(const TriangleMesh& outward) :
+        cloth_(outward), diagonal_(diagonal(outward.positions)), pieces_(pieces_of(outward)), graph_(outward),
+        rings_(large_rings(outward, pieces_))
+    {
+        drop_holes();
+    }
+
+    std::size_t count() const { return rings_.size(); }
+
+    std::vector<Opening> all() const
+    {
+        const std::vector<Range> ranges = ranges_of(cloth_.positions, pieces_);
+        std::vector<Opening> openings(rings_.size());
+        parallel_for<std::size_t>(rings_.size(), [&](std::size_t r) {
+            openings[r] = opening_with_tube(rings_[r], rings_);
+            openings[r].piece = pieces_[rings_[r][0].first];
+            measure_heights(openings[r], ranges);
+        });
+        return openings;
+    }
+
+private:
+    /// @param rings  where its tube ends at the latest; may contain it
+    Opening opening_with_tube(const Ring& ring, const std::vector<Ring>& rings) const
+    {
+        const double width = slice_width();
+        Opening opening = opening_of(cloth_.positions, ring);
+        const std::vector<char> is_other = mark_others(rings, ring, cloth_.positions.rows());
+        const std::vector<double> distance = graph_.distances_from(ring, is_other);
+        std::vector<Slice> slices = slices_along(cloth_, distance, width);
+        slices.resize(
+            std::size_t(std::clamp(distance_to_others(distance, is_other) / width, 1.0, double(slices.size()))));
+        measure_tube(opening, slices, width);
+        return opening;
+    }
+
+    /// Holes between panels, torn cloth, pockets, slits: narrow for an armhole or a neck, and no tube leads to them as
+    /// to a cuff.
+    void drop_holes()
+    {
+        std::vector<Ring> doubtful, sure;
+        for (const Ring& ring : rings_) {
+            const Opening opening = opening_of(cloth_.positions, ring);
+            const bool is_doubtful
+                = opening.girth < k_widest_hole * diagonal_ || roundness_of(opening.rim) < k_slit_roundness;
+            (is_doubtful ? doubtful : sure).push_back(ring);
+        }
+        const auto is_hole = [&](const Ring& ring) {
+            return opening_with_tube(ring, sure).tube_length < k_shortest_cuff * slice_width();
+        };
+        std::vector<int> holes;
+        for (const Ring& ring : doubtful)
+            if (is_hole(ring))
+                holes.push_back(ring[0].first);
+        std::erase_if(rings_, [&](const Ring& ring) {
+            return std::find(holes.begin(), holes.end(), ring[0].first) != holes.end();
+        });
+    }
+
+    double slice_width() const { return k_slice * diagonal_; }
+
+    const TriangleMesh& cloth_;
+    double diagonal_;  // m
+    std::vector<int> pieces_;
+    EdgeGraph graph_;
+    std::vector<Ring> rings_;
+};
+
+}  // namespace
+
+std::vector<Opening> openings_of(const TriangleMesh& outward) { return Openings(outward).all(); }
+
+std::size_t count_openings(const TriangleMesh& outward) { return Openings(outward).count(); }
 
 std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& cloth, const Eigen::Quaterniond& turn)
 {

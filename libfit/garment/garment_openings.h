@@ -24,9 +24,10 @@ struct Opening {
     double piece_height = 0;  ///< m, of the piece
 };
 
-/// Finds openings larger than buttonholes and measures their tubes.
+/// Finds openings larger than buttonholes and measures their tubes. Holes and slits are none: they are narrow for an
+/// armhole or a neck, and no tube leads to them as to a cuff.
 /// @param outward  from outward_cloth
-/// Cost: one shortest-path search over the edges for each opening.
+/// Cost: one shortest-path search over the edges for each opening, two for narrow ones.
 std::vector<Opening> openings_of(const TriangleMesh& outward);
 /// How many these are.
 std::size_t count_openings(const TriangleMesh& outward);

@@ -22,6 +22,16 @@ inline constexpr double k_narrowest_girth = 0.1;
 /// fitted: guess. Share of the vertices of a border that are sewn on a larger piece: from here on it is no opening. A
 /// flap has a quarter at its seam.
 inline constexpr double k_sewn_on = 0.2;
+/// fitted: an opening without a tube is a hole below this girth, as a share of the diagonal. Of 532 openings of the
+/// house, the catalogue and the wild data, the narrowest ones without a tube have 0.26 (necks, armholes); twelve holes
+/// in eight clothes of web shops have 0.07 to 0.17.
+inline constexpr double k_widest_hole = 0.2;
+/// fitted: likewise, or below this width as a share of the length. The openings have 0.36; a slit between pleats and two
+/// of pockets have 0.14, 0.12 and 0.11.
+inline constexpr double k_slit_roundness = 0.25;
+/// fitted: likewise. Slices of the tube, below which there is none: cuffs that narrow have 11, the holes 1 to 5, for the
+/// cloth around them widens.
+inline constexpr double k_shortest_cuff = 7;
 /// fitted: guess. Width of a tube's slices as a share of the garment's diagonal: two or three edges.
 inline constexpr double k_slice = 0.02;
 /// fitted: guess, on the garments. A tube ends where its girth exceeds the median of its slices by this factor.

@@ -152,6 +152,42 @@ TEST(GarmentOpenings, SlitsThatAreTooNarrowForAHandAreNone)
     EXPECT_EQ(openings_of_cloth(slit).size(), whole);
 }
 
+/// A tube round the y axis without those pairs of faces whose middle lies in a window in front, m wide and m high.
+TriangleMesh tube_with_window(double radius, double length, double wide, double high, double middle)
+{
+    constexpr int columns = 161;
+    const int rows = int(length / 0.005) + 1;
+    constexpr double pi = std::numbers::pi;
+    TriangleMesh mesh = panel(-pi, pi, 0, length, columns, rows, radius - k_radius);
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Vec3 at = 0.5
+            * (mesh.positions.row(mesh.triangles(f - f % 2, 1)) + mesh.positions.row(mesh.triangles(f - f % 2, 2)))
+                  .transpose();
+        if (at.z() < 0 || std::abs(at.x()) > wide / 2 || std::abs(at.y() - middle) > high / 2)
+            kept.push_back(f);
+    }
+    mesh.triangles = mesh.triangles(kept, Eigen::all).eval();
+    return mesh;
+}
+
+TEST(GarmentOpenings, HolesInTheSideOfATubeAreNone)
+{
+    // 14 cm around: more than a slit that no hand passes, less than an armhole; then one of 55 cm, 2 cm wide
+    EXPECT_EQ(openings_of_cloth(tube_with_window(0.15, 0.7, 0.036, 0.036, 0.3)).size(), 2u);
+    const TriangleMesh slit = tube_with_window(0.15, 0.7, 0.02, 0.25, 0.15);
+    EXPECT_EQ(openings_of_cloth(slit).size(), 2u);
+    EXPECT_EQ(count_openings(outward_cloth(make_garment(slit.positions, slit.triangles))), 2u);
+}
+
+TEST(GarmentOpenings, ArmholesWithoutATubeAndNarrowCuffsStay)
+{
+    EXPECT_EQ(openings_of_cloth(tube_with_window(0.15, 0.7, 0.12, 0.14, 0.4)).size(), 3u);  // 50 cm around
+    const std::vector<Opening> sleeve = openings_of_cloth(tube_with_window(0.021, 0.7, 0, 0, 0));
+    ASSERT_EQ(sleeve.size(), 2u);
+    EXPECT_LT(sleeve[0].girth, 0.2 * 0.7);  // as narrow as the hole above
+}
+
 TEST(GarmentOpenings, RotateWithTheirGarment)
 {
     const TriangleMesh cloth = tube();
