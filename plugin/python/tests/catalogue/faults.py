@@ -16,6 +16,7 @@ import collections
 import csv
 import random
 import shlex
+import signal
 import socket
 import subprocess
 import sys
@@ -53,6 +54,10 @@ class Starts:
         return [(Path(folder).parent.name.rsplit("-", 1)[0], int(time)) for time, folder in starts]
 
 
+def _heed_interruptions():
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell's background jobs, and what they start, begin without it
+
+
 class Run:
     """A running catalogue command, its workers and jobs."""
 
@@ -60,7 +65,8 @@ class Run:
         self._work, self._cluster = str(output.resolve() / "work") + "/", cluster
         if cluster:
             command = [*command, "--scheduler", cluster.address]
-        self.process = subprocess.Popen(command, stdout=log, stderr=log, env=environment)
+        self.process = subprocess.Popen(command, stdout=log, stderr=log, env=environment,
+                                        preexec_fn=_heed_interruptions)
 
     def candidates(self, victim: str) -> list:
         below = _below(self.process.pid)
