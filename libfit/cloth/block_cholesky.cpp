@@ -6,7 +6,6 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include "parallel.h"
 #include "tuning.h"
@@ -247,15 +246,9 @@ void BlockCholesky::downwards(const Visit& visit) const
         });
 }
 
-// Takes what the children have left, eliminates the front's columns, and leaves the remainder.
-bool BlockCholesky::eliminate(int f, std::vector<Eigen::MatrixXd>& left)
+// The matrix's own blocks in the columns of a front.
+void BlockCholesky::take_blocks(const Front& front, Eigen::MatrixXd& factor) const
 {
-    const Front& front = fronts_[f];
-    const int columns = 3 * front.columns(), below = 3 * int(front.rows.size());
-    Eigen::MatrixXd& factor = factors_[f];
-    Eigen::MatrixXd& remainder = left[f];
-    factor.setZero(columns + below, columns);
-    remainder.setZero(below, below);
     for (int j = front.begin; j < front.end; ++j) {
         auto row = front.rows.begin();
         for (int b = block_begin_[j]; b < block_begin_[j + 1]; ++b) {
@@ -267,18 +260,35 @@ bool BlockCholesky::eliminate(int f, std::vector<Eigen::MatrixXd>& left)
             factor.block<3, 3>(3 * local, 3 * (j - front.begin)) += blocks_[b];
         }
     }
+}
+
+void BlockCholesky::add_remainder(const Front& child, const Eigen::MatrixXd& left, const Front& front,
+                                  Eigen::MatrixXd& factor, Eigen::MatrixXd& remainder)
+{
+    const std::vector<int>& place = child.in_parent;
+    for (int j = 0; j < int(place.size()); ++j)
+        for (int i = j; i < int(place.size()); ++i) {
+            const auto block = left.block<3, 3>(3 * i, 3 * j);
+            if (place[j] < front.columns())
+                factor.block<3, 3>(3 * place[i], 3 * place[j]) += block;
+            else
+                remainder.block<3, 3>(3 * (place[i] - front.columns()), 3 * (place[j] - front.columns())) += block;
+        }
+}
+
+// Takes what the children have left, eliminates the front's columns, and leaves the remainder.
+bool BlockCholesky::eliminate(int f, std::vector<Eigen::MatrixXd>& left)
+{
+    const Front& front = fronts_[f];
+    const int columns = 3 * front.columns(), below = 3 * int(front.rows.size());
+    Eigen::MatrixXd& factor = factors_[f];
+    Eigen::MatrixXd& remainder = left[f];
+    factor.setZero(columns + below, columns);
+    remainder.setZero(below, below);
+    take_blocks(front, factor);
     for (const int child : front.children) {
-        const std::vector<int>& place = fronts_[child].in_parent;
-        Eigen::MatrixXd& other = left[child];
-        for (int j = 0; j < int(place.size()); ++j)
-            for (int i = j; i < int(place.size()); ++i) {
-                const auto block = other.block<3, 3>(3 * i, 3 * j);
-                if (place[j] < front.columns())
-                    factor.block<3, 3>(3 * place[i], 3 * place[j]) += block;
-                else
-                    remainder.block<3, 3>(3 * (place[i] - front.columns()), 3 * (place[j] - front.columns())) += block;
-            }
-        other.resize(0, 0);
+        add_remainder(fronts_[child], left[child], front, factor, remainder);
+        left[child].resize(0, 0);
     }
     Eigen::Ref<Eigen::MatrixXd> corner = factor.topRows(columns);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(corner);
@@ -313,20 +323,19 @@ Positions BlockCholesky::solve(const Positions& right) const
     upwards([&](int f) {
         const Front& front = fronts_[f];
         const int columns = 3 * front.columns();
-        auto mine = x.segment(3 * front.begin, columns);
-        Eigen::VectorXd& others = left[f];
-        others.setZero(3 * Eigen::Index(front.rows.size()));
+        Eigen::VectorXd all = Eigen::VectorXd::Zero(3 * front.size());
+        auto mine = all.head(columns);
+        mine = x.segment(3 * front.begin, columns);
         for (const int child : front.children) {
             const std::vector<int>& place = fronts_[child].in_parent;
             for (int i = 0; i < int(place.size()); ++i)
-                if (place[i] < front.columns())
-                    mine.segment<3>(3 * place[i]) += left[child].segment<3>(3 * i);
-                else
-                    others.segment<3>(3 * (place[i] - front.columns())) += left[child].segment<3>(3 * i);
+                all.segment<3>(3 * place[i]) += left[child].segment<3>(3 * i);
             left[child].resize(0);
         }
         factors_[f].topRows(columns).triangularView<Eigen::Lower>().solveInPlace(mine);
-        others.noalias() -= factors_[f].bottomRows(others.size()) * mine;
+        x.segment(3 * front.begin, columns) = mine;
+        left[f] = all.tail(all.size() - columns);
+        left[f].noalias() -= factors_[f].bottomRows(left[f].size()) * mine;
     });
     downwards([&](int f) {
         const Front& front = fronts_[f];

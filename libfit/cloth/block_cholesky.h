@@ -58,6 +58,9 @@ private:
     void upwards(const Visit& visit) const;
     template <class Visit>
     void downwards(const Visit& visit) const;
+    void take_blocks(const Front& front, Eigen::MatrixXd& factor) const;
+    static void add_remainder(const Front& child, const Eigen::MatrixXd& left, const Front& front,
+                              Eigen::MatrixXd& factor, Eigen::MatrixXd& remainder);
     bool eliminate(int f, std::vector<Eigen::MatrixXd>& left);
 
     std::vector<int> place_;  // of each row, in the order of elimination

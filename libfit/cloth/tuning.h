@@ -138,7 +138,7 @@ inline constexpr double k_largest_rest_move = 0.01;
 /// fitted: guess; on one coat of the house data 8 and 20, 8 and 24 take about as many moves.
 inline constexpr int k_remembered_moves = 8, k_factor_period = 8;
 /// Columns of a front that may always grow by the zeros of a child, and the share of zeros in any other.
-/// fitted: the seconds of one coat of the house data at two resolutions.
+/// fitted: guess; decide seconds, and results only by the order of sums.
 inline constexpr int k_small_front = 8;
 inline constexpr double k_front_zeros = 0.2;
 /// Share of all work that a subtree of fronts has at most which is computed as a whole.
