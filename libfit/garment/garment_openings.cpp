@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <queue>
@@ -360,22 +361,14 @@ private:
     /// to a cuff.
     void drop_holes()
     {
-        std::vector<Ring> doubtful, sure;
-        for (const Ring& ring : rings_) {
+        const auto is_narrow = [&](const Ring& ring) {
             const Opening opening = opening_of(cloth_.positions, ring);
-            const bool is_doubtful
-                = opening.girth < k_widest_hole * diagonal_ || roundness_of(opening.rim) < k_slit_roundness;
-            (is_doubtful ? doubtful : sure).push_back(ring);
-        }
-        const auto is_hole = [&](const Ring& ring) {
-            return opening_with_tube(ring, sure).tube_length < k_shortest_cuff * slice_width();
+            return opening.girth < k_widest_hole * diagonal_ || roundness_of(opening.rim) < k_slit_roundness;
         };
-        std::vector<int> holes;
-        for (const Ring& ring : doubtful)
-            if (is_hole(ring))
-                holes.push_back(ring[0].first);
+        std::vector<Ring> sure;
+        std::copy_if(rings_.begin(), rings_.end(), std::back_inserter(sure), std::not_fn(is_narrow));
         std::erase_if(rings_, [&](const Ring& ring) {
-            return std::find(holes.begin(), holes.end(), ring[0].first) != holes.end();
+            return is_narrow(ring) && opening_with_tube(ring, sure).tube_length < k_shortest_cuff * slice_width();
         });
     }
 

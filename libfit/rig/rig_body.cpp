@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "body_graph.h"
@@ -222,33 +221,31 @@ public:
     {
     }
 
-    int count() const { return int(contracted_.size()); }
-    /// @pre 0 <= i < count()
-    const Contracted& at(int i) const { return *contracted_[i]; }
+    const std::vector<Contracted>& all() const { return contracted_; }
     bool has_more() const { return next_ < int(std::size(k_attempts)); }
 
-    /// Adds the copy of the next attempt, unless it is left out. @pre has_more()
+    /// The copy of the next attempt, or nullptr where it is left out. Valid until the next call. @pre has_more()
     /// @throws InvalidInput when it does not contract to curves.
-    bool add_next(const Progress& progress)
+    const Contracted* add_next(const Progress& progress)
     {
         const int vertices = int(k_attempts[next_++].proxy * vertices_);
         TriangleMesh proxy = proxy_surface(closed_, vertices);
         progress.at(0.15);
         if (next_ > 1 && double(proxy.positions.rows()) > k_most_quartered * vertices)
-            return false;
-        for (const auto& other : contracted_)
-            if (other->proxy.positions.rows() == proxy.positions.rows() && other->proxy.positions == proxy.positions
-                && other->proxy.triangles.rows() == proxy.triangles.rows() && other->proxy.triangles == proxy.triangles)
-                return false;
-        contracted_.push_back(std::make_unique<Contracted>(contract(std::move(proxy), progress)));
-        return true;
+            return nullptr;
+        for (const Contracted& other : contracted_)
+            if (other.proxy.positions.rows() == proxy.positions.rows() && other.proxy.positions == proxy.positions
+                && other.proxy.triangles.rows() == proxy.triangles.rows() && other.proxy.triangles == proxy.triangles)
+                return nullptr;
+        contracted_.push_back(contract(std::move(proxy), progress));
+        return &contracted_.back();
     }
 
 private:
     const TriangleMesh& closed_;
     int vertices_;
     int next_ = 0;
-    std::vector<std::unique_ptr<Contracted>> contracted_;
+    std::vector<Contracted> contracted_;
 };
 
 /// What `make` returns for the first attempt that it accepts; it may return nothing, where nothing is new.
@@ -275,13 +272,13 @@ Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Copies& copies
 {
     return first_valid_rig([&](const Attempt& attempt) -> std::optional<Rig> {
         const Progress part = progress.part(attempt.from, attempt.to);
-        if (!copies.add_next(part.part(0, 0.8)))
+        const Contracted* const copy = copies.add_next(part.part(0, 0.8));
+        if (!copy)
             return {};
-        const Contracted& copy = copies.at(copies.count() - 1);
-        VisibleRig found = find_bones(copy, options);
+        VisibleRig found = find_bones(*copy, options);
         part.at(0.8);
-        check_rig(copy.proxy, found.rig.skeleton);
-        Rig rig = weigh(std::move(found), copy.proxy, body, part.part(0.8, 1));
+        check_rig(copy->proxy, found.rig.skeleton);
+        Rig rig = weigh(std::move(found), copy->proxy, body, part.part(0.8, 1));
         progress.at(1);
         return rig;
     });
@@ -367,12 +364,12 @@ Rig find_figure(const BodyMesh& body, const RigOptions& options, Copies& copies,
                 const Progress& progress)
 {
     FigureSearch search(options);
-    for (int i = 0; i < copies.count(); ++i)
-        search.look_at(copies.at(i));
+    for (const Contracted& copy : copies.all())
+        search.look_at(copy);
     for (; copies.has_more() && !search.is_sure(); progress.at(0.2))
         try {
-            if (copies.add_next(progress.part(0, 0.2)))
-                search.look_at(copies.at(copies.count() - 1));
+            if (const Contracted* const copy = copies.add_next(progress.part(0, 0.2)))
+                search.look_at(*copy);
         } catch (const InvalidInput&) {
             // this copy does not contract to curves
         }
