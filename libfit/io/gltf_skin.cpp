@@ -48,6 +48,7 @@ public:
             add_joints(surface.node);
         if (skin_.names.empty())
             file_.fail("has no skinned mesh; give a rigged body");
+        add_nodes_between();
         for (const int node : skin_.nodes)
             skin_.parents.push_back(joint_above(scene_.parent(node)));
         for (const GltfSurface& surface : surfaces)
@@ -85,6 +86,60 @@ private:
             if (!skin_.places.back().allFinite())
                 file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
         }
+    }
+
+    /// Of each node its children in the scene that are joints or have some below them.
+    std::vector<std::vector<int>> branches_with_joints() const
+    {
+        std::vector<std::vector<int>> branches(model_.nodes.size());
+        for (auto node = scene_.nodes().rbegin(); node != scene_.nodes().rend(); ++node)
+            if (const int above = scene_.parent(*node);
+                above >= 0 && (row_of_[std::size_t(*node)] >= 0 || !branches[std::size_t(*node)].empty()))
+                branches[std::size_t(above)].push_back(*node);
+        return branches;
+    }
+
+    /// From the lowest node that all joints lie at or below.
+    void add_nodes_between()
+    {
+        const std::vector<std::vector<int>> branches = branches_with_joints();
+        std::vector<bool> is_inner(model_.nodes.size(), false);
+        for (const int node : scene_.nodes()) {  // parents first
+            const int above = scene_.parent(node);
+            const bool is_joint = row_of_[std::size_t(node)] >= 0;
+            const bool has_inner_above = above >= 0 && is_inner[std::size_t(above)];
+            is_inner[std::size_t(node)] = is_joint || has_inner_above || branches[std::size_t(node)].size() > 1;
+            if (is_inner[std::size_t(node)] && !is_joint && !branches[std::size_t(node)].empty())
+                add_weightless(node, joint_near(node, branches));
+        }
+    }
+
+    /// The joint above a node, or the first one below it.
+    int joint_near(int node, const std::vector<std::vector<int>>& branches) const
+    {
+        for (int above = scene_.parent(node); above >= 0; above = scene_.parent(above))
+            if (row_of_[std::size_t(above)] >= 0)
+                return above;
+        while (row_of_[std::size_t(node)] < 0)
+            node = branches[std::size_t(node)].front();
+        return node;
+    }
+
+    /// In the bind pose it lies as it does in the scene towards a joint. Not added where the scene shows that joint
+    /// flat.
+    void add_weightless(int node, int joint)
+    {
+        const Eigen::Affine3d node_from_joint = scene_.world_from_node(node).inverse() * scene_.world_from_node(joint);
+        const Eigen::Affine3d node_from_world
+            = node_from_joint * skin_.joint_from_world[std::size_t(row_of_[std::size_t(joint)])];
+        const Vec3 place = node_from_world.inverse().translation();
+        if (!place.allFinite())
+            return;
+        row_of_[std::size_t(node)] = int(skin_.nodes.size());
+        skin_.nodes.push_back(node);
+        skin_.names.push_back(model_.nodes[std::size_t(node)].name);
+        skin_.joint_from_world.push_back(node_from_world);
+        skin_.places.push_back(place);
     }
 
     /// The row of the node, or of the nearest one above it that is a joint; -1 where there is none.

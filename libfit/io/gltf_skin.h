@@ -13,7 +13,8 @@
 
 namespace garmentfit {
 
-/// All skins of a file as one: their joints are merged by node.
+/// All skins of a file as one: their joints are merged by node. Nodes between joints are joints, too, which hold no
+/// skin: exporters leave out what has no weight, such as hips, necks and clavicles.
 struct FileSkin {
     std::vector<int> nodes;  ///< of each joint
     std::vector<std::string> names;

@@ -84,7 +84,7 @@ UnnamedJoints unnamed(const FileSkin& skin)
 class Translation {
 public:
     Translation(const FileBytes& file, const FileSkin& skin) :
-        file_(file), skin_(skin), joints_(recognize_joints(skin.names))
+        file_(file), skin_(skin), joints_(recognize_joints(skin.names, skin.parents))
     {
         if (has_all_joints())
             return;

@@ -27,6 +27,7 @@ constexpr std::array k_words {
     Word { "lowerback", JointKind::spine, false },
     Word { "upperback", JointKind::spine, false },
     Word { "thorax", JointKind::spine, false },
+    Word { "torso", JointKind::spine, false },
     Word { "neck", JointKind::neck, false },
     Word { "lowerneck", JointKind::neck, false },
     Word { "head", JointKind::head, false },
@@ -101,7 +102,8 @@ std::optional<NamedJoint> look_up(const std::string& word, int side)
     return {};
 }
 
-std::optional<NamedJoint> recognize(const std::string& name)
+/// @param as_stand_in  whether a palm is a hand, and a goal of inverse kinematics the joint that it pulls
+std::optional<NamedJoint> recognize(const std::string& name, bool as_stand_in = false)
 {
     int side = 0;
     std::string word;
@@ -110,7 +112,10 @@ std::optional<NamedJoint> recognize(const std::string& name)
             side = 1;
         else if (token == "right" || token == "r")
             side = 2;
-        else if (std::find(k_fillers.begin(), k_fillers.end(), token) == k_fillers.end())
+        else if (as_stand_in && token == "palm")
+            word += "hand";
+        else if (std::find(k_fillers.begin(), k_fillers.end(), token) == k_fillers.end()
+                 && !(as_stand_in && token == "ik"))
             word += token;
     if (const auto joint = look_up(word, side))
         return joint;
@@ -128,7 +133,8 @@ bool has_token(const std::string& name, std::string_view token)
 /// Names that mean one thing alone and another thing beside others.
 class JointNames {
 public:
-    explicit JointNames(const std::vector<std::string>& names) : names_(names)
+    JointNames(const std::vector<std::string>& names, const std::vector<int>& parents) :
+        names_(names), parents_(parents)
     {
         for (const std::string& name : names)
             joints_.push_back(recognize(name));
@@ -141,6 +147,9 @@ public:
         if (count(JointKind::hip) == 0 && count(JointKind::knee) > 2)  // "Left leg" above "Left knee"
             rename(JointKind::knee, "leg", JointKind::hip);
         leave_out_roots();
+        for (const JointKind kind : { JointKind::wrist, JointKind::ankle })
+            if (count(kind) == 0)
+                name_stand_ins(kind);
         if (count(JointKind::head) == 0)
             name_upper_spine();
         if (count(JointKind::pelvis) == 0)
@@ -188,25 +197,44 @@ private:
                 joints_[i]->kind = JointKind::neck;
     }
 
+    void name_stand_ins(JointKind kind)
+    {
+        for (std::size_t i = 0; i < joints_.size(); ++i)
+            if (const auto joint = recognize(names_[i], true); !joints_[i] && joint && joint->kind == kind)
+                joints_[i] = joint;
+    }
+
+    /// How many joints lie above it.
+    std::size_t depth(std::size_t joint) const
+    {
+        std::size_t steps = 0;
+        for (int above = int(joint); above >= 0 && steps <= parents_.size(); ++steps)
+            above = std::size_t(above) < parents_.size() ? parents_[std::size_t(above)] : -1;
+        return steps;
+    }
+
     /// It begins in the pelvis there.
     void name_first_of_spine()
     {
+        std::optional<std::size_t> first;
         for (std::size_t i = 0; i < joints_.size(); ++i)
-            if (is(i, JointKind::spine)) {
-                joints_[i]->kind = JointKind::pelvis;
-                return;
-            }
+            if (is(i, JointKind::spine) && (!first || depth(i) < depth(*first)))
+                first = i;
+        if (first)
+            joints_[*first]->kind = JointKind::pelvis;
     }
 
     const std::vector<std::string>& names_;
+    const std::vector<int>& parents_;
     std::vector<std::optional<NamedJoint>> joints_;
 };
 
 }  // namespace
 
-std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names)
+std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names,
+                                                        const std::vector<int>& parents)
 {
-    return JointNames(names).read();
+    return JointNames(names, parents).read();
 }
 
 }  // namespace garmentfit

@@ -299,6 +299,28 @@ TEST_F(UnnamedSkeleton, IsFoundByItsTreeAndPlaces)
         }
 }
 
+/// Takes a joint out of the skin, as exporters do where it has no weight; its node stays.
+void take_out(json& document, const std::string& name)
+{
+    for (json& skin : document["skins"])
+        for (json& joint : skin["joints"])
+            if (joint == node_called(document, name))
+                joint = skin["joints"][0];
+}
+
+TEST_F(SkinnedGltf, TakesJointsWithoutSkinFromTheNodesBetweenOthers)
+{
+    const Rig near = nearest_rig(person);
+    write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::mixamo });
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             take_out(document, "mixamorig:Neck");
+             document["nodes"][std::size_t(node_called(document, "mixamorig:Spine"))]["rotation"]
+                 = { 0.6, 0, 0, 0.8 };  // posed
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_LT((read.skeleton.tail(thorax) - rig.skeleton.tail(thorax)).norm(), 1e-5);
+}
+
 TEST_F(UnnamedSkeleton, OfAVrmAvatarIsWhatTheFileSays)
 {
     write(BoneNames::vrm, [](int, const std::string& name) { return name; });

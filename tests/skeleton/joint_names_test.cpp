@@ -93,6 +93,10 @@ const NamedRig k_rigs[] = {
       { "CC_Base_Hip", "CC_Base_NeckTwist01", "CC_Base_Head", "CC_Base_L_Clavicle", "CC_Base_L_Upperarm",
         "CC_Base_L_Forearm", "CC_Base_L_Hand", "CC_Base_L_Thigh", "CC_Base_L_Calf", "CC_Base_L_Foot" },
       { "CC_Base_L_UpperarmTwist01", "CC_Base_L_ToeBase" } },
+    { "Quaternius",
+      { "Hips", "Neck", "Head", "Shoulder.L", "UpperArm.L", "LowerArm.L", "Palm.L", "UpperLeg.L", "LowerLeg.L",
+        "FootIK.L" },
+      { "Bone", "PoleTarget.L", "Thumb.L", "MiddleHand.L", "Shoulder.R", "UpperArm.R" } },
     { "of one's own",
       { "Hips", "Neck", "Head", "Left shoulder", "Left arm", "Left elbow", "Left wrist", "Left leg", "Left knee",
         "Left ankle" },
@@ -121,6 +125,21 @@ TEST(JointNames, FingersToesAndHelpersAreNot)
 {
     for (const char* name : { "mixamorig:LeftHandThumb1", "LeftToeBase", "ik_hand_gun", "" })
         EXPECT_FALSE(recognize_joints({ name })[0]) << name;
+}
+
+TEST(JointNames, PalmsAndGoalsAreOnlyWhatTheyStandInFor)
+{
+    const auto joints = recognize_joints({ "hand.L", "palm.01.L", "foot_l", "ik_foot_l" });
+    EXPECT_TRUE(joints[0] && joints[2]);
+    EXPECT_FALSE(joints[1]);
+    EXPECT_FALSE(joints[3]);
+}
+
+TEST(JointNames, TheLowestOfASpineIsThePelvis)
+{
+    const auto joints = recognize_joints({ "Spine1", "Head", "Spine" }, { 2, 0, -1 });
+    EXPECT_EQ(joints[0]->kind, JointKind::spine);
+    EXPECT_EQ(joints[2]->kind, JointKind::pelvis);
 }
 
 TEST(JointNames, AShoulderIsAClavicleBesideAnArm)
