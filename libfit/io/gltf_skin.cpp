@@ -77,15 +77,21 @@ private:
             const std::string& name = checked(file_, model_.nodes, joint, "node").name;
             if (row_of_[std::size_t(joint)] >= 0)
                 continue;
-            row_of_[std::size_t(joint)] = int(skin_.nodes.size());
-            skin_.nodes.push_back(joint);
-            skin_.names.push_back(name);
             const Eigen::Affine3d joint_from_mesh = scene_.joint_from_mesh(*skin, j);
-            skin_.joint_from_world.push_back(joint_from_mesh * world_from_mesh.inverse());
-            skin_.places.push_back((world_from_mesh * joint_from_mesh.inverse()).translation());
-            if (!skin_.places.back().allFinite())
+            const Vec3 place = (world_from_mesh * joint_from_mesh.inverse()).translation();
+            if (!place.allFinite())
                 file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
+            add_joint(joint, joint_from_mesh * world_from_mesh.inverse(), place);
         }
+    }
+
+    void add_joint(int node, const Eigen::Affine3d& joint_from_world, const Vec3& place)
+    {
+        row_of_[std::size_t(node)] = int(skin_.nodes.size());
+        skin_.nodes.push_back(node);
+        skin_.names.push_back(model_.nodes[std::size_t(node)].name);
+        skin_.joint_from_world.push_back(joint_from_world);
+        skin_.places.push_back(place);
     }
 
     /// Of each node its children in the scene that are joints or have some below them.
@@ -114,32 +120,25 @@ private:
         }
     }
 
-    /// The joint above a node, or the first one below it.
+    /// The row of the joint above a node, or of the first one below it.
     int joint_near(int node, const std::vector<std::vector<int>>& branches) const
     {
-        for (int above = scene_.parent(node); above >= 0; above = scene_.parent(above))
-            if (row_of_[std::size_t(above)] >= 0)
-                return above;
+        if (const int above = joint_above(scene_.parent(node)); above >= 0)
+            return above;
         while (row_of_[std::size_t(node)] < 0)
             node = branches[std::size_t(node)].front();
-        return node;
+        return row_of_[std::size_t(node)];
     }
 
-    /// In the bind pose it lies as it does in the scene towards a joint. Not added where the scene shows that joint
-    /// flat.
-    void add_weightless(int node, int joint)
+    /// In the bind pose it lies as it does in the scene towards the joint of a row. Not added where the scene shows
+    /// that joint flat.
+    void add_weightless(int node, int row)
     {
+        const int joint = skin_.nodes[std::size_t(row)];
         const Eigen::Affine3d node_from_joint = scene_.world_from_node(node).inverse() * scene_.world_from_node(joint);
-        const Eigen::Affine3d node_from_world
-            = node_from_joint * skin_.joint_from_world[std::size_t(row_of_[std::size_t(joint)])];
-        const Vec3 place = node_from_world.inverse().translation();
-        if (!place.allFinite())
-            return;
-        row_of_[std::size_t(node)] = int(skin_.nodes.size());
-        skin_.nodes.push_back(node);
-        skin_.names.push_back(model_.nodes[std::size_t(node)].name);
-        skin_.joint_from_world.push_back(node_from_world);
-        skin_.places.push_back(place);
+        const Eigen::Affine3d node_from_world = node_from_joint * skin_.joint_from_world[std::size_t(row)];
+        if (const Vec3 place = node_from_world.inverse().translation(); place.allFinite())
+            add_joint(node, node_from_world, place);
     }
 
     /// The row of the node, or of the nearest one above it that is a joint; -1 where there is none.

@@ -204,7 +204,7 @@ private:
                 joints_[i] = joint;
     }
 
-    /// How many joints lie above it.
+    /// How many joints lie on the way from the root to it; a way in a circle ends.
     std::size_t depth(std::size_t joint) const
     {
         std::size_t steps = 0;
