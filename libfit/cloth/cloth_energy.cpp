@@ -67,6 +67,17 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> make_sparse(Eigen::Index rows, Eige
 
 }  // namespace
 
+Eigen::Matrix3d ClothEnergy::Spring::tangent(const Positions& x) const
+{
+    const Vec3 edge = (x.row(i) - x.row(j)).transpose();
+    const double now = edge.norm();
+    if (!(now > 0))
+        return Eigen::Matrix3d::Zero();
+    const Eigen::Matrix3d along = edge * edge.transpose() / (now * now);
+    const double across = std::max(0.0, 1 - length / now);
+    return stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
+}
+
 Eigen::Matrix3d ClothEnergy::FramedSum::frame(const Positions& x) const
 {
     return kind == Kind::hinge ? hinge_frame(x, v) : triangle_frame(x, v);
@@ -297,6 +308,17 @@ Positions ClothEnergy::apply_framed_form(const Positions& x) const
     Positions result = multiply(framed_, x);
     add_inertia(x, result);
     return result;
+}
+
+Positions ClothEnergy::tangent_times(const Positions& x, const Positions& displacement) const
+{
+    Positions loads(springs_.size(), 3);
+    const auto load = [&](Eigen::Index e) {
+        const Spring& s = springs_[e];
+        loads.row(e) = (displacement.row(s.i) - displacement.row(s.j)) * s.tangent(x);
+    };
+    parallel_for(loads.rows(), load, k_grain);
+    return multiply(spring_gradients_, loads) + apply_framed_form(displacement);
 }
 
 Positions ClothEnergy::apply_quadratic_form(const Positions& x) const

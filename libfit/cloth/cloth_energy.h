@@ -32,6 +32,9 @@ public:
         int i, j;
         double length, stiffness;
         double longest;  // m; beyond it the spring is stiffer
+
+        /// Without the pressure of a compressed one, which would make the tangent indefinite [choi_2002_buckling].
+        Eigen::Matrix3d tangent(const Positions& x) const;
     };
     /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
     struct FramedSum {
@@ -63,6 +66,9 @@ public:
     Positions elastic_forces(const Positions& x) const;
     const std::vector<double>& masses() const { return masses_; }  ///< kg
     const std::vector<double>& areas() const { return areas_; }  ///< m^2, of the cloth around each vertex at rest
+
+    /// The tangent stiffness at x times a displacement, N: springs, hinges and ties with their frames held, inertia.
+    Positions tangent_times(const Positions& x, const Positions& displacement) const;
 
     // ---- the parts of the implicit time step, for its solver ----
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "collision_free_step.h"
+#include "distinct_contacts.h"
 #include "garmentfit/stopwatch.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
@@ -45,60 +45,16 @@ Positions stack(const Positions& cloth, const Positions& obstacle)
     return result;
 }
 
-// How many vertices of a primitive its closest point lies between: 1 at a corner, 3 inside of a triangle.
-int vertices_at(const ContactPair& pair, int begin, int end)
-{
-    return int(std::count_if(pair.at.weights.begin() + begin, pair.at.weights.begin() + end,
-                             [](double weight) { return weight != 0; }));
-}
-
-// Whether the closest point of a vertex's triangle lies on a border that it has in common with another triangle.
-bool touches_border_of(const ContactPair& pair, const ContactPair& other)
-{
-    for (int k = 1; k < 4; ++k)
-        if (pair.at.weights[k] != 0
-            && std::find(other.vertices.begin() + 1, other.vertices.end(), pair.vertices[k]) == other.vertices.end())
-            return false;
-    return true;
-}
-
-// Where two edges are nearly parallel, their closest points jump along them, and faces tell the contact better.
-bool are_parallel(const ContactPair& pair, const Positions& x)
-{
-    constexpr double k_sine_square = 1e-2;  // unit: six degrees
-    const Corners c = corners_of(x, pair.vertices);
-    const Vec3 a = c[1] - c[0], b = c[3] - c[2];
-    return a.cross(b).squaredNorm() < k_sine_square * a.squaredNorm() * b.squaredNorm();
-}
-
-// Near a vertex that slides over a surface there are several triangles. Those beside the one below it are near, too, at
-// their borders, and in a direction that is tilted against its way: linear contacts with them would slow it down. A
-// contact at the end of an edge is one of the vertex there.
-std::vector<ContactPair> without_repeated_contacts(const std::vector<ContactPair>& pairs, const Positions& x)
-{
-    std::vector<ContactPair> edges, faces;
-    for (const ContactPair& pair : pairs)
-        if (pair.kind == PairKind::vertex_face)
-            faces.push_back(pair);
-        else if (vertices_at(pair, 0, 2) == 2 && vertices_at(pair, 2, 4) == 2 && !are_parallel(pair, x))
-            edges.push_back(pair);
-    std::stable_sort(faces.begin(), faces.end(), [](const ContactPair& a, const ContactPair& b) {
-        return std::tie(a.vertices[0], a.at.distance) < std::tie(b.vertices[0], b.at.distance);
-    });
-    std::vector<ContactPair> result;
-    std::size_t first = 0;  // of the vertex, in result
-    for (const ContactPair& pair : faces) {
-        if (result.empty() || result.back().vertices[0] != pair.vertices[0])
-            first = result.size();
-        const bool is_repeated = vertices_at(pair, 1, 4) < 3
-            && std::any_of(result.begin() + std::ptrdiff_t(first), result.end(),
-                           [&](const ContactPair& nearer) { return touches_border_of(pair, nearer); });
-        if (!is_repeated)
-            result.push_back(pair);
+// Grows from 0, without a kink, where a gap enters a zone, without bound as the gap closes. Both are in units of the
+// stiffness of contact.
+struct Barrier {
+    Barrier(double gap, double zone) : length((zone - gap) * (zone - gap) / gap), slope(zone * zone / (gap * gap) - 1)
+    {
     }
-    result.insert(result.end(), edges.begin(), edges.end());
-    return result;
-}
+
+    double length;  // m, of the spring with that force
+    double slope;  // of its length over that of the gap
+};
 
 void limit_lengths(Positions& displacements, double longest)
 {
@@ -193,10 +149,11 @@ void ClothMotion::advect(const Positions& cloth, const Positions& obstacle)
     move(stack(weld_.gather(cloth), obstacle));
 }
 
-std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const Positions& targets) const
+std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const Positions& targets,
+                                                                          double blocking_distance) const
 {
     std::vector<ActiveContact> result;
-    for (const ContactPair& pair : without_repeated_contacts(contact_.pairs(), x_)) {
+    for (const ContactPair& pair : distinct_contacts(contact_.pairs(), x_, blocking_distance)) {
         const Vec3 normal = separation(pair.at.weights, corners_of(x_, pair.vertices)) / pair.at.distance;
         double distance = contact_distance(pair.reason);
         if (normal.dot(separation(pair.at.weights, corners_of(targets, pair.vertices))) > k_active_distance * distance)
@@ -204,7 +161,8 @@ std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const 
         if (pair.reason == ContactReason::self)  // sheets that lie closer at rest stay as close
             distance
                 = std::min(distance, closest_points(pair.kind, corners_of(rest_.positions, pair.vertices)).distance);
-        result.push_back({ pair, normal, distance, sticking_.stored(pair, normal) });
+        result.push_back(
+            { pair, normal, distance, sticking_.stored(pair, normal), pair.at.distance < blocking_distance });
     }
     return result;
 }
@@ -267,11 +225,22 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
             }
         }
         const double depth = contact.rest_distance - normal.dot(now);
-        if (depth <= 0 || passes_by(contact, targets))
+        if (depth <= 0 || (!contact.blocks && passes_by(contact, targets)))
             continue;
         // The linear contact that has the force and the stiffness of the soft one here.
-        const double rest_distance = contact.rest_distance - 0.5 * std::min(depth, step.contact_softening);
+        double rest_distance = contact.rest_distance - 0.5 * std::min(depth, step.contact_softening);
         constraint.normal_stiffness *= std::min(1.0, depth / step.contact_softening);
+        const double gap = normal.dot(now), zone = step.barrier * (contact.rest_distance - options_.min_distance);
+        // no motion uses up more of the gap than this, wherever the targets are
+        const double left = std::max(gap - options_.min_distance,
+                                     k_kept_above_minimum * (normal.dot(before) - options_.min_distance));
+        if (left < zone) {
+            const Barrier barrier(std::max(left, k_least_barrier * zone), zone);
+            const double force
+                = constraint.normal_stiffness * (rest_distance - gap) + contact_stiffness * barrier.length;
+            constraint.normal_stiffness += contact_stiffness * barrier.slope;
+            rest_distance = gap + force / constraint.normal_stiffness;
+        }
         const Vec3 slip = contact.stored_slip + (now - before) - (now - before).dot(normal) * normal;
         const double slipped = slip.norm();
         constraint.tangent_stiffness = constraint.normal_stiffness

@@ -36,6 +36,9 @@ struct MotionStep {
     double contact_softening = 0;
     /// m^2; the area of cloth whose contact has that stiffness, in proportion. 0: each contact has it
     double contact_area = 0;
+    /// share of the way from the minimum distance to where contact begins, within which a force grows without bound that
+    /// keeps them apart. 0: there is none
+    double barrier = 0;
     int iterations = k_moving_iterations;  ///< of conjugate gradients
 };
 
@@ -98,6 +101,7 @@ private:
         Vec3 normal;
         double rest_distance;  // m; force begins below it
         Vec3 stored_slip;  // m, across the normal
+        bool blocks;  // so near that it would stop motion
     };
     class RestSearch;
     Positions move_freely(const Positions& displacements);
@@ -107,7 +111,7 @@ private:
     double snap_obstacle(const Positions& target);
     Positions minimise_energy(const MotionStep& step, const Positions& displacements,
                               const std::vector<ActiveContact>& contacts);
-    std::vector<ActiveContact> find_active_contacts(const Positions& targets) const;
+    std::vector<ActiveContact> find_active_contacts(const Positions& targets, double blocking_distance = 0) const;
     static bool passes_by(const ActiveContact& contact, const Positions& targets);
     Material material_at(const ContactPair& pair) const;
     double area_at(const ContactPair& pair) const;

@@ -49,7 +49,10 @@ std::vector<SoftConstraint> FrictionAnchors::constraints(const Positions& x, dou
                                     0,
                                     contact.stiffness };
         if (const double pull = contact.stiffness * slip.norm(); pull > most) {
-            constraint.tangent_stiffness *= k_sliding_stiffness * most / pull;
+            // the tangent of a pull of constant length: across the slip it turns along, along the slip it is 0
+            constraint.normal = normal.cross(slip).normalized();
+            constraint.normal_stiffness = most / slip.norm();
+            constraint.tangent_stiffness = k_sliding_stiffness * constraint.normal_stiffness;
             constraint.target = here - slip / k_sliding_stiffness;
         }
         result.push_back(constraint);

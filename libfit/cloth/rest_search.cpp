@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The search for static equilibrium of ClothMotion: quasi-Newton moves, in rounds between which friction lets go.
+// The search for static equilibrium of ClothMotion: inexact Newton moves, in rounds between which friction lets go.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,7 @@
 
 #include "cloth_motion.h"
 #include "friction_anchors.h"
-#include "limited_memory.h"
-#include "tangent_factor.h"
+#include "newton_direction.h"
 
 namespace garmentfit {
 namespace {
@@ -44,11 +43,12 @@ ForceResidual measure(const Positions& forces, const std::vector<double>& masses
 class ClothMotion::RestSearch {
 public:
     explicit RestSearch(ClothMotion& motion) :
-        motion_(motion), energy_(*motion.energy_), anchors_(motion.cloth_vertices_), memory_(k_remembered_moves)
+        motion_(motion), energy_(*motion.energy_), anchors_(motion.cloth_vertices_)
     {
         step_.contact_stiffness = k_settling_contact_stiffness;
         step_.contact_softening = k_contact_softening;
         step_.contact_area = k_contact_area;
+        step_.barrier = k_barrier;
         find_forces();
     }
 
@@ -128,7 +128,7 @@ private:
     void find_contacts()
     {
         motion_.contact_.detect(motion_.x_, Positions::Zero(motion_.x_.rows(), 3), motion_.contact_margins());
-        contacts_ = motion_.find_active_contacts(motion_.x_);
+        contacts_ = motion_.find_active_contacts(motion_.x_, k_blocking_distance * motion_.options_.min_distance);
         for (ActiveContact& contact : contacts_)  // motion must stay possible
             contact.rest_distance = std::max(contact.rest_distance, k_least_gap * motion_.options_.min_distance);
         found_at_ = cloth();
@@ -211,31 +211,27 @@ private:
     {
         anchors_.follow(cloth(), grip_);
         grip_ = 1;
-        memory_.forget();
         find_contacts();
         find_forces();
     }
 
     void make_move()
     {
-        const Positions from = cloth(), forces = forces_;
+        const Positions from = cloth();
         if (!factor_) {  // only here: its order of elimination costs more than the forces
             energy_.set_time_step(k_rest_time_step);
             factor_.emplace(energy_);
         }
-        if (moves_++ % k_factor_period == 0)
+        if (residual_.mean > k_far_contacts || moves_ >= next_factor_) {
             factor_->factorise(from, constraints_);
-        const auto solve = [&](const Positions& f) { return factor_->solve(f); };
-        Positions direction = memory_.direction(forces, solve);
-        if (direction.cwiseProduct(forces).sum() <= 0) {
-            memory_.forget();
-            direction = solve(forces);
+            next_factor_ = moves_ + k_factor_period;
         }
+        ++moves_;
+        const Positions direction = newton_direction(energy_, *factor_, from, constraints_, forces_);
         Positions displacements = Positions::Zero(motion_.x_.rows(), 3);
         displacements.topRows(from.rows()) = share_along(direction, from) * direction;
         motion_.move(displacements);
         find_forces();
-        memory_.remember(cloth() - from, forces - forces_);
     }
 
     /// Contacts that open and close make the forces jump, so a whole step may go too far: then it is cut where the
@@ -259,9 +255,8 @@ private:
     MotionStep step_ {};
     std::optional<TangentFactor> factor_;
     FrictionAnchors anchors_;
-    LimitedMemory memory_;
     double grip_ = k_kinetic_friction;  // share of the friction coefficients
-    int moves_ = 0;
+    int moves_ = 0, next_factor_ = 0;
     double least_ = INFINITY;  // mean residual
     Positions best_;  // all positions, there
     Positions found_at_;

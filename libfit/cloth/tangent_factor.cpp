@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tangent_factor.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "garmentfit/error.h"
 
 namespace garmentfit {
 namespace {
-
-Eigen::Matrix3d spring_tangent(const ClothEnergy::Spring& spring, const Positions& x)
-{
-    const Vec3 edge = (x.row(spring.i) - x.row(spring.j)).transpose();
-    const double length = edge.norm();
-    if (!(length > 0))
-        return Eigen::Matrix3d::Zero();
-    const Eigen::Matrix3d along = edge * edge.transpose() / (length * length);
-    const double across = std::max(0.0, 1 - spring.length / length);
-    return spring.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
-}
 
 Eigen::Matrix3d stiffness_matrix(const SoftConstraint& constraint)
 {
@@ -71,7 +59,7 @@ void TangentFactor::factorise(const Positions& x, const std::vector<SoftConstrai
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
     matrix_.set_zero();
     for (const ClothEnergy::Spring& spring : energy_.springs())
-        add_outer<2>({ spring.i, spring.j }, { 1, -1 }, spring_tangent(spring, x));
+        add_outer<2>({ spring.i, spring.j }, { 1, -1 }, spring.tangent(x));
     for (const ClothEnergy::FramedSum& sum : energy_.framed_sums())
         add_outer(sum.v, sum.coefficients, sum.stiffness * identity);
     for (const SoftConstraint& constraint : constraints)

@@ -7,10 +7,10 @@
 #include "fixtures.h"
 #include "friction_anchors.h"
 #include "limited_memory.h"
-#include "tangent_factor.h"
+#include "newton_direction.h"
 #include "tuning.h"
 
-// Static equilibrium: the tangent of the forces, quasi-Newton directions, friction on the way, and cloth that finds it.
+// Static equilibrium: the tangent of the forces, Newton directions, friction on the way, and cloth that finds it.
 
 namespace {
 
@@ -76,6 +76,39 @@ TEST(TangentFactor, HoldsWhatAConstraintHolds)
     const SoftConstraint held { { 20, 200, -1, -1 }, { 1, -1, 0, 0 }, Vec3::Zero(), Vec3::UnitY(), 1e4, 0 };
     EXPECT_LT(given_way({ held }), 0.05 * given_way({}));
     EXPECT_GT(given_way({ held }), 0);
+}
+
+TEST(NewtonDirection, KnowsWhatCouplesVerticesWithoutACommonEdge)
+{
+    const FreeCloth cloth(1);
+    const Positions x = stretched(cloth.mesh), way = Positions::Constant(x.rows(), 3, 1.0);
+    std::vector<SoftConstraint> touching;
+    for (int v = 0; v < 144; ++v)
+        touching.push_back({ { v, v + 144, -1, -1 }, { 1, -1, 0, 0 }, Vec3::Zero(), Vec3::UnitY(), 0.01, 0.01 });
+    // all go along, so only inertia resists
+    const Positions forces = cloth.energy.tangent_times(x, way);
+    TangentFactor factor(cloth.energy);
+    factor.factorise(x, touching);
+    EXPECT_LT(factor.solve(forces)(20, 1), 0.5) << "the factor takes the other side for fixed";
+    EXPECT_NEAR(newton_direction(cloth.energy, factor, x, touching, forces)(20, 1), 1, 0.3);
+}
+
+TEST(FrictionAnchors, ResistWhatSlidesAcrossItsWay)
+{
+    FrictionAnchors anchors(1);
+    anchors.set_active_contacts({ { 0, { -1, -1, -1 }, { 0, 0, 0 }, { 0, 2, 0 }, 0.5, 100 } },
+                                Eigen::RowVector3d(0, 0, 0));
+    const Vec3 here(0.5, 0, 0);
+    const auto friction_at = [&](const Vec3& place) -> Vec3 {
+        const SoftConstraint constraint = anchors.constraints(place.transpose(), 1).front();
+        return constraint.stiffness_times(constraint.target - place);
+    };
+    const SoftConstraint there = anchors.constraints(here.transpose(), 1).front();
+    constexpr double step = 1e-6;
+    const Vec3 across = Vec3::UnitZ();
+    const Vec3 drop = (friction_at(here) - friction_at(here + step * across)) / step;
+    EXPECT_NEAR(there.stiffness_times(across).dot(across), drop.dot(across), 1e-4 * drop.norm());
+    EXPECT_LT(there.stiffness_times(Vec3::UnitX()).x(), 0.1 * drop.norm()) << "none along its way, in truth";
 }
 
 TEST(LimitedMemory, LearnsWhatTheFirstGuessDoesNotKnow)
