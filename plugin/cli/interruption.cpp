@@ -16,7 +16,7 @@ namespace {
 constexpr double k_time_to_stop = 0.7;  // unit: s
 constexpr double k_time_to_finish = 10;  // unit: s, at least
 
-volatile std::sig_atomic_t g_interrupted = 0;
+volatile std::sig_atomic_t g_signal = 0;  // that interrupted, 0 while none did
 timer_t g_timer;  // rings on a thread of its own
 std::mutex g_mutex;  // of the next two
 std::function<void(ForcedEnd)> g_end;
@@ -31,9 +31,9 @@ void ring_in(double seconds)
     timer_settime(g_timer, 0, &when, nullptr);
 }
 
-void raise_flag(int)
+void keep_signal(int signal)
 {
-    g_interrupted = 1;
+    g_signal = signal;
     ring_in(k_time_to_stop);
 }
 
@@ -41,7 +41,7 @@ void force_end(sigval)
 {
     const std::lock_guard lock(g_mutex);
     if (g_is_watching)
-        g_end(g_interrupted ? ForcedEnd::stopped : ForcedEnd::time_limit);
+        g_end(interrupted() ? ForcedEnd::stopped : ForcedEnd::time_limit);
 }
 
 }  // namespace
@@ -58,13 +58,21 @@ void watch_interruption(std::function<void(ForcedEnd)> end)
     if (is_first)
         timer_create(CLOCK_MONOTONIC, &event, &g_timer);
     struct sigaction action { };
-    action.sa_handler = raise_flag;
+    action.sa_handler = keep_signal;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
 }
 
-bool interrupted() { return g_interrupted != 0; }
+bool interrupted() { return g_signal != 0; }
+
+std::string interruption_text()
+{
+    return g_signal == SIGTERM
+        ? "ended by SIGTERM, as `timeout`, `kill` and schedulers send it; to get the best result "
+          "within a given time, use --time-limit"
+        : Cancelled().what();
+}
 
 void stop_if_interrupted()
 {

@@ -6,15 +6,18 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 namespace garmentfit::cli {
 
 enum class ForcedEnd { stopped, time_limit };
 
-/// The first SIGINT or SIGTERM only raises a flag, and leaves the program 0.7 s; a second one ends it at once.
+/// The first SIGINT or SIGTERM is only kept in mind, and leaves the program 0.7 s; a second one ends it at once.
 /// @param end  for an end that is forced, on a thread of its own: tells it and ends the process, so does not return
 void watch_interruption(std::function<void(ForcedEnd)> end);
 bool interrupted();
+/// By whom, for people; a signal that other programs send is not the user's.
+std::string interruption_text();
 /// @throws Cancelled when interrupted.
 void stop_if_interrupted();
 

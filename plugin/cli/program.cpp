@@ -221,7 +221,7 @@ void end_at_once(ForcedEnd why, bool json)
 {
     Abandonable::abandon();
     const int code = why == ForcedEnd::stopped
-        ? tell_failure(k_stopped, "cancelled", Cancelled().what(), json)
+        ? tell_failure(k_stopped, "cancelled", interruption_text(), json)
         : tell_failure(
             k_not_certified, "time_limit",
             "time_limit: it was reached in a step that could not end by itself; repair or simplify the meshes, or "
@@ -240,8 +240,8 @@ int run_program(int argc, char** argv)
         const int code = run(argc, argv);
         stop_watching();
         return code;
-    } catch (const Cancelled& stopped) {
-        return fail(k_stopped, "cancelled", stopped.what(), json);
+    } catch (const Cancelled&) {
+        return fail(k_stopped, "cancelled", interruption_text(), json);
     } catch (const TimeLimitReached& error) {
         return fail(k_not_certified, "time_limit", error.what(), json);
     } catch (const InvalidInput& error) {

@@ -347,6 +347,7 @@ TEST_F(CommandLine, LeavesNothingBehindWhenStopped)
             signal, 0.2s);  // into the work
         EXPECT_EQ(ended.code, 130) << ended.err;
         EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+        EXPECT_EQ(ended.err.find("SIGTERM") != std::string::npos, signal == SIGTERM) << ended.err;
         expect_only_streams_and_inputs();
     }
 }
@@ -385,6 +386,7 @@ TEST_F(CommandLine, EndsWithinASecondOfASignalWhereItWaitsForEver)
             = stop({ "rig", k_body, "--joints", pipe, "-o", folder / "result" }, signal, 0.5s);  // until it waits
         EXPECT_EQ(ended.code, 130) << ended.err;
         EXPECT_EQ(ended.error_lines(), 1) << ended.err;
+        EXPECT_EQ(ended.err.find("SIGTERM") != std::string::npos, signal == SIGTERM) << ended.err;
         EXPECT_FALSE(fs::exists(folder / "result"));
     }
 }
