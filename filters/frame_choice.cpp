@@ -15,6 +15,8 @@
 namespace garmentfit {
 namespace {
 
+constexpr double k_same_unit = 1e-9;  // unit: what rounding leaves
+
 /// The guess, replaced by what the user said.
 FrameGuess apply_choice(FrameGuess guess, const FrameChoice& choice)
 {
@@ -55,18 +57,37 @@ void set_height(FrameGuess& guess, const Positions& positions, double height)
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
 }
 
+/// Of the faces' corners: files hold vertices that no face uses.
+Vec3 extents_of(const Positions& positions, const Triangles& triangles)
+{
+    if (triangles.rows() == 0)
+        return Vec3::Zero();
+    const Positions corners = positions(triangles.reshaped(), Eigen::all);
+    return (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).transpose();
+}
+
+/// Factor that makes a garment of any size as large as a shirt or a pair of trousers: openings are found among those of
+/// people's clothes. None where it has no size.
+std::optional<double> to_usual_size(const Positions& positions, const Triangles& triangles)
+{
+    const double longest = extents_of(positions, triangles).maxCoeff();
+    if (!(longest > 0))
+        return {};
+    return k_usual_longest_side / longest;
+}
+
 /// The io guess knows only the shape of the box and its symmetry; what the openings say is added to its evidence. What
 /// is no garment is left alone. A garment that is upside down along an axis hangs along it, too: the fit turns it over.
 void choose_up(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body)
 {
     const Vec3 other = std::abs(body.up.y()) > 0.5 ? Vec3::UnitZ() : Vec3::UnitY();
     const double sign = guess.frame.up == other ? 1 : -1, by_shape = -sign * std::log1p(-guess.up_confidence);
-    if (std::abs(by_shape) >= 2 * k_openings_up_weight)
+    const std::optional<double> size = to_usual_size(positions, triangles);
+    if (!size || std::abs(by_shape) >= 2 * k_openings_up_weight)
         return;
     std::vector<double> evidence;
     try {
-        const Positions metres = positions * guess.frame.metres_per_unit;
-        evidence = evidence_for_up(make_garment(metres, triangles), { body.up, other });
+        evidence = evidence_for_up(make_garment(positions * *size, triangles), { body.up, other });
     } catch (const InvalidInput&) {
         return;
     }
@@ -78,44 +99,54 @@ void choose_up(FrameGuess& guess, const Positions& positions, const Triangles& t
     guess.up_confidence = -std::expm1(-std::abs(by_all));
 }
 
-/// As wearer_heights, of a garment of any size: openings are found among those of people's clothes, so it is measured
-/// with its longest side as long as a shirt or a pair of trousers.
-std::vector<double> wearer_heights_of_any_size(Positions metres, const Triangles& triangles)
+/// As wearer_heights, of a garment of any size.
+std::vector<WearerHeight> wearer_heights_of_any_size(const Positions& metres, const Triangles& triangles)
 {
-    if (metres.rows() == 0)
+    const std::optional<double> size = to_usual_size(metres, triangles);
+    if (!size)
         return {};
-    const double longest = (metres.colwise().maxCoeff() - metres.colwise().minCoeff()).maxCoeff();
-    if (!(longest > 0))
-        return {};
-    metres *= k_usual_longest_side / longest;
-    std::vector<double> heights = wearer_heights(make_garment(metres, triangles));
-    for (double& height : heights)
-        height *= longest / k_usual_longest_side;
-    return heights;
+    std::vector<WearerHeight> wearers = wearer_heights(make_garment(metres * *size, triangles));
+    for (WearerHeight& wearer : wearers)
+        wearer.height /= *size;
+    return wearers;
 }
 
-/// By the parts of the garment. What is no garment is left alone: its defects are found where it is prepared.
+/// A unit that has this size; none where the garment was scaled.
+std::optional<std::string_view> name_of_unit(double metres_per_unit)
+{
+    for (const std::string_view unit : unit_choices())
+        if (unit != "auto" && std::abs(metres_per(unit) / metres_per_unit - 1) < k_same_unit)
+            return unit;
+    return {};
+}
+
+/// By what the garment's measures say. What is no garment is left alone: its defects are found where it is prepared.
 void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body,
                    double stature)
 {
     const Positions metres = guess.frame.to_metres(positions);
-    std::vector<double> statures;
+    std::vector<WearerHeight> wearers;
     try {
-        statures = wearer_heights_of_any_size(metres, triangles);
+        wearers = wearer_heights_of_any_size(metres, triangles);
     } catch (const InvalidInput&) {
         return;
     }
-    const double own_unit = guess.frame.metres_per_unit;
-    if (statures.empty())
+    if (wearers.empty())
         return;
-    const double length = metres.col(1).maxCoeff() - metres.col(1).minCoeff();
+    const double length = extents_of(metres, triangles).y();
     const ScaleGuess scale
-        = guess_scale(statures, length, stature, own_unit, own_unit == in_named_unit(body).metres_per_unit);
-    guess.scale = scale.factor;
+        = guess_scale(wearers, length, stature, guess.frame.metres_per_unit, in_named_unit(body).metres_per_unit);
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;
-    if (scale.factor != 1)
+    if (scale.factor == 1)
+        return;
+    if (const std::optional<std::string_view> unit = name_of_unit(guess.frame.metres_per_unit)) {
+        guess.frame.metres_per_unit = metres_per(*unit);
+        guess.why += "; its parts fit the body in " + std::string(*unit);
+    } else {
+        guess.scale = scale.factor;
         guess.why += "; its parts fit the body when it is scaled by " + rounded_text(scale.factor, 3);
+    }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 
 #include "garmentfit/filters/frame_choice.h"
 #include "tuning.h"
@@ -12,67 +13,154 @@
 namespace garmentfit {
 namespace {
 
-constexpr std::size_t k_min_parts = 2;  // derived: one part may be mistaken for another, two agree
-
-/// What all parts have in common: the least deviation, 0 where some are too large and others too small.
-double common_deviation(const std::vector<double>& deviations, double shift)
+double normal(double deviation, double spread)
 {
-    const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
-    return std::max(0.0, *least + shift) + std::min(0.0, *most + shift);
-}
-
-/// Of a garment that has the size of its unit.
-double likelihood(double deviation)
-{
-    const double spread = deviation > 0 ? k_too_large_spread : k_too_small_spread;
     return std::exp(-0.5 * std::pow(deviation / spread, 2)) / (std::sqrt(2 * std::numbers::pi) * spread);
 }
 
-/// No garment hangs far below the feet of whom it fits. @param share  of the longest that a garment may be
+/// What the measures of a garment say of the person whom it fits. A measure may be mistaken for another, or be a style:
+/// none of them can exclude a size that the others agree on.
+class Wearer {
+public:
+    Wearer(const std::vector<WearerHeight>& wearers, double height) : m_wearers(wearers), m_height(height) { }
+
+    /// That the garment, with its size multiplied by exp(log_factor), fits the body.
+    double likelihood(double log_factor) const
+    {
+        double log_likelihood = 0;
+        for (const WearerHeight& wearer : m_wearers)
+            log_likelihood += std::log((1 - k_mistaken) * normal(deviation(wearer) + log_factor, wearer.spread)
+                                       + k_mistaken * k_mistaken_density);
+        return std::exp(log_likelihood / k_dependence);
+    }
+
+    /// The same where it was made for somebody else, as large as the body or not.
+    double likelihood_of_others(double log_factor) const
+    {
+        double sum = 0;
+        for (int i = -k_steps_of_others; i <= k_steps_of_others; ++i) {
+            const double other = i * k_step;
+            const double share = (1 - k_children) * normal(other, k_wearer_spread)
+                + k_children * normal(other - k_child_size, k_child_spread);
+            sum += share * k_step * likelihood(log_factor - other);
+        }
+        return sum;
+    }
+
+    /// Logarithms of factors between which any measure fits, one k_step apart.
+    std::vector<double> log_factors() const
+    {
+        std::vector<double> ends;
+        for (const WearerHeight& wearer : m_wearers)
+            for (const double sign : { -1.0, 1.0 })
+                ends.push_back(-deviation(wearer) + sign * k_widest * wearer.spread);
+        const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
+        std::vector<double> all(std::size_t((*most - *least) / k_step) + 1);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i] = *least + double(i) * k_step;
+        return all;
+    }
+
+private:
+    static constexpr int k_steps_of_others = 100;
+    static constexpr double k_widest = 4;  // unit: of a spread, where nothing is left of it
+
+    double deviation(const WearerHeight& wearer) const { return std::log(wearer.height / m_height); }
+
+    const std::vector<WearerHeight>& m_wearers;
+    double m_height;
+};
+
+/// An explanation of the size.
+struct Hypothesis {
+    double factor = 1, weight = 0;
+};
+
+/// No garment hangs far below the feet of whom it fits, and none is a doll's. @param share  of the stature
 double likelihood_of_length(double share)
 {
-    return share > 1 ? std::exp(-0.5 * std::pow(std::log(share) / k_too_large_spread, 2)) : 1;
+    const double beyond
+        = std::max({ 0.0, std::log(share / k_longest_share), std::log(k_shortest_share / share) }) / k_length_spread;
+    return std::exp(-0.5 * beyond * beyond);
 }
 
-double median(std::vector<double> values)
+double usualness(const UsualUnit& unit, double body_unit)
 {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+    return unit.usualness * (metres_per(unit.name) == body_unit ? k_body_unit : 1);
+}
+
+/// One for each unit, made for people as large as the body or not. @param length  share of the stature
+std::vector<Hypothesis> in_units(const Wearer& wearer, double length, double metres_per_unit, double body_unit)
+{
+    double all = 0;
+    for (const UsualUnit& unit : k_usual_units)
+        all += usualness(unit, body_unit);
+    std::vector<Hypothesis> hypotheses;
+    for (const UsualUnit& unit : k_usual_units) {
+        const double factor = metres_per(unit.name) / metres_per_unit;
+        hypotheses.push_back(
+            { factor,
+              (1 - k_without_unit) * usualness(unit, body_unit) / all * wearer.likelihood_of_others(std::log(factor))
+                  * likelihood_of_length(factor * length) });
+    }
+    return hypotheses;
+}
+
+/// Any size may be the right one, made for the body.
+std::vector<Hypothesis> without_unit(const Wearer& wearer, double length)
+{
+    std::vector<Hypothesis> hypotheses;
+    for (const double log_factor : wearer.log_factors()) {
+        const double factor = std::exp(log_factor);
+        hypotheses.push_back({ factor,
+                               k_without_unit * k_without_unit_density * k_step * wearer.likelihood(log_factor)
+                                   * likelihood_of_length(factor * length) });
+    }
+    return hypotheses;
+}
+
+double sum_of(const std::vector<Hypothesis>& hypotheses)
+{
+    return std::accumulate(hypotheses.begin(), hypotheses.end(), 0.0,
+                           [](double sum, const Hypothesis& each) { return sum + each.weight; });
+}
+
+/// Half of the weight is on smaller factors.
+double median_factor(const std::vector<Hypothesis>& hypotheses)
+{
+    const double half = 0.5 * sum_of(hypotheses);
+    double below = 0;
+    const auto found = std::find_if(hypotheses.begin(), hypotheses.end(),
+                                    [&](const Hypothesis& each) { return (below += each.weight) >= half; });
+    return found == hypotheses.end() ? 1 : found->factor;
+}
+
+double weight_near(const std::vector<Hypothesis>& hypotheses, double factor)
+{
+    double weight = 0;
+    for (const Hypothesis& each : hypotheses)
+        if (std::abs(std::log(each.factor / factor)) < k_same_size)
+            weight += each.weight;
+    return weight;
 }
 
 }  // namespace
 
-ScaleGuess guess_scale(const std::vector<double>& statures, double length, double height, double metres_per_unit,
-                       bool as_body)
+ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, double height, double metres_per_unit,
+                       double body_unit)
 {
-    if (statures.size() < k_min_parts || !(height > 0) || !(length > 0))
+    if (wearers.empty() || !(height > 0) || !(length > 0))
         return {};
-    std::vector<double> deviations;
-    for (const double stature : statures)
-        deviations.push_back(std::log(stature / height));
-
-    const double longest = k_longest_share * height / length;
-    const auto likelihood_of = [&](double factor) {
-        return likelihood(common_deviation(deviations, std::log(factor))) * likelihood_of_length(factor / longest);
-    };
-
-    const SizePriors& priors = as_body ? k_priors_as_body : k_priors_otherwise;
-    std::vector<ScaleGuess> hypotheses { { 1, priors.guessed_unit * likelihood_of(1) },
-                                         { std::min(std::exp(-median(deviations)), longest),
-                                           priors.no_unit * k_no_unit_density } };
-    for (const std::string_view unit : unit_choices())
-        if (unit != "auto" && metres_per(unit) != metres_per_unit) {
-            const double factor = metres_per(unit) / metres_per_unit;
-            hypotheses.push_back({ factor, priors.other_unit * likelihood_of(factor) });
-        }
-    double sum = 0;
-    for (const ScaleGuess& hypothesis : hypotheses)
-        sum += hypothesis.probability;
-    ScaleGuess best = *std::max_element(hypotheses.begin(), hypotheses.end(),
-                                        [](const auto& a, const auto& b) { return a.probability < b.probability; });
-    best.probability /= sum;
-    return best;
+    const Wearer wearer(wearers, height);
+    const std::vector<Hypothesis> units = in_units(wearer, length / height, metres_per_unit, body_unit),
+                                  any = without_unit(wearer, length / height);
+    const Hypothesis unit = *std::max_element(units.begin(), units.end(),
+                                              [](const auto& a, const auto& b) { return a.weight < b.weight; });
+    const double sum = sum_of(units) + sum_of(any);
+    if (!(sum > 0))
+        return {};
+    const double factor = sum_of(any) > unit.weight ? median_factor(any) : unit.factor;
+    return { factor, (weight_near(units, factor) + weight_near(any, factor)) / sum };
 }
 
 }  // namespace garmentfit

@@ -5,6 +5,7 @@
 // (body_scale.h).
 
 #include <array>
+#include <string_view>
 
 namespace garmentfit {
 
@@ -56,22 +57,35 @@ inline constexpr double k_roomy_ease = 0.14;
 /// m. Longest side of a garment whose parts are measured to find its size. unit: of the order of people's clothes
 inline constexpr double k_usual_longest_side = 1;
 
-/// Log of the stature that all parts of a garment have in common, over that of the body: its spread where the garment
-/// has the size of its unit. fitted: 0.12 upwards and 0.19 downwards on 141 pairs of two catalogues; made wider because
-/// those bodies are nearly all adults, and children's clothes are put on them.
-inline constexpr double k_too_large_spread = 0.15, k_too_small_spread = 0.25;
-/// Share of the stature that the longest clothes have, hoods and trains apart. fitted: guess; from shoulder to floor it is
-/// about 0.82
-inline constexpr double k_longest_share = 0.95;
-/// Dimensionless, probability per unit of that logarithm of a garment of normalised size. derived: the same anywhere
-/// between a third and three times the body.
-inline constexpr double k_no_unit_density = 0.455;
-/// Probabilities before the parts are looked at: that the guessed unit is right, each of the five others, none.
-/// fitted: guess.
-struct SizePriors {
-    double guessed_unit, other_unit, no_unit;
+/// Share of the stature that the longest clothes have, hoods and trains apart, that the shortest have, and the spread of
+/// the logarithm beyond them. fitted: guess; from shoulder to floor it is about 0.82
+inline constexpr double k_longest_share = 0.95, k_shortest_share = 0.1, k_length_spread = 0.08;
+
+// The size of a garment (garment_scale.h), in natural logarithms. fitted: guesses, on one half of 125 garments of a
+// catalogue, in their units and multiplied by factors of 0.1 to 1000, judged on the other half.
+
+/// Probability that a measure of a garment is none of the size, but a style or mistaken, and its density then.
+inline constexpr double k_mistaken = 0.1, k_mistaken_density = 0.25;
+/// A wide garment is wide everywhere: so many measures say as much as one that is independent.
+inline constexpr double k_dependence = 2;
+/// Of people for whom clothes are made, against the body that wears them; share of clothes of children and other people
+/// of another size, and their mean and spread.
+inline constexpr double k_wearer_spread = 0.12, k_children = 0.15, k_child_size = -0.1, k_child_spread = 0.35;
+/// Probability that a file has no unit, and its density then: the same in fourteen units, a factor of a million.
+inline constexpr double k_without_unit = 0.2, k_without_unit_density = 0.07;
+/// How usual the units are in mesh files, and by how much more the body's own.
+struct UsualUnit {
+    std::string_view name;
+    double usualness;
 };
-inline constexpr SizePriors k_priors_as_body { 0.89, 0.014, 0.04 }, k_priors_otherwise { 0.7, 0.04, 0.1 };
+inline constexpr std::array<UsualUnit, 6> k_usual_units {
+    { { "m", 1 }, { "dm", 0.6 }, { "cm", 0.8 }, { "mm", 0.8 }, { "in", 0.1 }, { "ft", 0.05 } }
+};
+inline constexpr double k_body_unit = 10;
+/// Sizes that differ by less serve alike: clothes of two sizes do.
+inline constexpr double k_same_size = 0.2;
+/// unit: steps in which all factors are gone through
+inline constexpr double k_step = 0.01;
 
 /// Log odds per unit of the openings' evidence that a garment is upright along one axis and not along another, beside
 /// those of its box and symmetry (guess_garment_frame). fitted: on one half of 126 garments of three catalogues, turned

@@ -107,6 +107,10 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
                            + rounded_text(guess.scale, 3) + percent_text(guess.scale_probability) + " (" + guess.why
                            + "); if it is wrong, " + set(prefix + "unit") + ", and " + set(prefix + "scale")
                            + " where the unit is not enough");
+    else if (guess.scale_probability < k_low_probability)
+        warnings.push_back("the size of " + mesh + " is uncertain" + percent_text(guess.scale_probability) + " ("
+                           + guess.why + "); if it is wrong, " + set(prefix + "unit") + ", or "
+                           + set(prefix + "scale"));
     if (guess.up_confidence < k_low_confidence)
         warnings.push_back("the up axis of " + mesh + k_guess + " (" + guess.why + "); if it is wrong, "
                            + set(prefix + "up"));

@@ -76,7 +76,9 @@ double standing_height(const Skeleton& s)
 
 std::optional<double> wearer_share(const Skeleton& joints, const std::vector<Opening>& openings)
 {
-    const std::vector<double> heights = wearer_heights(measures_of(openings));
+    std::vector<double> heights;
+    for (const WearerHeight& wearer : wearer_heights(measures_of(openings)))
+        heights.push_back(wearer.height);
     if (heights.empty())
         return {};
     return quantile(heights, 0.5) / standing_height(joints);

@@ -169,11 +169,22 @@ inline constexpr double k_open_front = 0.6;
 
 // ---- size (garment_size.cpp) --------------------------------------------------------------------------------------
 
-/// m. Stature of the usual wearer, and measures of that person's garments: from sleeve to sleeve or armhole to armhole,
+/// m, and the spread of its natural logarithm.
+struct Usual {
+    double size, spread;
+};
+/// Stature of the usual wearer, and measures of that person's garments: from sleeve to sleeve or armhole to armhole,
 /// girths of sleeve, trunk (at its narrowest) and leg. fitted: medians of 140 garments of two catalogues, most of them
-/// made for bodies between 1.6 and 1.85 m.
-inline constexpr double k_usual_wearer = 1.7, k_usual_shoulders = 0.352, k_usual_sleeve = 0.459, k_usual_trunk = 0.85,
-                        k_usual_leg = 0.611;
+/// made for bodies between 1.6 and 1.85 m; spreads of one half of 125 garments of a catalogue.
+inline constexpr double k_usual_wearer = 1.7;
+inline constexpr Usual k_usual_shoulders { 0.352, 0.14 }, k_usual_sleeve { 0.459, 0.19 }, k_usual_trunk { 0.85, 0.18 },
+    k_usual_leg { 0.611, 0.16 };
+/// Of garments with legs, with sleeves or armholes, and of others. fitted: on the same half
+struct UsualExtents {
+    Usual depth, width;
+};
+inline constexpr UsualExtents k_usual_with_legs { { 0.29, 0.13 }, { 0.47, 0.1 } },
+    k_usual_with_arms { { 0.335, 0.19 }, { 0.75, 0.37 } }, k_usual_without { { 0.39, 0.21 }, { 0.555, 0.15 } };
 
 // ---- upright or not (type_guess.cpp) ------------------------------------------------------------------------------
 // fitted: guesses, on the garments.

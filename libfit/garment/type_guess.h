@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "garment_openings.h"
+#include "garmentfit/garment_size.h"
 #include "garmentfit/garment_type.h"
 
 namespace garmentfit {
@@ -41,7 +42,7 @@ struct GarmentMeasures {
 };
 GarmentMeasures measures_of(const std::vector<Opening>& openings);
 
-/// As garmentfit/garment_size.h.
-std::vector<double> wearer_heights(const GarmentMeasures& measures);
+/// As garmentfit/garment_size.h, by its parts alone.
+std::vector<WearerHeight> wearer_heights(const GarmentMeasures& measures);
 
 }  // namespace garmentfit

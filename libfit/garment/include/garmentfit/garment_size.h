@@ -10,8 +10,14 @@
 
 namespace garmentfit {
 
-/// Statures of people whom a part of the garment would fit, m: one for each of its shoulders, sleeves, trunk and legs
-/// that is found. Empty where no opening is recognised, as in a garment that is not upright. O(n log n).
-GARMENTFIT_API std::vector<double> wearer_heights(const GarmentMesh& garment);
+/// What one measure of a garment says of the person whom it fits.
+struct WearerHeight {
+    double height = 0;  ///< stature of the usual wearer, m
+    double spread = 0;  ///< of its natural logarithm, among garments that fit
+};
+
+/// By each of its shoulders, sleeves, trunk and legs that is found, and by its width and depth, which need no opening.
+/// The garment is upright. O(n log n).
+GARMENTFIT_API std::vector<WearerHeight> wearer_heights(const GarmentMesh& garment);
 
 }  // namespace garmentfit
