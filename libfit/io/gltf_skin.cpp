@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "garmentfit/error.h"
 #include "gltf_scene.h"
@@ -37,7 +38,7 @@ void hang_on_nearest(const FileBytes& file, const Positions& positions, FileSkin
 class SkinReader {
 public:
     SkinReader(const FileBytes& file, const tinygltf::Model& model) :
-        file_(file), model_(model), scene_(file, model), row_of_(model.nodes.size(), -1)
+        file_(file), model_(model), scene_(file, model), joints_(model.nodes.size()), row_of_(model.nodes.size(), -1)
     {
     }
 
@@ -46,11 +47,10 @@ public:
         const std::vector<GltfSurface> surfaces = scene_.surfaces();
         for (const GltfSurface& surface : surfaces)
             add_joints(surface.node);
+        add_nodes_between();
+        list_joints();
         if (skin_.names.empty())
             file_.fail("has no skinned mesh; give a rigged body");
-        add_nodes_between();
-        for (const int node : skin_.nodes)
-            skin_.parents.push_back(joint_above(scene_.parent(node)));
         for (const GltfSurface& surface : surfaces)
             if (surface.adds_vertices)
                 read_weights(surface);
@@ -60,6 +60,13 @@ public:
     }
 
 private:
+    struct Joint {
+        Eigen::Affine3d joint_from_world;
+        Vec3 place;
+    };
+
+    bool is_joint(int node) const { return joints_[std::size_t(node)].has_value(); }
+
     const tinygltf::Skin* skin_of(int node) const
     {
         const int skin = model_.nodes[std::size_t(node)].skin;
@@ -75,23 +82,14 @@ private:
         for (std::size_t j = 0; j < skin->joints.size(); ++j) {
             const int joint = skin->joints[j];
             const std::string& name = checked(file_, model_.nodes, joint, "node").name;
-            if (row_of_[std::size_t(joint)] >= 0)
+            if (is_joint(joint))
                 continue;
             const Eigen::Affine3d joint_from_mesh = scene_.joint_from_mesh(*skin, j);
             const Vec3 place = (world_from_mesh * joint_from_mesh.inverse()).translation();
             if (!place.allFinite())
                 file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
-            add_joint(joint, joint_from_mesh * world_from_mesh.inverse(), place);
+            joints_[std::size_t(joint)] = { joint_from_mesh * world_from_mesh.inverse(), place };
         }
-    }
-
-    void add_joint(int node, const Eigen::Affine3d& joint_from_world, const Vec3& place)
-    {
-        row_of_[std::size_t(node)] = int(skin_.nodes.size());
-        skin_.nodes.push_back(node);
-        skin_.names.push_back(model_.nodes[std::size_t(node)].name);
-        skin_.joint_from_world.push_back(joint_from_world);
-        skin_.places.push_back(place);
     }
 
     /// Of each node its children in the scene that are joints or have some below them.
@@ -100,7 +98,7 @@ private:
         std::vector<std::vector<int>> branches(model_.nodes.size());
         for (auto node = scene_.nodes().rbegin(); node != scene_.nodes().rend(); ++node)
             if (const int above = scene_.parent(*node);
-                above >= 0 && (row_of_[std::size_t(*node)] >= 0 || !branches[std::size_t(*node)].empty()))
+                above >= 0 && (is_joint(*node) || !branches[std::size_t(*node)].empty()))
                 branches[std::size_t(above)].push_back(*node);
         return branches;
     }
@@ -112,41 +110,66 @@ private:
         std::vector<bool> is_inner(model_.nodes.size(), false);
         for (const int node : scene_.nodes()) {  // parents first
             const int above = scene_.parent(node);
-            const bool is_joint = row_of_[std::size_t(node)] >= 0;
             const bool has_inner_above = above >= 0 && is_inner[std::size_t(above)];
-            is_inner[std::size_t(node)] = is_joint || has_inner_above || branches[std::size_t(node)].size() > 1;
-            if (is_inner[std::size_t(node)] && !is_joint && !branches[std::size_t(node)].empty())
+            is_inner[std::size_t(node)] = is_joint(node) || has_inner_above || branches[std::size_t(node)].size() > 1;
+            if (is_inner[std::size_t(node)] && !is_joint(node) && !branches[std::size_t(node)].empty())
                 add_weightless(node, joint_near(node, branches));
         }
     }
 
-    /// The row of the joint above a node, or of the first one below it.
+    /// The joint above a node, or the first one below it.
     int joint_near(int node, const std::vector<std::vector<int>>& branches) const
     {
-        if (const int above = joint_above(scene_.parent(node)); above >= 0)
+        if (const int above = joint_from(scene_.parent(node)); above >= 0)
             return above;
-        while (row_of_[std::size_t(node)] < 0)
+        while (!is_joint(node))
             node = branches[std::size_t(node)].front();
-        return row_of_[std::size_t(node)];
+        return node;
     }
 
-    /// In the bind pose it lies as it does in the scene towards the joint of a row. Not added where the scene shows
-    /// that joint flat.
-    void add_weightless(int node, int row)
+    /// In the bind pose it lies as it does in the scene towards a joint. Not added where the scene shows that joint
+    /// flat.
+    void add_weightless(int node, int joint)
     {
-        const int joint = skin_.nodes[std::size_t(row)];
         const Eigen::Affine3d node_from_joint = scene_.world_from_node(node).inverse() * scene_.world_from_node(joint);
-        const Eigen::Affine3d node_from_world = node_from_joint * skin_.joint_from_world[std::size_t(row)];
+        const Eigen::Affine3d node_from_world = node_from_joint * joints_[std::size_t(joint)]->joint_from_world;
         if (const Vec3 place = node_from_world.inverse().translation(); place.allFinite())
-            add_joint(node, node_from_world, place);
+            joints_[std::size_t(node)] = { node_from_world, place };
     }
 
-    /// The row of the node, or of the nearest one above it that is a joint; -1 where there is none.
-    int joint_above(int node) const
+    /// The node, or the nearest one above it that is a joint; -1 where there is none.
+    int joint_from(int node) const
     {
-        while (node >= 0 && row_of_[std::size_t(node)] < 0)
+        while (node >= 0 && !is_joint(node))
             node = scene_.parent(node);
-        return node < 0 ? -1 : row_of_[std::size_t(node)];
+        return node;
+    }
+
+    int row_from(int node) const
+    {
+        const int joint = joint_from(node);
+        return joint < 0 ? -1 : row_of_[std::size_t(joint)];
+    }
+
+    /// In the order of the scene. Those that a skin lists and the scene lacks come last.
+    void list_joints()
+    {
+        for (const int node : scene_.nodes())
+            if (is_joint(node))
+                list_joint(node);
+        for (int node = 0; node < int(model_.nodes.size()); ++node)
+            if (is_joint(node) && row_of_[std::size_t(node)] < 0)
+                list_joint(node);
+    }
+
+    void list_joint(int node)
+    {
+        row_of_[std::size_t(node)] = int(skin_.nodes.size());
+        skin_.nodes.push_back(node);
+        skin_.names.push_back(model_.nodes[std::size_t(node)].name);
+        skin_.parents.push_back(row_from(scene_.parent(node)));
+        skin_.joint_from_world.push_back(joints_[std::size_t(node)]->joint_from_world);
+        skin_.places.push_back(joints_[std::size_t(node)]->place);
     }
 
     /// Eyes, hair and the like may be moved by a joint without a skin of their own.
@@ -157,7 +180,7 @@ private:
         if (const tinygltf::Skin* skin = skin_of(surface.node))
             for (int set = 0; read_set(surface, *skin, set, first);)
                 ++set;
-        else if (const int joint = joint_above(surface.node); joint >= 0)
+        else if (const int joint = row_from(surface.node); joint >= 0)
             std::fill(skin_.hangs.begin() + std::ptrdiff_t(first), skin_.hangs.end(),
                       std::vector<std::pair<int, double>> { { joint, 1.0 } });
     }
@@ -221,6 +244,7 @@ private:
     const FileBytes& file_;
     const tinygltf::Model& model_;
     const GltfScene scene_;
+    std::vector<std::optional<Joint>> joints_;  // of each node, nothing for others
     std::vector<int> row_of_;  // of each node its row among the joints, -1 for others
     FileSkin skin_;
 };

@@ -14,11 +14,12 @@
 namespace garmentfit {
 
 /// All skins of a file as one: their joints are merged by node. Nodes between joints are joints, too, which hold no
-/// skin: exporters leave out what has no weight, such as hips, necks and clavicles.
+/// skin: exporters leave out what has no weight, such as hips, necks and clavicles. Rows are in the order of the scene,
+/// parents first.
 struct FileSkin {
     std::vector<int> nodes;  ///< of each joint
     std::vector<std::string> names;
-    std::vector<int> parents;  ///< rows of the same; -1 none
+    std::vector<int> parents;  ///< earlier rows of the same; -1 none
     std::vector<Vec3> places;  ///< in the bind pose
     std::vector<Eigen::Affine3d, Eigen::aligned_allocator<Eigen::Affine3d>> joint_from_world;  ///< in the bind pose
     std::vector<std::vector<std::pair<int, double>>> hangs;  ///< of each vertex of MeshFile: joints and weights

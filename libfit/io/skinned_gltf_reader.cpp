@@ -84,7 +84,7 @@ UnnamedJoints unnamed(const FileSkin& skin)
 class Translation {
 public:
     Translation(const FileBytes& file, const FileSkin& skin) :
-        file_(file), skin_(skin), joints_(recognize_joints(skin.names, skin.parents))
+        file_(file), skin_(skin), joints_(recognize_joints(skin.names))
     {
         if (has_all_joints())
             return;
@@ -229,8 +229,7 @@ private:
     /// The bone of a joint, or of the nearest joint above it that has a known name.
     int bone_for(int joint) const
     {
-        for (std::size_t steps = 0; joint >= 0 && steps <= joints_.size();
-             ++steps, joint = skin_.parents[std::size_t(joint)])
+        for (; joint >= 0; joint = skin_.parents[std::size_t(joint)])
             if (const int b = by_tree_ ? -1 : bone_of(skin_.names[std::size_t(joint)]); b >= 0)
                 return b;
             else if (joints_[std::size_t(joint)])

@@ -133,8 +133,7 @@ bool has_token(const std::string& name, std::string_view token)
 /// Names that mean one thing alone and another thing beside others.
 class JointNames {
 public:
-    JointNames(const std::vector<std::string>& names, const std::vector<int>& parents) :
-        names_(names), parents_(parents)
+    explicit JointNames(const std::vector<std::string>& names) : names_(names)
     {
         for (const std::string& name : names)
             joints_.push_back(recognize(name));
@@ -204,37 +203,24 @@ private:
                 joints_[i] = joint;
     }
 
-    /// How many joints lie on the way from the root to it; a way in a circle ends.
-    std::size_t depth(std::size_t joint) const
-    {
-        std::size_t steps = 0;
-        for (int above = int(joint); above >= 0 && steps <= parents_.size(); ++steps)
-            above = std::size_t(above) < parents_.size() ? parents_[std::size_t(above)] : -1;
-        return steps;
-    }
-
     /// It begins in the pelvis there.
     void name_first_of_spine()
     {
-        std::optional<std::size_t> first;
-        for (std::size_t i = 0; i < joints_.size(); ++i)
-            if (is(i, JointKind::spine) && (!first || depth(i) < depth(*first)))
-                first = i;
-        if (first)
-            joints_[*first]->kind = JointKind::pelvis;
+        const auto first = std::find_if(joints_.begin(), joints_.end(),
+                                        [](const auto& joint) { return joint && joint->kind == JointKind::spine; });
+        if (first != joints_.end())
+            (*first)->kind = JointKind::pelvis;
     }
 
     const std::vector<std::string>& names_;
-    const std::vector<int>& parents_;
     std::vector<std::optional<NamedJoint>> joints_;
 };
 
 }  // namespace
 
-std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names,
-                                                        const std::vector<int>& parents)
+std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names)
 {
-    return JointNames(names, parents).read();
+    return JointNames(names).read();
 }
 
 }  // namespace garmentfit

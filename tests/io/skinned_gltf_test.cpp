@@ -321,6 +321,18 @@ TEST_F(SkinnedGltf, TakesJointsWithoutSkinFromTheNodesBetweenOthers)
     EXPECT_LT((read.skeleton.tail(thorax) - rig.skeleton.tail(thorax)).norm(), 1e-5);
 }
 
+TEST_F(SkinnedGltf, TakesTheLowerOfTwoNecks)
+{
+    const Rig near = nearest_rig(person);
+    write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::mixamo });
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             take_out(document, "mixamorig:Spine2");  // so that it is not the first in the skin
+             document["nodes"][std::size_t(node_called(document, "mixamorig:Spine2"))]["name"] = "mixamorig:Neck1";
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_LT((read.skeleton.tail(thorax) - rig.skeleton.tail(upperback)).norm(), 1e-5);
+}
+
 TEST_F(UnnamedSkeleton, OfAVrmAvatarIsWhatTheFileSays)
 {
     write(BoneNames::vrm, [](int, const std::string& name) { return name; });

@@ -135,11 +135,13 @@ TEST(JointNames, PalmsAndGoalsAreOnlyWhatTheyStandInFor)
     EXPECT_FALSE(joints[3]);
 }
 
-TEST(JointNames, TheLowestOfASpineIsThePelvis)
+TEST(JointNames, TheFirstOfASpineIsThePelvisWhereNoOtherIs)
 {
-    const auto joints = recognize_joints({ "Spine1", "Head", "Spine" }, { 2, 0, -1 });
-    EXPECT_EQ(joints[0]->kind, JointKind::spine);
-    EXPECT_EQ(joints[2]->kind, JointKind::pelvis);
+    const auto joints = recognize_joints({ "Spine", "Spine1", "Head" });
+    EXPECT_EQ(joints[0]->kind, JointKind::pelvis);
+    EXPECT_EQ(joints[1]->kind, JointKind::spine);
+    const auto below_hips = recognize_joints({ "Hips", "Spine", "Spine1", "Head" });
+    EXPECT_EQ(below_hips[1]->kind, JointKind::spine);
 }
 
 TEST(JointNames, AShoulderIsAClavicleBesideAnArm)
