@@ -116,6 +116,36 @@ std::array<NamedRatio, 7> ratios_of(const Skeleton& s)
                { "collarbone to leg", collarbone / leg, k_collarbone_to_leg } } };
 }
 
+/// How far the tip of a foot lies before its shin, as a share of the shin's length; the front is carried along the leg
+/// without twist.
+double foot_forwards(const Skeleton& s, bool is_right, const Vec3& up, const Vec3& front)
+{
+    const int thigh = is_right ? rfemur : lfemur, shin = is_right ? rtibia : ltibia;
+    const Vec3 along_thigh = s.tail(thigh) - s.head(thigh), along_shin = s.tail(shin) - s.head(shin);
+    const Vec3 before_thigh = Eigen::Quaterniond::FromTwoVectors(-up, along_thigh) * front;
+    const Vec3 before_shin = Eigen::Quaterniond::FromTwoVectors(along_thigh, along_shin) * before_thigh;
+    return (s.tips[is_right ? rfoot_tip : lfoot_tip] - s.tail(shin)).dot(before_shin) / along_shin.norm();
+}
+
+/// How far one foot points forward and the other one backward, whichever side the front is; 0 where they agree. Then
+/// toes were taken for a heel. As foot_forwards().
+double feet_apart(const Skeleton& s)
+{
+    const Vec3 up = s.tail(thorax) - s.root, front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(up).normalized();
+    const double left = foot_forwards(s, false, up, front), right = foot_forwards(s, true, up, front);
+    return std::max(0.0, std::min(std::max(left, right), -std::min(left, right)));
+}
+
+constexpr const char* k_feet_apart_text = "one foot points forward and the other one backward";
+
+void check_feet(const Skeleton& skeleton)
+{
+    if (feet_apart(skeleton) > k_most_feet_apart)
+        throw InvalidInput(ErrorCode::not_human,
+                           std::string("body: ") + k_feet_apart_text
+                               + "; give a whole human body whose limbs do not merge, or give joints");
+}
+
 void check_proportions(const Skeleton& skeleton)
 {
     for (const NamedRatio& ratio : ratios_of(skeleton))
@@ -141,6 +171,14 @@ bool feet_point_backwards(const Skeleton& skeleton, const Vec3& hips)
     return forwards < -k_feet_backwards;
 }
 
+/// A pelvis lies at the lower end of the spine. That of a wrong map lies in the chest or on the floor.
+bool is_pelvis_far(const Skeleton& skeleton)
+{
+    const Vec3 between_hips = 0.5 * (skeleton.tail(lhipjoint) + skeleton.tail(rhipjoint));
+    return !((skeleton.root - between_hips).norm()
+             < k_farthest_pelvis * (skeleton.tail(thorax) - between_hips).norm());
+}
+
 }  // namespace
 
 void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
@@ -161,6 +199,10 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
                shoulders = skeleton.tail(lclavicle) - skeleton.tail(rclavicle);
     if (!(hips.dot(shoulders) > 0))
         refuse("the left hip and the left shoulder lie on different sides");
+    if (is_pelvis_far(skeleton))
+        refuse("the pelvis does not lie at the hips");
+    if (feet_apart(skeleton) > k_most_feet_apart)
+        refuse(k_feet_apart_text);
     if (feet_point_backwards(skeleton, hips))
         refuse("the feet point backwards, so left and right seem to be exchanged");
     for (int bone = 0; bone < bone_count; ++bone)
@@ -198,6 +240,7 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
         const double difference = std::abs(pair.left - pair.right) / std::max(pair.left, pair.right);
         count(std::max(0.0, difference - k_side_tolerance) / k_sides_excess, pair.text());
     }
+    count(std::max(0.0, feet_apart(skeleton) - k_most_feet_apart) / k_feet_excess, k_feet_apart_text);
     const double inside = share_inside(closed, skeleton);
     count(std::max(0.0, k_inside_share - inside) / k_outside_excess,
           "only " + fixed_text(inside, 2) + " of the skeleton lies inside it");
@@ -211,6 +254,7 @@ void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)
 {
     check_proportions(skeleton);
     check_sides(skeleton);
+    check_feet(skeleton);
     check_inside(closed, skeleton);
 }
 

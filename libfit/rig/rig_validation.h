@@ -11,7 +11,8 @@ namespace garmentfit {
 /// Refuses compact shapes such as blocks and balls, before expensive work. O(n). @throws InvalidInput with the number.
 void check_shape(const TriangleMesh& closed);
 
-/// Checks that a skeleton is human: bones inside the body, equal lengths left and right, usual proportions.
+/// Checks that a skeleton is human: bones inside the body, equal lengths left and right, usual proportions, feet that
+/// point the same way.
 /// O(samples * triangles). @throws InvalidInput that names the failed test, with numbers.
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
 

@@ -44,6 +44,19 @@ TEST(RigValidation, APersonWithShortLegsIsRefused)
     expect_invalid([&] { check_rig(person.mesh, person.skeleton); }, "arm to leg");
 }
 
+TEST(RigValidation, OneFootBackwardIsRefusedAndUnlikely)
+{
+    Person person = capsule_person();
+    Skeleton& s = person.skeleton;
+    EXPECT_EQ(human_likeness(person.mesh, s).squares, 0);
+    const Vec3 foot = s.tips[lfoot_tip] - s.tail(ltibia);
+    s.tips[lfoot_tip] -= 2 * Vec3(0, 0, foot.z());
+    expect_invalid([&] { check_rig(person.mesh, s); }, "one foot points forward");
+    const HumanLikeness likeness = human_likeness(person.mesh, s);
+    EXPECT_GT(likeness.squares, 1);
+    EXPECT_NE(likeness.furthest.find("one foot"), std::string::npos) << likeness.furthest;
+}
+
 TEST(RigValidation, ABallIsRefused)
 {
     const TriangleMesh ball = fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.5; }, Vec3::Constant(-0.7),
@@ -74,6 +87,7 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
     const Person person = capsule_person();
     const BodyMesh body = body_of(person);
     Person aside = person;
+    aside.skeleton.root.z() += 0.6;
     for (Vec3& tail : aside.skeleton.tails)
         tail.z() += 0.6;
     for (Vec3& tip : aside.skeleton.tips)
@@ -89,6 +103,9 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
         std::swap(mirrored.skeleton.tails[left], mirrored.skeleton.tails[mirror_of(left)]);
     std::swap(mirrored.skeleton.tips[lfoot_tip], mirrored.skeleton.tips[rfoot_tip]);
     expect_invalid([&] { check_skeleton(body, mirrored.skeleton); }, "exchanged");
+    Person in_chest = person;
+    in_chest.skeleton.root = person.skeleton.tail(upperback);
+    expect_invalid([&] { check_skeleton(body, in_chest.skeleton); }, "pelvis");
     Person folded = person;
     folded.skeleton.tails[lradius] = folded.skeleton.tails[lhumerus];
     expect_invalid([&] { check_skeleton(body, folded.skeleton); }, "hardly any length");
