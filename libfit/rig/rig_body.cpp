@@ -278,6 +278,8 @@ Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Copies& copies
         VisibleRig found = find_bones(*copy, options);
         part.at(0.8);
         check_rig(copy->proxy, found.rig.skeleton);
+        if (!options.front && !options.swap_sides)  // else the user decides what is forwards
+            check_feet(found.rig.skeleton);
         Rig rig = weigh(std::move(found), copy->proxy, body, part.part(0.8, 1));
         progress.at(1);
         return rig;

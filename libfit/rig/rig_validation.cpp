@@ -127,24 +127,14 @@ double foot_forwards(const Skeleton& s, bool is_right, const Vec3& up, const Vec
     return (s.tips[is_right ? rfoot_tip : lfoot_tip] - s.tail(shin)).dot(before_shin) / along_shin.norm();
 }
 
-/// How far one foot points forward and the other one backward, whichever side the front is; 0 where they agree. Then
-/// toes were taken for a heel. As foot_forwards().
-double feet_apart(const Skeleton& s)
+/// How far the foot that points backward most does so, as foot_forwards(); 0 where none does.
+double foot_backwards(const Skeleton& s)
 {
     const Vec3 up = s.tail(thorax) - s.root, front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(up).normalized();
-    const double left = foot_forwards(s, false, up, front), right = foot_forwards(s, true, up, front);
-    return std::max(0.0, std::min(std::max(left, right), -std::min(left, right)));
+    return std::max({ 0.0, -foot_forwards(s, false, up, front), -foot_forwards(s, true, up, front) });
 }
 
-constexpr const char* k_feet_apart_text = "one foot points forward and the other one backward";
-
-void check_feet(const Skeleton& skeleton)
-{
-    if (feet_apart(skeleton) > k_most_feet_apart)
-        throw InvalidInput(ErrorCode::not_human,
-                           std::string("body: ") + k_feet_apart_text
-                               + "; give a whole human body whose limbs do not merge, or give joints");
-}
+constexpr const char* k_foot_backwards_text = "a foot points backwards";
 
 void check_proportions(const Skeleton& skeleton)
 {
@@ -201,10 +191,10 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
         refuse("the left hip and the left shoulder lie on different sides");
     if (is_pelvis_far(skeleton))
         refuse("the pelvis does not lie at the hips");
-    if (feet_apart(skeleton) > k_most_feet_apart)
-        refuse(k_feet_apart_text);
     if (feet_point_backwards(skeleton, hips))
         refuse("the feet point backwards, so left and right seem to be exchanged");
+    if (foot_backwards(skeleton) > k_most_foot_backwards)
+        refuse(k_foot_backwards_text);
     for (int bone = 0; bone < bone_count; ++bone)
         if (const double off = distance_from_body(body, tree, skeleton.tail(bone), height);
             !(off < k_farthest_own_joint))
@@ -240,7 +230,7 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
         const double difference = std::abs(pair.left - pair.right) / std::max(pair.left, pair.right);
         count(std::max(0.0, difference - k_side_tolerance) / k_sides_excess, pair.text());
     }
-    count(std::max(0.0, feet_apart(skeleton) - k_most_feet_apart) / k_feet_excess, k_feet_apart_text);
+    count(std::max(0.0, foot_backwards(skeleton) - k_most_foot_backwards) / k_feet_excess, k_foot_backwards_text);
     const double inside = share_inside(closed, skeleton);
     count(std::max(0.0, k_inside_share - inside) / k_outside_excess,
           "only " + fixed_text(inside, 2) + " of the skeleton lies inside it");
@@ -250,11 +240,18 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
     return { squares, worst };
 }
 
+void check_feet(const Skeleton& skeleton)
+{
+    if (foot_backwards(skeleton) > k_most_foot_backwards)
+        throw InvalidInput(ErrorCode::not_human,
+                           std::string("body: ") + k_foot_backwards_text
+                               + "; give a whole human body whose limbs do not merge, or give joints");
+}
+
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton)
 {
     check_proportions(skeleton);
     check_sides(skeleton);
-    check_feet(skeleton);
     check_inside(closed, skeleton);
 }
 

@@ -11,18 +11,21 @@ namespace garmentfit {
 /// Refuses compact shapes such as blocks and balls, before expensive work. O(n). @throws InvalidInput with the number.
 void check_shape(const TriangleMesh& closed);
 
-/// Checks that a skeleton is human: bones inside the body, equal lengths left and right, usual proportions, feet that
-/// point the same way.
+/// Checks that a skeleton is human: bones inside the body, equal lengths left and right, usual proportions.
 /// O(samples * triangles). @throws InvalidInput that names the failed test, with numbers.
 void check_rig(const TriangleMesh& closed, const Skeleton& skeleton);
 
+/// Refuses a skeleton with a foot that points backwards: toes were taken for a heel, or left and right are exchanged.
+/// @throws InvalidInput
+void check_feet(const Skeleton& skeleton);
+
 /// How human a skeleton in a body is.
 struct HumanLikeness {
-    double squares = 0;  ///< of deviations beyond a human's limits, in standard deviations; 0 where check_rig passes
+    double squares = 0;  ///< of deviations beyond a human's limits, in standard deviations; 0 where check_rig and check_feet pass
     std::string furthest;  ///< what is furthest from human, with numbers; empty where nothing is
 };
 
-/// The tests of check_rig by degrees, with guessed spreads. @throws InvalidInput (not_human) when lengths are not
+/// The tests of check_rig and check_feet by degrees, with guessed spreads. @throws InvalidInput (not_human) when lengths are not
 /// finite or little of the skeleton is inside: then it is no skeleton of this body.
 HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleton);
 

@@ -194,9 +194,9 @@ inline constexpr double k_farthest_own_joint = 0.05, k_shortest_own_bone = 0.02;
 
 /// Cosine between the front and the mean direction of the feet, from which they point backwards. fitted: guess
 inline constexpr double k_feet_backwards = 0.3;
-/// Shares of the shin: how far one foot may point forward and the other one backward; right feet are .4 to .7 long
-/// there. fitted: guess, on one figure whose toes were taken for a heel
-inline constexpr double k_most_feet_apart = 0.15;
+/// Share of the shin's length: how far a foot may point backwards; right feet point .02 to 1.1 forwards. fitted: guess,
+/// on one figure whose toes were taken for a heel
+inline constexpr double k_most_foot_backwards = 0.15;
 /// Share of the way from the hips to the neck: how far the pelvis may lie from the middle of the hips. fitted: guess
 inline constexpr double k_farthest_pelvis = 0.5;
 
@@ -271,7 +271,7 @@ inline constexpr double k_sure_figure = -1.5;
 // ---- human likeness (rig_validation.cpp) -----------------------------------------------------------------------------
 
 /// fitted: guesses. Standard deviations by which a logarithm of a ratio may leave a human's interval, a share of the
-/// skeleton outside of the body, a difference of sides beyond the tolerance, and k_most_feet_apart.
+/// skeleton outside of the body, a difference of sides beyond the tolerance, and k_most_foot_backwards.
 inline constexpr double k_ratio_excess = 0.35, k_outside_excess = 0.1, k_sides_excess = 0.15, k_feet_excess = 0.1;
 /// fitted: guess. Least share of the samples on bones inside a figure that is rigged at all.
 inline constexpr double k_figure_inside_share = 0.6;
