@@ -117,6 +117,17 @@ std::vector<std::string> warnings_about_frame(const std::string& mesh, const Fra
     return warnings;
 }
 
+std::vector<std::string> warnings_about_left_behind(const MeshFile& garment)
+{
+    std::string left;
+    for (const std::string& part : garment.left_behind())
+        left += (left.empty() ? "" : ", ") + part;
+    if (left.empty())
+        return {};
+    return { garment.path().filename().string() + " has " + left
+             + "; they belong to the shape in the file, and the dressed garment has none" };
+}
+
 std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set)
 {
     std::vector<std::string> warnings;

@@ -9,6 +9,7 @@
 #include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/snapshot.h"
+#include "garmentfit/filters/warnings.h"
 #include "garmentfit/reconstruct.h"
 #include "garmentfit/rig_body.h"
 #include "garmentfit/skinned_gltf.h"
@@ -43,12 +44,8 @@ void warn_of_losses(Session& session, const MeshFile& file)
     const std::string name = file.path().filename().string();
     for (const std::string& loss : file.lost_companions())
         session.warnings.push_back(name + ": " + loss);
-    std::string left;
-    for (const std::string& part : file.left_behind())
-        left += (left.empty() ? "" : ", ") + part;
-    if (!left.empty())
-        session.warnings.push_back(name + " has " + left
-                                   + "; they belong to the shape in the file, and the dressed garment has none");
+    for (const std::string& warning : warnings_about_left_behind(file))
+        session.warnings.push_back(warning);
 }
 
 void make_scene_body(Session& session)

@@ -246,6 +246,8 @@ void set_body_file(PythonScene& scene, const MeshFile& file, const StrippedBody*
 void set_garment_look(PythonScene& scene, const MeshFile& file, const StrippedBody* left)
 {
     warn_of_file(scene, file, left);
+    for (const std::string& warning : warnings_about_left_behind(file))
+        scene.frame_warnings.push_back(warning);
     scene.garment_looks.resize(scene.scene.garments.size());
     scene.garment_looks.back() = look_of(file, left);
 }

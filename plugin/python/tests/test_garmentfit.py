@@ -275,6 +275,19 @@ def test_clothes_of_an_avatar_are_left_out_of_the_body(dressed, body, skirt, tmp
     assert sorted(faces)[0] <= 1 and sorted(faces)[1:] == [len(skirt.triangles)]
 
 
+def test_a_skin_of_a_garments_file_is_warned_of(dressed, body, tmp_path):
+    dressed.write_outfit(tmp_path / "both.glb", bones="mixamo")
+    clothes = _glb_json(tmp_path / "both.glb")
+    body_node = [node.get("name") for node in clothes["nodes"]].index("body")
+    clothes["scenes"][0]["nodes"].remove(body_node)
+    data = (tmp_path / "both.glb").read_bytes()
+    _write_glb(tmp_path / "skinned.glb", clothes, data[20 + int.from_bytes(data[12:16], "little"):])
+
+    worn = garmentfit.dress(body, garmentfit.read_mesh(tmp_path / "skinned.glb"), **QUICK)
+    assert [line for line in worn.warnings if line.startswith("skinned.glb has a skin; they belong to the shape")]
+    assert not [line for line in dressed.warnings if "belong to the shape" in line]
+
+
 def test_an_outfit_keeps_materials_of_files(body, skirt, tmp_path):
     shape = "\n".join([f"v {x} {y} {z}" for x, y, z in skirt.positions] + ["vt .5 .5", "usemtl red"]
                       + [f"f {a}/1 {b}/1 {c}/1" for a, b, c in skirt.triangles + 1])

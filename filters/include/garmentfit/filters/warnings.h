@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "garmentfit/filters/filters.h"
+#include "garmentfit/io.h"
 #include "garmentfit/units.h"
 
 namespace garmentfit {
@@ -22,6 +23,9 @@ std::string set_by_name(std::string_view parameter);
 /// About a mesh's unit and axes. @param prefix  of the parameters that settle them: "" or "garment_"
 std::vector<std::string> warnings_about_frame(const std::string& mesh, const FrameGuess& guess,
                                               const std::string& prefix, const HowToSet& set);
+
+/// About parts of a garment's file that belong to the shape in it: a skin, morph targets, tangents, animations.
+std::vector<std::string> warnings_about_left_behind(const MeshFile& garment);
 
 /// About left and right.
 std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set);
