@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "disjoint_sets.h"
+#include "lids_and_fillings.h"
 #include "panel.h"
 #include "quantile.h"
 #include "surface_measures.h"
@@ -58,16 +59,18 @@ public:
         const auto add
             = [&](const std::vector<std::vector<int>>& more) { caps.insert(caps.end(), more.begin(), more.end()); };
         add(find_steep());
-        if (is_closed())
-            add(find_filled(caps));
+        add(find_filled(caps));
         return caps;
     }
 
     bool is_closed() const { return topology_.border_edges().empty(); }
 
-    /// Whether each face belongs to a panel with thickness, whose sides are flat: a closed piece, like a sphere, with
-    /// less than half of the cloth.
-    std::vector<char> mark_panels() const
+    const MeshTopology& topology() const { return topology_; }
+    TriangleMesh mesh() const { return { positions_, faces_ }; }
+
+    /// Whether each face belongs to cloth with thickness, whose sides and rims are flat: a thin closed piece with
+    /// tunnels, which are its openings, or a panel, like a sphere, with less than half of the cloth.
+    std::vector<char> mark_thick_cloth() const
     {
         struct Piece {
             double volume = 0, area = 0;  // m^3, m^2
@@ -95,7 +98,8 @@ public:
         std::vector<char> result;
         for (int f = 0; f < int(faces_.rows()); ++f) {
             const Piece& piece = pieces[joined.root(faces_(f, 0))];
-            result.push_back(piece.is_closed && piece.area < area / 2 && 2 * piece.vertices - piece.faces > 0
+            const bool has_tunnels = 2 * piece.vertices - piece.faces <= 0;
+            result.push_back(piece.is_closed && (has_tunnels || piece.area < area / 2)
                              && is_panel(thickness_of(piece.volume, piece.area), piece.area));
         }
         return result;
@@ -124,8 +128,8 @@ private:
         return fans;
     }
 
-    /// Holes of a closed garment that were filled with triangles from rim to rim: discs of long edges in which no
-    /// vertex lies. Large flat parts of open garments may look the same.
+    /// Holes that were filled with triangles from rim to rim: discs of long edges in which no vertex lies. Large flat
+    /// parts of open garments may look the same, so there most of the cloth around has to be steep.
     std::vector<std::vector<int>> find_filled(const std::vector<std::vector<int>>& caps)
     {
         std::vector<char> is_taken(std::size_t(faces_.rows()));
@@ -135,16 +139,16 @@ private:
         std::vector<double> lengths;
         for (int side = 0; side < 3 * int(faces_.rows()); ++side)
             lengths.push_back(length_of(side));
-        const double usual = quantile(lengths, 0.5);
+        const std::vector<double> usual = usual_lengths(lengths);
         DisjointSets joined(int(faces_.rows()));
         std::vector<char> is_seed(std::size_t(faces_.rows()));
         for (int side = 0; side < 3 * int(faces_.rows()); ++side) {
             const int other = topology_.opposite(side);
             if (other < side || is_taken[side / 3] || is_taken[other / 3])
                 continue;
-            const bool is_long = lengths[side] > k_fill_edge * usual;
+            const bool is_long = lengths[side] > (is_closed() ? k_fill_edge : k_open_fill_edge) * usual[side / 3];
             is_seed[side / 3] |= is_long;
-            if (is_long || (lengths[side] > k_ear_edge * usual && (is_ear(side) || is_ear(other))))
+            if (is_long || (lengths[side] > k_ear_edge * usual[side / 3] && (is_ear(side) || is_ear(other))))
                 joined.join(side / 3, other / 3);
         }
         std::map<int, std::vector<int>> regions;  // by the root
@@ -156,9 +160,31 @@ private:
         }
         std::vector<std::vector<int>> filled;
         for (const int root : seeded)
-            if (is_hole(region_with(regions[root]), k_fill_depth) && is_without_vertices(regions[root]))
+            if (is_filled_hole(region_with(regions[root])) && is_without_vertices(regions[root]))
                 filled.push_back(regions[root]);
         return filled;
+    }
+
+    /// Median of the sides of its patch, by face: a button may have most of a garment's faces.
+    /// @param lengths  m, of all sides
+    std::vector<double> usual_lengths(const std::vector<double>& lengths) const
+    {
+        std::vector<double> usual(std::size_t(faces_.rows()));
+        for (const std::vector<int>& patch : patches_of(topology_, int(faces_.rows()))) {
+            std::vector<double> own;
+            for (const int f : patch)
+                own.insert(own.end(), lengths.begin() + 3 * f, lengths.begin() + 3 * f + 3);
+            const double median = quantile(own, 0.5);
+            for (const int f : patch)
+                usual[f] = median;
+        }
+        return usual;
+    }
+
+    bool is_filled_hole(const Region& region) const
+    {
+        return is_closed() ? is_hole(region, k_fill_depth)
+                           : is_hole(region, k_fan_depth) && region.steep > k_fill_outline * region.girth;
     }
 
     double length_of(int side) const
@@ -332,25 +358,63 @@ private:
     std::vector<int> region_of_;
 };
 
+void leave_out(const std::vector<std::vector<int>>& parts, std::vector<char>& is_kept)
+{
+    for (const std::vector<int>& part : parts)
+        for (const int f : part)
+            is_kept[f] = 0;
+}
+
+/// How many caps each patch has.
+std::vector<int> count_caps(const std::vector<std::vector<int>>& patches, const std::vector<std::vector<int>>& caps)
+{
+    std::vector<int> counts;
+    for (const std::vector<int>& patch : patches)  // faces ascend
+        counts.push_back(int(std::count_if(caps.begin(), caps.end(), [&](const std::vector<int>& cap) {
+            return std::binary_search(patch.begin(), patch.end(), cap[0]);
+        })));
+    return counts;
+}
+
+/// Without those of a patch that has more of them than a body has ends: they are facets of coarse cloth.
+std::vector<std::vector<int>> drop_facets(const std::vector<std::vector<int>>& patches,
+                                          std::vector<std::vector<int>> caps)
+{
+    if (caps.size() <= k_most_ends)
+        return caps;
+    const std::vector<int> counts = count_caps(patches, caps);
+    std::erase_if(caps, [&](const std::vector<int>& cap) {
+        for (std::size_t p = 0; p < patches.size(); ++p)
+            if (counts[p] > int(k_most_ends) && std::binary_search(patches[p].begin(), patches[p].end(), cap[0]))
+                return true;
+        return false;
+    });
+    return caps;
+}
+
 }  // namespace
 
 OpenedGarment open_ends(const GarmentMesh& garment)
 {
     Caps found(garment, Weld(garment));
-    std::vector<std::vector<int>> caps = found.find();
-    if (!caps.empty())
-        std::erase_if(caps, [panels = found.mark_panels()](const std::vector<int>& cap) { return panels[cap[0]]; });
-    if (caps.empty() || (found.is_closed() && caps.size() < k_least_ends))
-        return { garment, 0 };
+    const TriangleMesh mesh = found.mesh();
+    const std::vector<std::vector<int>> patches = patches_of(found.topology(), int(mesh.triangles.rows()));
+    std::vector<std::vector<int>> caps = drop_facets(patches, found.find());
     std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
-    for (const std::vector<int>& cap : caps)
-        for (const int f : cap)
-            is_kept[f] = 0;
+    leave_out(find_fillings(mesh, found.topology(), patches, count_caps(patches, caps)), is_kept);
+    std::erase_if(caps, [&](const std::vector<int>& cap) { return !is_kept[cap[0]]; });
+    if (!caps.empty())
+        std::erase_if(caps, [thick = found.mark_thick_cloth()](const std::vector<int>& cap) { return thick[cap[0]]; });
+    if (found.is_closed() && caps.size() < k_least_ends)
+        caps.clear();
+    leave_out(caps, is_kept);
+    const std::vector<std::vector<int>> lids = find_lids(mesh, found.topology(), patches, is_kept);
+    leave_out(lids, is_kept);
     std::vector<int> kept;
     for (int f = 0; f < int(is_kept.size()); ++f)
         if (is_kept[f])
             kept.push_back(f);
-    return { { garment.positions, garment.triangles(kept, Eigen::all) }, int(caps.size()) };
+    return { { garment.positions, garment.triangles(kept, Eigen::all) }, int(caps.size() + lids.size()) };
 }
 
 }  // namespace garmentfit

@@ -69,8 +69,30 @@ inline constexpr double k_fill_edge = 4, k_ear_edge = 1.3;
 /// fitted: guess, on the openings of six generated tops. Depth of a filled hole of a garment without any opening, as a
 /// share of the root of its area: crumpled cuffs have up to 0.6.
 inline constexpr double k_fill_depth = 0.7;
+/// fitted: guess, on trousers of a web shop. Share of the outline of a filled hole that is steep, in a garment that has
+/// openings: folds of a cuff meet the hole at any angle.
+inline constexpr double k_fill_outline = 0.6;
+/// fitted: guess, on a coat's cuffs of few faces. Edges in a filled hole there, over the median edge of the patch.
+inline constexpr double k_open_fill_edge = 3;
+/// fitted: guess. Caps of one patch, above which they are none: a jumpsuit has six, neck and hem included; coarse clothes
+/// of web shops have 22 and more flat facets.
+inline constexpr std::size_t k_most_ends = 8;
 /// derived: caps of a closed surface from which on it is opened: a cylinder and a pillow have two, a skirt as well.
 inline constexpr std::size_t k_least_ends = 3;
+
+// ---- lids and fillings (lids_and_fillings.cpp) --------------------------------------------------------------------
+
+/// fitted: guess, on three solids in clothes of web shops (0.13 to 0.5; a padded panel has 0.005), which no garment of
+/// the catalogues has. Volume of a filling as a share of the box around all. Share of the diagonal by which it may
+/// reach out of the box of the cloth.
+inline constexpr double k_filling = 0.05, k_filling_margin = 0.05;
+/// fitted: guess, on six lids of three clothes of web shops. Lengths as shares of the mean of the half extents:
+/// smallest width as a share of the length, largest depth, area as a share of the rectangle around (an ellipse has
+/// 0.79); vertices beyond this share of the half extents are at the rim.
+inline constexpr double k_lid_roundness = 0.3, k_lid_depth = 0.3, k_lid_cover = 0.6, k_lid_rim = 0.6;
+/// fitted: likewise. The rim is nearer to the cloth than this, for this share of its vertices; the middle is farther,
+/// in half widths. Share of the cloth near the rim, by its area, that is as steep as at a cap: a neck has 0.67.
+inline constexpr double k_lid_reach = 0.15, k_lid_outline = 0.9, k_lid_middle = 0.5, k_lid_steep = 0.5;
 
 // ---- outward orientation (outward_cloth.cpp) ----------------------------------------------------------------------
 

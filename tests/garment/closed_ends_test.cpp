@@ -114,6 +114,49 @@ TEST(ClosedEnds, AreNotTheSidesOfPanelsWithThickness)
     EXPECT_EQ(opened(panels).garment.triangles.rows(), panels.triangles.rows());
 }
 
+/// A disc across a tube at a height, round its axis.
+TriangleMesh lid(double y, double radius)
+{
+    TriangleMesh mesh { Positions(k_around, 3), Triangles(k_around - 2, 3) };
+    for (int k = 0; k < k_around; ++k) {
+        const double angle = 2 * std::numbers::pi * k / k_around;
+        mesh.positions.row(k) << radius * std::sin(angle), y, radius * std::cos(angle);
+    }
+    for (int k = 1; k + 1 < k_around; ++k)
+        mesh.triangles.row(k - 1) << 0, k, k + 1;
+    return mesh;
+}
+
+TEST(ClosedEnds, AreOpenedWhereALidLiesLooselyInThem)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none);
+    const OpenedGarment result = opened(fixtures::joined(open, lid(0.01, 0.098)));
+    EXPECT_EQ(result.closed_ends, 1);
+    EXPECT_EQ(result.garment.triangles, open.triangles);
+}
+
+TEST(ClosedEnds, AreNotDiscsThatLieOnTheClothOrOutsideIt)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none), small = lid(0, 0.03);
+    TriangleMesh label = small;  // upright, on the cloth
+    label.positions.col(1) = small.positions.col(0).array() + 0.25;
+    label.positions.col(0).setConstant(0.101);
+    for (const TriangleMesh& disc : { label, lid(0.01, 0.05), lid(1, 0.098) })
+        EXPECT_EQ(opened(fixtures::joined(open, disc)).closed_ends, 0);
+}
+
+TEST(ClosedEnds, OfAClothThatASolidFillsAreOpen)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none);
+    for (const Cap cap : { Cap::around_centre, Cap::around_corner }) {
+        TriangleMesh solid = tube(cap, cap, 0, 8);
+        solid.positions *= 0.9;
+        const OpenedGarment result = opened(fixtures::joined(open, solid));
+        EXPECT_EQ(result.closed_ends, 0);
+        EXPECT_EQ(result.garment.triangles, open.triangles);
+    }
+}
+
 TEST(ClosedEnds, OfSolidsStayClosed)
 {
     for (const Cap cap : { Cap::around_centre, Cap::around_corner })

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lids_and_fillings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <set>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "disjoint_sets.h"
+#include "garmentfit/mesh.h"
+#include "nearest.h"
+#include "panel.h"
+#include "surface_measures.h"
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+using namespace garment_tuning;
+
+constexpr double k_no_length = 1e-300;  // m, unit: avoids 0 / 0
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const std::vector<int>& faces)
+{
+    Eigen::AlignedBox3d box;
+    for (const int f : faces)
+        for (const int v : mesh.triangles.row(f))
+            box.extend(Vec3(mesh.positions.row(v)));
+    return box;
+}
+
+/// The faces of the cloth without some of them.
+std::vector<int> other_faces(std::vector<char> is_cloth, const std::vector<int>& faces)
+{
+    for (const int f : faces)
+        is_cloth[f] = 0;
+    std::vector<int> others;
+    for (int f = 0; f < int(is_cloth.size()); ++f)
+        if (is_cloth[f])
+            others.push_back(f);
+    return others;
+}
+
+/// Whether no edge is open and there is no tunnel, by the Euler characteristic of a sphere.
+bool is_solid(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<int>& faces)
+{
+    std::set<int> vertices;
+    for (const int f : faces)
+        for (int k = 0; k < 3; ++k) {
+            if (topology.opposite(3 * f + k) < 0)
+                return false;
+            vertices.insert(mesh.triangles(f, k));
+        }
+    return 2 * std::ptrdiff_t(vertices.size()) - std::ptrdiff_t(faces.size()) == 4;  // derived: 3 sides a face
+}
+
+/// m^3, not negative, of a closed patch.
+double volume_of(const TriangleMesh& mesh, const std::vector<int>& faces)
+{
+    const Vec3 origin = mesh.positions.row(mesh.triangles(faces[0], 0));
+    double sum = 0;
+    for (const int f : faces)
+        sum += area_vector(mesh.positions, mesh.triangles, f)
+                   .dot(Vec3(mesh.positions.row(mesh.triangles(f, 0))) - origin)
+            / 3;
+    return std::abs(sum);
+}
+
+/// m^2
+double area_of(const TriangleMesh& mesh, const std::vector<int>& faces)
+{
+    double sum = 0;
+    for (const int f : faces)
+        sum += area_vector(mesh.positions, mesh.triangles, f).norm();
+    return sum;
+}
+
+// ---- lids ----------------------------------------------------------------------------------------------------------
+
+/// A patch as it lies in its own plane.
+struct Disc {
+    Vec3 centre, normal;
+    Eigen::Vector2d half;  // m, extents in its plane, the longer one first
+    double depth;  // m, across
+    double cover;  // its area, seen along the normal, as a share of the rectangle around it
+    Positions rim;  // vertices that are not in its middle
+};
+
+Disc disc_of(const TriangleMesh& mesh, const std::vector<int>& faces, bool is_slab)
+{
+    std::set<int> used;
+    for (const int f : faces)
+        used.insert(mesh.triangles.row(f).begin(), mesh.triangles.row(f).end());
+    const Positions points = mesh.positions(std::vector<int>(used.begin(), used.end()), Eigen::all);
+    const Eigen::RowVector3d mean = points.colwise().mean();
+    const Positions about = points.rowwise() - mean;
+    const Eigen::Matrix3d axes
+        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(about.transpose() * about).eigenvectors();
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> along = about * axes;
+    const Eigen::RowVector3d low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
+    Disc disc;
+    disc.centre = mean.transpose() + axes * (0.5 * (low + high)).transpose();
+    disc.normal = axes.col(0);
+    disc.half = { 0.5 * (high[2] - low[2]), 0.5 * (high[1] - low[1]) };
+    disc.depth = high[0] - low[0];
+    double area = 0;
+    for (const int f : faces)
+        area += std::abs(area_vector(mesh.positions, mesh.triangles, f).dot(disc.normal));
+    disc.cover = area / (is_slab ? 2 : 1) / std::max(4 * disc.half.prod(), k_no_length);
+    std::vector<int> outer;
+    for (int v = 0; v < int(along.rows()); ++v)
+        if (Eigen::Vector2d((along(v, 2) - 0.5 * (low[2] + high[2])) / disc.half[0],
+                            (along(v, 1) - 0.5 * (low[1] + high[1])) / disc.half[1])
+                .norm()
+            > k_lid_rim)
+            outer.push_back(v);
+    disc.rim = points(outer, Eigen::all);
+    return disc;
+}
+
+/// As flat, round and wide as a lid of a cuff.
+bool has_shape_of_lid(const Disc& disc, double smallest_girth)
+{
+    const double size = std::sqrt(disc.half.prod());
+    return disc.half[1] > k_lid_roundness * disc.half[0] && disc.depth < k_lid_depth * size
+        && 2 * std::numbers::pi * size > smallest_girth && disc.cover > k_lid_cover && disc.rim.rows() > 0;
+}
+
+/// Whether it spans an opening of the cloth around it.
+/// @param others  faces of the cloth around it
+bool spans_opening(const TriangleMesh& mesh, const std::vector<int>& others, const Disc& disc)
+{
+    const TriangleMesh around { mesh.positions, mesh.triangles(others, Eigen::all) };
+    const TriangleTree cloth(around);
+    if (!(cloth.distance(disc.centre) > k_lid_middle * disc.half[1]))  // a pocket, a label
+        return false;
+    const double reach = k_lid_reach * std::sqrt(disc.half.prod());
+    int near = 0;
+    for (const auto& point : disc.rim.rowwise())
+        near += cloth.distance(point) < reach;
+    if (near < k_lid_outline * double(disc.rim.rows()))
+        return false;
+    const NearestPoint rim(disc.rim);
+    double all = 0, steep = 0;  // m^2
+    for (int f = 0; f < int(around.triangles.rows()); ++f) {
+        const Vec3 middle = around.positions(around.triangles.row(f), Eigen::all).colwise().mean();
+        if (rim.distance(middle) > 2 * reach)
+            continue;
+        const Vec3 area = area_vector(around.positions, around.triangles, f);
+        all += area.norm();
+        if (std::abs(area.dot(disc.normal)) < std::sqrt(1 - k_steep_sine * k_steep_sine) * area.norm())
+            steep += area.norm();
+    }
+    return steep > k_lid_steep * all;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> patches_of(const MeshTopology& topology, int faces)
+{
+    DisjointSets joined(faces);
+    for (int side = 0; side < 3 * faces; ++side)
+        if (const int other = topology.opposite(side); other > side)
+            joined.join(side / 3, other / 3);
+    std::vector<int> number(std::size_t(faces), -1);
+    std::vector<std::vector<int>> patches;
+    for (int f = 0; f < faces; ++f) {
+        int& patch = number[joined.root(f)];
+        if (patch < 0) {
+            patch = int(patches.size());
+            patches.emplace_back();
+        }
+        patches[patch].push_back(f);
+    }
+    return patches;
+}
+
+std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const MeshTopology& topology,
+                                            const std::vector<std::vector<int>>& patches,
+                                            const std::vector<int>& closed_ends)
+{
+    const double least = k_filling
+        * Eigen::AlignedBox3d(Vec3(mesh.positions.colwise().minCoeff()), Vec3(mesh.positions.colwise().maxCoeff()))
+              .volume(),
+                 margin = k_filling_margin * diagonal(mesh.positions);
+    const std::vector<char> all(std::size_t(mesh.triangles.rows()), 1);
+    std::vector<std::vector<int>> fillings;
+    for (std::size_t p = 0; p < patches.size() && patches.size() > 1; ++p) {
+        if (closed_ends[p] >= int(k_least_ends) || !is_solid(mesh, topology, patches[p]))
+            continue;
+        const double volume = volume_of(mesh, patches[p]), area = area_of(mesh, patches[p]);
+        if (volume < least || is_panel(thickness_of(volume, area), area))
+            continue;
+        Eigen::AlignedBox3d rest = box_of(mesh, other_faces(all, patches[p]));
+        rest.extend(rest.min() - Vec3::Constant(margin)).extend(rest.max() + Vec3::Constant(margin));
+        if (rest.contains(box_of(mesh, patches[p])))
+            fillings.push_back(patches[p]);
+    }
+    return fillings;
+}
+
+std::vector<std::vector<int>> find_lids(const TriangleMesh& mesh, const MeshTopology& topology,
+                                        const std::vector<std::vector<int>>& patches, const std::vector<char>& is_cloth)
+{
+    const double smallest_girth = k_cap_girth * diagonal(mesh.positions);
+    std::vector<std::vector<int>> lids;
+    for (const std::vector<int>& patch : patches) {
+        if (patches.size() < 2 || !is_cloth[patch[0]])
+            continue;
+        const Disc disc = disc_of(mesh, patch, is_solid(mesh, topology, patch));
+        if (has_shape_of_lid(disc, smallest_girth) && spans_opening(mesh, other_faces(is_cloth, patch), disc))
+            lids.push_back(patch);
+    }
+    return lids;
+}
+
+}  // namespace garmentfit

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Pieces in a garment's mesh that are no cloth. Shops' viewers look into a garment from outside, so its inside is
+// hidden there: by a solid in the shape of a trunk, or by lids that lie loosely in the openings.
+
+#include <vector>
+
+#include "garmentfit/types.h"
+#include "topology.h"
+
+namespace garmentfit {
+
+/// Faces that are connected through edges of exactly two faces, for each such patch.
+std::vector<std::vector<int>> patches_of(const MeshTopology& topology, int faces);
+
+/// Solids inside the cloth: patches without open edge and tunnel that are not thin, of some size, and reach beyond the
+/// rest of the mesh nowhere. No body passes through one.
+/// @param closed_ends  caps of each patch: one with three or more is a garment with closed ends
+std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const MeshTopology& topology,
+                                            const std::vector<std::vector<int>>& patches,
+                                            const std::vector<int>& closed_ends);
+
+/// Lids: flat patches, sheets or slabs, whose rims lie at steep cloth, and whose middles are far from any.
+/// @param is_cloth  whether a face is not yet known to be none
+std::vector<std::vector<int>> find_lids(const TriangleMesh& mesh, const MeshTopology& topology,
+                                        const std::vector<std::vector<int>>& patches,
+                                        const std::vector<char>& is_cloth);
+
+}  // namespace garmentfit
