@@ -165,8 +165,7 @@ bool feet_point_backwards(const Skeleton& skeleton, const Vec3& hips)
 bool is_pelvis_far(const Skeleton& skeleton)
 {
     const Vec3 between_hips = 0.5 * (skeleton.tail(lhipjoint) + skeleton.tail(rhipjoint));
-    return !((skeleton.root - between_hips).norm()
-             < k_farthest_pelvis * (skeleton.tail(thorax) - between_hips).norm());
+    return !((skeleton.root - between_hips).norm() < k_farthest_pelvis * (skeleton.tail(thorax) - between_hips).norm());
 }
 
 }  // namespace

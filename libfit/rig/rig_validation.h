@@ -21,7 +21,7 @@ void check_feet(const Skeleton& skeleton);
 
 /// How human a skeleton in a body is.
 struct HumanLikeness {
-    double squares = 0;  ///< of deviations beyond a human's limits, in standard deviations; 0 where check_rig and check_feet pass
+    double squares = 0;  ///< of deviations beyond a human's limits, in standard deviations; 0 where there is none
     std::string furthest;  ///< what is furthest from human, with numbers; empty where nothing is
 };
 
