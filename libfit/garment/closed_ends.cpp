@@ -59,7 +59,8 @@ public:
         const auto add
             = [&](const std::vector<std::vector<int>>& more) { caps.insert(caps.end(), more.begin(), more.end()); };
         add(find_steep());
-        add(find_filled(caps));
+        if (is_closed())
+            add(find_filled(caps));
         return caps;
     }
 
@@ -128,8 +129,8 @@ private:
         return fans;
     }
 
-    /// Holes that were filled with triangles from rim to rim: discs of long edges in which no vertex lies. Large flat
-    /// parts of open garments may look the same, so there most of the cloth around has to be steep.
+    /// Holes of a closed garment that were filled with triangles from rim to rim: discs of long edges in which no
+    /// vertex lies. Large flat parts of open garments may look the same.
     std::vector<std::vector<int>> find_filled(const std::vector<std::vector<int>>& caps)
     {
         std::vector<char> is_taken(std::size_t(faces_.rows()));
@@ -146,7 +147,7 @@ private:
             const int other = topology_.opposite(side);
             if (other < side || is_taken[side / 3] || is_taken[other / 3])
                 continue;
-            const bool is_long = lengths[side] > (is_closed() ? k_fill_edge : k_open_fill_edge) * usual[side / 3];
+            const bool is_long = lengths[side] > k_fill_edge * usual[side / 3];
             is_seed[side / 3] |= is_long;
             if (is_long || (lengths[side] > k_ear_edge * usual[side / 3] && (is_ear(side) || is_ear(other))))
                 joined.join(side / 3, other / 3);
@@ -160,7 +161,7 @@ private:
         }
         std::vector<std::vector<int>> filled;
         for (const int root : seeded)
-            if (is_filled_hole(region_with(regions[root])) && is_without_vertices(regions[root]))
+            if (is_hole(region_with(regions[root]), k_fill_depth) && is_without_vertices(regions[root]))
                 filled.push_back(regions[root]);
         return filled;
     }
@@ -179,12 +180,6 @@ private:
                 usual[f] = median;
         }
         return usual;
-    }
-
-    bool is_filled_hole(const Region& region) const
-    {
-        return is_closed() ? is_hole(region, k_fill_depth)
-                           : is_hole(region, k_fan_depth) && region.steep > k_fill_outline * region.girth;
     }
 
     double length_of(int side) const

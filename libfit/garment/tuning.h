@@ -69,11 +69,6 @@ inline constexpr double k_fill_edge = 4, k_ear_edge = 1.3;
 /// fitted: guess, on the openings of six generated tops. Depth of a filled hole of a garment without any opening, as a
 /// share of the root of its area: crumpled cuffs have up to 0.6.
 inline constexpr double k_fill_depth = 0.7;
-/// fitted: guess, on trousers of a web shop. Share of the outline of a filled hole that is steep, in a garment that has
-/// openings: folds of a cuff meet the hole at any angle.
-inline constexpr double k_fill_outline = 0.6;
-/// fitted: guess, on a coat's cuffs of few faces. Edges in a filled hole there, over the median edge of the patch.
-inline constexpr double k_open_fill_edge = 3;
 /// fitted: guess. Caps of one patch, above which they are none: a jumpsuit has six, neck and hem included; coarse clothes
 /// of web shops have 22 and more flat facets.
 inline constexpr std::size_t k_most_ends = 8;
