@@ -196,12 +196,13 @@ struct Usual {
 inline constexpr double k_usual_wearer = 1.7;
 inline constexpr Usual k_usual_shoulders { 0.352, 0.14 }, k_usual_sleeve { 0.459, 0.19 }, k_usual_trunk { 0.85, 0.18 },
     k_usual_leg { 0.611, 0.16 };
-/// Of garments with legs, with sleeves or armholes, and of others. fitted: on the same half
+/// Of garments with legs, with sleeves or armholes, and of others. fitted: on the same half; the spreads of others are
+/// guesses, for skirts may be flared
 struct UsualExtents {
     Usual depth, width;
 };
 inline constexpr UsualExtents k_usual_with_legs { { 0.29, 0.13 }, { 0.47, 0.1 } },
-    k_usual_with_arms { { 0.335, 0.19 }, { 0.75, 0.37 } }, k_usual_without { { 0.39, 0.21 }, { 0.555, 0.15 } };
+    k_usual_with_arms { { 0.335, 0.19 }, { 0.75, 0.37 } }, k_usual_without { { 0.39, 0.28 }, { 0.555, 0.28 } };
 
 // ---- upright or not (type_guess.cpp) ------------------------------------------------------------------------------
 // fitted: guesses, on the garments.
