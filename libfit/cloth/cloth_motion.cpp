@@ -234,7 +234,7 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
         // no motion uses up more of the gap than this, wherever the targets are
         const double left = std::max(gap - options_.min_distance,
                                      k_kept_above_minimum * (normal.dot(before) - options_.min_distance));
-        if (left < zone) {
+        if (zone > 0 && left < zone) {
             const Barrier barrier(std::max(left, k_least_barrier * zone), zone);
             const double force
                 = constraint.normal_stiffness * (rest_distance - gap) + contact_stiffness * barrier.length;
