@@ -35,7 +35,7 @@ int vertices_at(const ContactPair& pair, int begin, int end)
 }
 
 std::vector<ContactPair> distinct_contacts(const std::vector<ContactPair>& pairs, const Positions& x,
-                                                   double blocking_distance)
+                                           double blocking_distance)
 {
     const auto blocks = [&](const ContactPair& pair) { return pair.at.distance < blocking_distance; };
     std::vector<ContactPair> edges, faces;
