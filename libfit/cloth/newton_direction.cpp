@@ -21,8 +21,7 @@ Positions newton_direction(const ClothEnergy& energy, const TangentFactor& facto
     const double enough = k_newton_tolerance * k_newton_tolerance * square;
     for (int i = 1; square > 0; ++i) {
         Positions resisting = energy.tangent_times(x, way);
-        for (const SoftConstraint& constraint : constraints)
-            add_force(constraint, constraint.stiffness_times(constraint.sum(way)), resisting);
+        add_stiffness_times(constraints, way, resisting);
         const double length = square / dot(way, resisting);
         result += length * way;
         if (i == k_newton_iterations)

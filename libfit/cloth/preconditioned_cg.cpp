@@ -22,13 +22,6 @@ void PreconditionedCG::set_constraints(const std::vector<SoftConstraint>& constr
         add_force(constraint, constraint.stiffness_times(constraint.target), constant_);
 }
 
-// The quadratic form of the constraints times x; their targets are in constant_.
-void PreconditionedCG::add_constraint_forces(const Positions& x, Positions& sum) const
-{
-    for (const SoftConstraint& constraint : constraints_)
-        add_force(constraint, constraint.stiffness_times(constraint.sum(x)), sum);
-}
-
 // Polak and Ribiere: where the residual does not change smoothly, their factor falls below 0 and the direction is the
 // steepest one again.
 void PreconditionedCG::update_direction(const Positions& residual)
@@ -47,12 +40,12 @@ void PreconditionedCG::iterate()
     if (constant_.rows() == 0)
         set_constraints({});
     Positions constrained = Positions::Zero(x_.rows(), 3);
-    add_constraint_forces(x_, constrained);
+    add_stiffness_times(constraints_, x_, constrained);  // their targets are in constant_
     const Positions residual = constant_ + energy_.spring_loads(x_) - applied_ - constrained;
     update_direction(residual);
     const Positions along = energy_.apply_quadratic_form(direction_);
     constrained = along;
-    add_constraint_forces(direction_, constrained);
+    add_stiffness_times(constraints_, direction_, constrained);
     if (const double curvature = direction_.cwiseProduct(constrained).sum(); curvature > 0) {
         const double length = residual.cwiseProduct(direction_).sum() / curvature;
         x_ += length * direction_;

@@ -28,7 +28,6 @@ public:
 
 private:
     void update_direction(const Positions& residual);
-    void add_constraint_forces(const Positions& x, Positions& sum) const;
 
     const ClothEnergy& energy_;
     const Positions& inertial_;

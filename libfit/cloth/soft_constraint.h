@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "garmentfit/types.h"
 
@@ -38,6 +39,13 @@ inline void add_force(const SoftConstraint& constraint, const Vec3& force, Posit
     for (int k = 0; k < 4; ++k)
         if (constraint.vertices[k] >= 0)
             forces.row(constraint.vertices[k]) += constraint.weights[k] * force;
+}
+
+/// Adds the stiffness of constraints times x, n x 3, or times a displacement.
+inline void add_stiffness_times(const std::vector<SoftConstraint>& constraints, const Positions& x, Positions& sum)
+{
+    for (const SoftConstraint& constraint : constraints)
+        add_force(constraint, constraint.stiffness_times(constraint.sum(x)), sum);
 }
 
 }  // namespace garmentfit
