@@ -41,7 +41,8 @@ public:
     Caps(const GarmentMesh& garment, const Weld& weld) :
         positions_(weld.gather(garment.positions)),
         faces_(garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); })),
-        topology_(faces_, int(positions_.rows())), smallest_girth_(k_cap_girth * diagonal(garment.positions))
+        topology_(faces_, int(positions_.rows())), patches_(patches_of(topology_, int(faces_.rows()))),
+        smallest_girth_(k_cap_girth * diagonal(garment.positions))
     {
         collect_areas();
         collect_regions();
@@ -68,6 +69,7 @@ public:
 
     const MeshTopology& topology() const { return topology_; }
     TriangleMesh mesh() const { return { positions_, faces_ }; }
+    const std::vector<std::vector<int>>& patches() const { return patches_; }
 
     /// Whether each face belongs to cloth with thickness, whose sides and rims are flat: a thin closed piece with
     /// tunnels, which are its openings, or a panel, like a sphere, with less than half of the cloth.
@@ -171,7 +173,7 @@ private:
     std::vector<double> usual_lengths(const std::vector<double>& lengths) const
     {
         std::vector<double> usual(std::size_t(faces_.rows()));
-        for (const std::vector<int>& patch : patches_of(topology_, int(faces_.rows()))) {
+        for (const std::vector<int>& patch : patches_) {
             std::vector<double> own;
             for (const int f : patch)
                 own.insert(own.end(), lengths.begin() + 3 * f, lengths.begin() + 3 * f + 3);
@@ -347,6 +349,7 @@ private:
     Positions positions_;
     Triangles faces_;
     MeshTopology topology_;
+    std::vector<std::vector<int>> patches_;
     double smallest_girth_;  // m
     std::vector<Vec3> areas_;
     std::vector<Region> regions_;
@@ -393,7 +396,7 @@ OpenedGarment open_ends(const GarmentMesh& garment)
 {
     Caps found(garment, Weld(garment));
     const TriangleMesh mesh = found.mesh();
-    const std::vector<std::vector<int>> patches = patches_of(found.topology(), int(mesh.triangles.rows()));
+    const std::vector<std::vector<int>>& patches = found.patches();
     std::vector<std::vector<int>> caps = drop_facets(patches, found.find());
     std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
     leave_out(find_fillings(mesh, found.topology(), patches, count_caps(patches, caps)), is_kept);

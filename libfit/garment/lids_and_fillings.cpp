@@ -58,27 +58,6 @@ bool is_solid(const TriangleMesh& mesh, const MeshTopology& topology, const std:
     return 2 * std::ptrdiff_t(vertices.size()) - std::ptrdiff_t(faces.size()) == 4;  // derived: 3 sides a face
 }
 
-/// m^3, not negative, of a closed patch.
-double volume_of(const TriangleMesh& mesh, const std::vector<int>& faces)
-{
-    const Vec3 origin = mesh.positions.row(mesh.triangles(faces[0], 0));
-    double sum = 0;
-    for (const int f : faces)
-        sum += area_vector(mesh.positions, mesh.triangles, f)
-                   .dot(Vec3(mesh.positions.row(mesh.triangles(f, 0))) - origin)
-            / 3;
-    return std::abs(sum);
-}
-
-/// m^2
-double area_of(const TriangleMesh& mesh, const std::vector<int>& faces)
-{
-    double sum = 0;
-    for (const int f : faces)
-        sum += area_vector(mesh.positions, mesh.triangles, f).norm();
-    return sum;
-}
-
 // ---- lids ----------------------------------------------------------------------------------------------------------
 
 /// A patch as it lies in its own plane.
@@ -192,8 +171,9 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
     for (std::size_t p = 0; p < patches.size() && patches.size() > 1; ++p) {
         if (closed_ends[p] >= int(k_least_ends) || !is_solid(mesh, topology, patches[p]))
             continue;
-        const double volume = volume_of(mesh, patches[p]), area = area_of(mesh, patches[p]);
-        if (volume < least || is_panel(thickness_of(volume, area), area))
+        const TriangleMesh solid { mesh.positions, mesh.triangles(patches[p], Eigen::all) };
+        const double enclosed = std::abs(volume(solid)), around = area(solid);
+        if (enclosed < least || is_panel(thickness_of(enclosed, around), around))
             continue;
         Eigen::AlignedBox3d rest = box_of(mesh, other_faces(all, patches[p]));
         rest.extend(rest.min() - Vec3::Constant(margin)).extend(rest.max() + Vec3::Constant(margin));
