@@ -22,13 +22,13 @@ double normal(double deviation, double spread)
 /// none of them can exclude a size that the others agree on.
 class Wearer {
 public:
-    Wearer(const std::vector<WearerHeight>& wearers, double height) : m_wearers(wearers), m_height(height) { }
+    Wearer(const std::vector<WearerHeight>& wearers, double height) : wearers_(wearers), height_(height) { }
 
     /// That the garment, with its size multiplied by exp(log_factor), fits the body.
     double likelihood(double log_factor) const
     {
         double log_likelihood = 0;
-        for (const WearerHeight& wearer : m_wearers)
+        for (const WearerHeight& wearer : wearers_)
             log_likelihood += std::log((1 - k_mistaken) * normal(deviation(wearer) + log_factor, wearer.spread)
                                        + k_mistaken * k_mistaken_density);
         return std::exp(log_likelihood / k_dependence);
@@ -51,7 +51,7 @@ public:
     std::vector<double> log_factors() const
     {
         std::vector<double> ends;
-        for (const WearerHeight& wearer : m_wearers)
+        for (const WearerHeight& wearer : wearers_)
             for (const double sign : { -1.0, 1.0 })
                 ends.push_back(-deviation(wearer) + sign * k_widest * wearer.spread);
         const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
@@ -65,10 +65,10 @@ private:
     static constexpr int k_steps_of_others = 100;
     static constexpr double k_widest = 4;  // unit: of a spread, where nothing is left of it
 
-    double deviation(const WearerHeight& wearer) const { return std::log(wearer.height / m_height); }
+    double deviation(const WearerHeight& wearer) const { return std::log(wearer.height / height_); }
 
-    const std::vector<WearerHeight>& m_wearers;
-    double m_height;
+    const std::vector<WearerHeight>& wearers_;
+    double height_;
 };
 
 /// An explanation of the size.

@@ -25,8 +25,8 @@ struct HumanLikeness {
     std::string furthest;  ///< what is furthest from human, with numbers; empty where nothing is
 };
 
-/// The tests of check_rig and check_feet by degrees, with guessed spreads. @throws InvalidInput (not_human) when lengths are not
-/// finite or little of the skeleton is inside: then it is no skeleton of this body.
+/// The tests of check_rig and check_feet by degrees, with guessed spreads. @throws InvalidInput (not_human) when lengths
+/// are not finite or little of the skeleton is inside: then it is no skeleton of this body.
 HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleton);
 
 }  // namespace garmentfit

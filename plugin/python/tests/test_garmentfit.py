@@ -239,13 +239,18 @@ def _write_glb(path, text, rest):
     path.write_bytes(b"glTF" + (2).to_bytes(4, "little") + (12 + len(body)).to_bytes(4, "little") + body)
 
 
+def _write_part_of_outfit(path, dressed, left_out):
+    whole = path.with_name("both.glb")
+    dressed.write_outfit(whole, bones="mixamo")
+    text = _glb_json(whole)
+    text["scenes"][0]["nodes"].remove([node.get("name") for node in text["nodes"]].index(left_out))
+    data = whole.read_bytes()
+    _write_glb(path, text, data[20 + int.from_bytes(data[12:16], "little"):])
+    return text
+
+
 def test_an_outfit_on_a_skinned_body_keeps_its_file(dressed, skirt, tmp_path):
-    dressed.write_outfit(tmp_path / "both.glb", bones="mixamo")
-    avatar = _glb_json(tmp_path / "both.glb")
-    skirt_node = [node.get("name") for node in avatar["nodes"]].index("skirt")
-    avatar["scenes"][0]["nodes"].remove(skirt_node)
-    data = (tmp_path / "both.glb").read_bytes()
-    _write_glb(tmp_path / "avatar.glb", avatar, data[20 + int.from_bytes(data[12:16], "little"):])
+    avatar = _write_part_of_outfit(tmp_path / "avatar.glb", dressed, left_out="skirt")
 
     worn = garmentfit.dress(garmentfit.read_mesh(tmp_path / "avatar.glb"), Garment(skirt, "skirt"), **QUICK)
     worn.write_outfit(tmp_path / "outfit.glb")
@@ -276,12 +281,7 @@ def test_clothes_of_an_avatar_are_left_out_of_the_body(dressed, body, skirt, tmp
 
 
 def test_a_skin_of_a_garments_file_is_warned_of(dressed, body, tmp_path):
-    dressed.write_outfit(tmp_path / "both.glb", bones="mixamo")
-    clothes = _glb_json(tmp_path / "both.glb")
-    body_node = [node.get("name") for node in clothes["nodes"]].index("body")
-    clothes["scenes"][0]["nodes"].remove(body_node)
-    data = (tmp_path / "both.glb").read_bytes()
-    _write_glb(tmp_path / "skinned.glb", clothes, data[20 + int.from_bytes(data[12:16], "little"):])
+    _write_part_of_outfit(tmp_path / "skinned.glb", dressed, left_out="body")
 
     worn = garmentfit.dress(body, garmentfit.read_mesh(tmp_path / "skinned.glb"), **QUICK)
     assert [line for line in worn.warnings if line.startswith("skinned.glb has a skin; they belong to the shape")]
