@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "garmentfit/filters/outcome.h"
+#include "named_garment.h"
+#include "other_wearings.h"
+#include "stand_ins.h"
+
+namespace garmentfit {
+namespace {
+
+/// The dressing with some of the scene's garments only, in the order of `which`: libfit has them from the inside out.
+Dressing select(const Dressing& all, const std::vector<std::size_t>& which)
+{
+    Dressing some = all;
+    some.garments.clear();
+    for (const std::size_t i : which)
+        some.garments.push_back(all.garments[i]);
+    return some;
+}
+
+template <class OfOne>
+void spread(std::vector<OfOne>& some, const std::vector<std::size_t>& which, std::size_t count)
+{
+    std::vector<OfOne> all(count);
+    for (std::size_t k = 0; k < some.size(); ++k)
+        all[which[k]] = std::move(some[k]);
+    some = std::move(all);
+}
+
+/// The reverse of select: one entry for each of the scene's garments, empty where it is not worn.
+Dressing among_all(Dressing some, const std::vector<std::size_t>& which, std::size_t count)
+{
+    spread(some.garments, which, count);
+    spread(some.maps, which, count);
+    spread(some.girths, which, count);
+    spread(some.overstretches, which, count);
+    spread(some.loads, which, count);
+    for (RecoverFrame& frame : some.frames)
+        spread(frame.garments, which, count);
+    return some;
+}
+
+std::vector<TooTight> among_all(std::vector<TooTight> parts, const std::vector<std::size_t>& which)
+{
+    for (TooTight& part : parts)
+        part.garment = int(which[part.garment]);
+    return parts;
+}
+
+Dressing dressing_of(const DrapeResult& result)
+{
+    Dressing dressing;
+    static_cast<DressedBody&>(dressing) = result;
+    dressing.scale_reached = result.scale_reached;
+    dressing.held_back = result.held_back;
+    dressing.speed = result.speed;
+    dressing.seconds = result.seconds;
+    dressing.certified = result.certified;
+    if (result.out_of_time)
+        dressing.out_of_time = Stage::drape;
+    return dressing;
+}
+
+/// What is left to do at the time limit is left out.
+Dressing end_at_time_limit(Dressing dressing, Stage stage)
+{
+    if (!dressing.out_of_time)
+        dressing.out_of_time = stage;
+    dressing.certified = false;
+    return dressing;
+}
+
+/// Moves a dressed body to another pose. Returns the start where the end is not free of crossings.
+/// @param worn  which of the scene's garments those of the dressing are; more may follow
+Dressing move_to_pose(const Scene& scene, const Dressing& from, const std::vector<std::size_t>& worn, const Pose& to,
+                      const RecoverOptions& options, Stage stage, const Progress& progress)
+{
+    if (progress.is_late()) {
+        Dressing next = end_at_time_limit(from, stage);
+        next.pose_reached = 0;
+        next.frames_asked = options.frames;
+        return next;
+    }
+    const RecoverResult result = recover_pose(*scene.rig, scene.body.value(), from, to, options, progress);
+    Dressing next = from;
+    next.certified = result.certified;
+    next.pose_reached = result.pose_reached;
+    next.held_back = result.held_back;
+    next.overlaps = result.overlaps;
+    next.seconds += result.seconds;
+    next.frames = result.frames;
+    next.frames_asked = options.frames;
+    next.out_of_time = result.out_of_time ? std::optional(stage) : std::nullopt;
+    if (!all_clean(result.garments)) {
+        next.pose_reached = 0;
+        return next;
+    }
+    next.too_tight = among_all(result.too_tight, worn);
+    static_cast<DressedBody&>(next) = result;
+    next.speed = result.speed;
+    next.residual = result.residual;
+    return next;
+}
+
+void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
+{
+    const TriangleMesh body { dressing.body, scene.body->surface.triangles };
+    const Skeleton skeleton = pose_skeleton(scene.rig->skeleton, dressing.pose);
+    dressing.spikes = find_spikes(*scene.rig, *scene.body, dressing);
+    dressing.spiked_share = dressing.spikes.edges / (1.5 * double(scene.body->surface.triangles.rows()));
+    dressing.loads.clear();
+    dressing.maps.clear();
+    dressing.girths.clear();
+    dressing.overstretches.clear();
+    for (const WornGarment& garment : dressing.garments) {
+        dressing.maps.push_back(fit_map(body, garment, cloth));
+        dressing.girths.push_back(girths(skeleton, scene.rig->weights, body, garment));
+        const double limit = std::max(k_overstretched, material_of(garment.fabric.value_or(cloth.fabric)).strain_limit);
+        dressing.overstretches.push_back(overstretch(scene.rig->weights, dressing.body, garment, limit));
+        dressing.loads.push_back(part_loads(skeleton, scene.rig->weights, dressing.body, garment, cloth));
+    }
+}
+
+/// What the scene's garments are made of, and the unit of messages about them.
+void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
+{
+    dressing.unit = scene.unit;
+    dressing.fabrics.clear();
+    dressing.fabric_stretches.clear();
+    for (const GarmentInput& garment : scene.garments) {
+        dressing.fabrics.push_back(garment.fabric.value_or(cloth.fabric));
+        dressing.fabric_stretches.push_back(material_of(cloth, dressing.fabrics.back()).largest_stretch);
+    }
+}
+
+/// The options of one garment among several.
+DrapeOptions options_for(const GarmentInput& garment, DrapeOptions options)
+{
+    options.cloth.fabric = garment.fabric.value_or(options.cloth.fabric);
+    return options;
+}
+
+std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
+{
+    std::vector<std::size_t> order(fits.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return fits[a].layer < fits[b].layer; });
+    return order;
+}
+
+/// @throws RefusedGarment where the cloth lies across the bones of the body
+DrapeResult drape_next(const Scene& scene, std::size_t garment, const Dressing& dressing, const DrapeOptions& options,
+                       const Progress& progress)
+try {
+    return for_garment(scene, garment, [&](std::size_t i) {
+        return drape_garment(*scene.rig, *scene.body, dressing, scene.garments[i].mesh,
+                             options_for(scene.garments[i], options), progress);
+    });
+} catch (const InvalidInput& error) {
+    if (error.code() == ErrorCode::crossing_start)
+        throw RefusedGarment(garment, error.what());
+    throw;
+}
+
+/// Puts the garments on from the inside out. Those already worn move to the pose of the next one. Ends at the first
+/// that cannot be put on.
+void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    Dressing dressing;
+    RecoverOptions between_poses = p.recover;
+    between_poses.frames = 0;
+    between_poses.quality = Quality::draft;
+    between_poses.cloth.largest_stretch
+        = std::numeric_limits<double>::infinity();  // a garment is judged in the pose that it is worn in
+    const double n = double(scene.garments.size());
+    require_wearable_sizes(scene);
+    const std::vector<std::size_t> order = from_inside_out(scene.fits);
+    for (std::size_t layer = 0; layer < order.size(); ++layer) {
+        const Progress slice = progress.part(double(layer) / n, double(layer + 1) / n);
+        const Pose& pose = scene.fits[order[layer]].pose;
+        if (layer > 0 && !is_same(dressing.pose, pose))
+            dressing = move_to_pose(scene, dressing, order, pose, between_poses, Stage::drape, slice.part(0, 0.3));
+        if (layer > 0 && slice.is_late())
+            dressing = end_at_time_limit(std::move(dressing), Stage::drape);
+        if (layer > 0 && !dressing.certified)
+            break;
+        dressing.pose = pose;
+        const DrapeResult result
+            = drape_next(scene, order[layer], dressing, p.drape, slice.part(layer > 0 ? 0.3 : 0, 1));
+        const ClothSeconds before = dressing.seconds;
+        const std::size_t worn_before = dressing.garments.size();
+        dressing = dressing_of(result);
+        if (dressing.garments.size() > worn_before)
+            dressing.garments.back().fabric = scene.garments[order[layer]].fabric;
+        dressing.too_tight = among_all(result.too_tight, order);
+        dressing.outermost = order[layer];
+        dressing.seconds += before;
+        if (!dressing.certified)
+            break;
+    }
+    measure(scene, dressing, p.drape.cloth);
+    scene.draped = among_all(dressing, order, order.size());
+    write_given(scene, *scene.draped, p.drape.cloth);
+}
+
+/// Without fits, the garments are in the order in which they were given.
+std::vector<std::size_t> worn_from_inside_out(const Scene& scene, const Dressing& dressing)
+{
+    std::vector<std::size_t> worn = dressing.worn();
+    if (scene.fits.size() == scene.garments.size())
+        std::stable_sort(worn.begin(), worn.end(),
+                         [&](std::size_t a, std::size_t b) { return scene.fits[a].layer < scene.fits[b].layer; });
+    return worn;
+}
+
+void recover(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    const std::vector<std::size_t> worn = worn_from_inside_out(scene, *scene.draped);
+    Dressing draped = select(*scene.draped, worn);
+    for (std::size_t k = 0; k < worn.size(); ++k)
+        draped.garments[k].fabric = scene.garments[worn[k]].fabric;
+    Dressing recovered = move_to_pose(scene, draped, worn, Pose(), p.recover, Stage::recover, progress);
+    measure(scene, recovered, p.recover.cloth);
+    recovered.certified &= all_put_on(scene);
+    scene.recovered = among_all(recovered, worn, scene.garments.size());
+    write_given(scene, *scene.recovered, p.recover.cloth);
+}
+
+using RunStage = void(Scene&, const Parameters&, const Progress&);
+
+/// Runs a stage with stand-ins in the places of garments that need one.
+/// @param output  where it puts its dressing
+void run_with_stand_ins(RunStage& stage, std::optional<Dressing> Scene::*output, Scene& scene, const Parameters& p,
+                        const ClothOptions& cloth, const Progress& progress)
+{
+    if (!find_stand_ins(scene))
+        return stage(scene, p, progress);
+    Scene led = lead(scene);
+    stage(led, p, progress);
+    const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*output));
+    scene.*output = follow_stand_ins({ scene, led, order }, *std::move(led.*output), cloth);
+}
+
+}  // namespace
+
+void drape_stage(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    run_with_stand_ins(drape_all, &Scene::draped, scene, p, p.drape.cloth, progress);
+}
+
+void recover_stage(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    run_with_stand_ins(recover, &Scene::recovered, scene, p, p.recover.cloth, progress);
+}
+
+}  // namespace garmentfit

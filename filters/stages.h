@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What each stage does to the scene.
+#pragma once
+
+#include "garmentfit/filters/filters.h"
+
+namespace garmentfit {
+
+void rig_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
+
+/// Fits the skeleton to each garment, then to all of them in one pose, and puts them in layers.
+void fit_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
+
+/// Puts the garments on from the inside out; those already worn move to the pose of the next one. Ends at the first that
+/// cannot be put on.
+void drape_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
+
+/// Moves the dressed body to its input pose.
+void recover_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
+
+}  // namespace garmentfit
