@@ -137,6 +137,14 @@ int closed_ends(const Scene& scene, std::size_t garment)
     return std::max(of_fit, of_worn);
 }
 
+LeftOut left_out_of(const Scene& scene, std::size_t garment)
+{
+    const Dressing* end = final_dressing(scene);
+    if (end && end->is_worn(garment))
+        return end->garments[garment].left_out;
+    return garment < scene.fits.size() ? scene.fits[garment].left_out : LeftOut();
+}
+
 bool all_clean(const std::vector<WornGarment>& garments)
 {
     return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });

@@ -64,12 +64,13 @@ private:
 /// The garment in the place of its stand-in.
 WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Surroundings& around)
 {
-    auto [rest, closed_ends] = open_ends(garment.mesh);
+    auto [rest, closed_ends, left_out] = open_ends(garment.mesh);
     WornGarment worn = led;
     worn.stand_in = WornStandIn { led.rest, led.positions };
     worn.rest = enlarged(std::move(rest), led.size);
     worn.positions = follow(led.rest, led.positions, worn.rest, around);
     worn.closed_ends = closed_ends;
+    worn.left_out = left_out;
     worn.pieces = count_pieces_held(worn.rest);
     worn.pieces.held += std::exchange(worn.pieces.free, 0);  // the stand-in takes all of them along
     worn.piece_shift = longest_piece_shift(worn.rest, worn.positions);

@@ -82,6 +82,23 @@ void warn_of_closed_ends(std::vector<std::string>& warnings, const std::string& 
             + "; taken as openings, and not kept clear of the body");
 }
 
+std::string count_text(int count, const std::string& noun)
+{
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void warn_of_left_out(std::vector<std::string>& warnings, const std::string& name, const LeftOut& left_out)
+{
+    if (left_out.solids + left_out.lids == 0)
+        return;
+    const std::string solids = left_out.solids > 0 ? count_text(left_out.solids, "solid") : "",
+                      lids = left_out.lids > 0 ? count_text(left_out.lids, "lid") : "";
+    warnings.push_back(
+        name + " has " + solids + (solids.empty() || lids.empty() ? "" : " and ") + lids + " inside ("
+        + count_text(left_out.faces, "face")
+        + "), which no body passes; taken for no cloth, left out, and drawn into one point of the cloth");
+}
+
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
 {
     std::ostringstream text;
@@ -149,8 +166,10 @@ std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vect
     std::vector<std::string> warnings = explain(scene.conflicts, names);
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         warn_of_guesses(warnings, names[i], scene.fits[i], set);
-    for (std::size_t i = 0; i < scene.garments.size(); ++i)
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
         warn_of_closed_ends(warnings, names[i], closed_ends(scene, i));
+        warn_of_left_out(warnings, names[i], left_out_of(scene, i));
+    }
     return warnings;
 }
 

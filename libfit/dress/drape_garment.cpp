@@ -173,6 +173,7 @@ std::vector<TooTight> list_tight_parts(const ClothMotion& motion, const GrowingB
 struct Make {
     PieceCounts pieces;
     int closed_ends;
+    LeftOut left_out;
 };
 
 /// Writes body and garments at the end of the motion, and certifies them.
@@ -184,7 +185,8 @@ void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const Gr
                                            .positions = motion.cloth(),
                                            .size = grading.size(),
                                            .pieces = make.pieces,
-                                           .closed_ends = make.closed_ends } };
+                                           .closed_ends = make.closed_ends,
+                                           .left_out = make.left_out } };
     add_slips(outermost, outermost[0].rest.positions);
     static_cast<DressedBody&>(result) = wearer.dressed;
     result.body = inside.body_of(reached);
@@ -224,7 +226,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
                           const DrapeOptions& options, const Progress& progress)
 {
     require_wearable_size(rig, given);
-    const auto [garment, closed_ends] = open_ends(given);
+    const auto [garment, closed_ends, left_out] = open_ends(given);
     const Wearer wearer { rig, body, dressed, HandStretch(rig, body.surface.positions),
                           pose_skeleton(rig.skeleton, dressed.pose) };
     DrapeStart start = choose_start(wearer, garment);
@@ -257,7 +259,7 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
         motion.advect_obstacle(inside.shrink(inside.full.positions, growth.scale));
     }
     result.seconds = motion.seconds();
-    write_dressed_body(result, motion, inside, grading, { pieces, closed_ends }, wearer);
+    write_dressed_body(result, motion, inside, grading, { pieces, closed_ends, left_out }, wearer);
     if (result.scale_reached == 1)
         result.held_back = list_held_back_parts(result.body, inside.body_of(inside.full.positions), rig.weights);
     return result;

@@ -68,6 +68,7 @@ FitResult fit_skeleton(const Rig& rig, const TriangleMesh& body, const GarmentMe
     FitResult result = options.method == FitMethod::fast ? fit_fast(rig, body, opened.garment, options, progress)
                                                          : fit_baseline(rig, body, opened.garment, options, progress);
     result.closed_ends = opened.closed_ends;
+    result.left_out = opened.left_out;
     result.score_before = std::accumulate(result.scores_before.begin(), result.scores_before.end(), 0.0);
     result.score_after = std::accumulate(result.scores.begin(), result.scores.end(), 0.0);
     return result;

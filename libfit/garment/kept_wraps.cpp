@@ -33,12 +33,11 @@ std::optional<Eigen::Matrix4d> similarity(const Positions& from, const Positions
 
 }  // namespace
 
-TriangleMesh KeptWraps::of(const GarmentMesh& garment, const Triangles& opened,
-                           const std::function<TriangleMesh()>& make)
+TriangleMesh KeptWraps::of(const GarmentMesh& garment, const std::function<TriangleMesh()>& make)
 {
     const std::lock_guard lock(mutex_);
     for (auto kept = kept_.begin(); kept != kept_.end(); ++kept) {
-        if (!are_same(kept->garment.triangles, garment.triangles) && !are_same(kept->opened, garment.triangles))
+        if (!are_same(kept->garment.triangles, garment.triangles))
             continue;
         const auto move = similarity(kept->garment.positions, garment.positions);
         if (!move)
@@ -50,7 +49,7 @@ TriangleMesh KeptWraps::of(const GarmentMesh& garment, const Triangles& opened,
                 + move->topRightCorner<3, 1>().transpose();
         return wrap;
     }
-    kept_.push_front({ garment, opened, make() });
+    kept_.push_front({ garment, make() });
     if (kept_.size() > k_kept)
         kept_.pop_back();
     return kept_.front().wrap;

@@ -17,13 +17,12 @@ class KeptWraps {
 public:
     /// The wrap of a garment: `make()`, or one that was made of the same garment in another place, size or turn, moved
     /// to where the garment is.
-    /// @param opened  its triangles without closed ends: a garment that has only these is the same
-    TriangleMesh of(const GarmentMesh& garment, const Triangles& opened, const std::function<TriangleMesh()>& make);
+    /// @param garment  without closed ends: it is the same whether it was asked for with them or not
+    TriangleMesh of(const GarmentMesh& garment, const std::function<TriangleMesh()>& make);
 
 private:
     struct Kept {
         GarmentMesh garment;
-        Triangles opened;
         TriangleMesh wrap;
     };
 

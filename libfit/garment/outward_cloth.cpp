@@ -364,7 +364,7 @@ bool has_many_borders(const TriangleMesh& cloth)
 
 /// A garment as it is read without a wrap.
 struct PlainReading {
-    Triangles opened;  ///< as given without closed ends
+    GarmentMesh opened;  ///< as given without closed ends
     TriangleMesh cloth;  ///< without gaps between panels, each patch oriented outwards
     TriangleMesh outer;  ///< without the inner sheets of thick cloth
     bool serves;  ///< it is no garment in parts, and has openings or is a sealed one
@@ -376,11 +376,11 @@ struct Wrap {
     std::vector<Patch> patches;
 };
 
-Wrap wrap_parts(const GarmentMesh& garment, const PlainReading& plain)
+Wrap wrap_parts(const PlainReading& plain)
 {
     static KeptWraps kept;
     const auto make = [&] { return wrap_surface(plain.cloth, k_garment_wrap, k_garment_wrap_offset); };
-    Wrap wrap { kept.of(garment, plain.opened, make), {} };
+    Wrap wrap { kept.of(plain.opened, make), {} };
     wrap.patches = collect_patches(wrap.surface);
     orient_outwards(wrap.surface, wrap.patches);
     return wrap;
@@ -436,8 +436,8 @@ constexpr std::size_t k_fewest_openings = 2;  // derived: a body enters through 
 
 PlainReading read_plainly(const GarmentMesh& garment)
 {
-    const GarmentMesh opened = open_ends(garment).garment;
-    PlainReading reading { opened.triangles, close_gaps(weld(opened)), {}, false };
+    PlainReading reading { open_ends(garment).garment, {}, {}, false };
+    reading.cloth = close_gaps(weld(reading.opened));
     const std::vector<Patch> patches = collect_patches(reading.cloth);
     const bool is_in_parts = has_panels(reading.cloth, patches) || has_many_borders(reading.cloth);
     orient_outwards(reading.cloth, patches);
@@ -453,7 +453,7 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     PlainReading plain = read_plainly(garment);
     if (plain.serves)
         return std::move(plain.outer);
-    TriangleMesh wrapped = outer_sheet_of(wrap_parts(garment, plain));
+    TriangleMesh wrapped = outer_sheet_of(wrap_parts(plain));
     return count_openings(wrapped) >= k_fewest_openings ? wrapped : std::move(plain.outer);
 }
 
@@ -462,7 +462,7 @@ std::optional<GarmentMesh> lining_of_parts(const GarmentMesh& garment)
     const PlainReading plain = read_plainly(garment);
     if (plain.serves)
         return {};
-    const Wrap wrap = wrap_parts(garment, plain);
+    const Wrap wrap = wrap_parts(plain);
     if (count_openings(outer_sheet_of(wrap)) < k_fewest_openings)
         return {};
     return inner_sheet_of(wrap);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/drape_garment.h"
 #include "topology.h"
+#include "used_vertices.h"
 
 #include <chrono>
 #include <thread>
@@ -138,6 +139,36 @@ TEST(DrapeGarment, LeavesOutTheCapsOfClosedEnds)
     EXPECT_EQ(result.garments.back().closed_ends, 3);
     EXPECT_EQ(result.garments.back().positions.rows(), capped.positions.rows());
     EXPECT_EQ(fit_skeleton(d.rig, capped).closed_ends, 3);
+}
+
+/// With an egg in the upper part.
+GarmentMesh with_filling(const GarmentMesh& garment)
+{
+    const Positions used = garment.positions(used_vertices(garment.triangles), Eigen::all);
+    const Vec3 low = used.colwise().minCoeff(), high = used.colwise().maxCoeff(),
+               half = Vec3(0.4, 0.2, 0.4).cwiseProduct(high - low);
+    const Vec3 centre(0.5 * (low.x() + high.x()), high.y() - half.y(), 0.5 * (low.z() + high.z()));
+    const TriangleMesh egg
+        = fixtures::polygonise([&](const Vec3& p) { return (p - centre).cwiseQuotient(half).norm() - 1; },
+                               centre - 1.2 * half, centre + 1.2 * half, 0.25 * half.minCoeff());
+    const TriangleMesh filled = fixtures::joined({ garment.positions, garment.triangles }, egg);
+    return { filled.positions, filled.triangles };
+}
+
+TEST(DrapeGarment, DrawsWhatFillsAGarmentIntoOnePointOfIt)
+{
+    const Dressing d = person();
+    const GarmentMesh cloth = trousers(0.02), filled = with_filling(cloth);
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, filled, short_settling());
+    const WornGarment& worn = result.garments.back();
+    EXPECT_TRUE(result.certified);
+    EXPECT_EQ(worn.left_out.solids, 1);
+    EXPECT_EQ(worn.left_out.faces, filled.triangles.rows() - cloth.triangles.rows());
+    const Eigen::Index own = cloth.positions.rows(), others = filled.positions.rows() - own;
+    ASSERT_EQ(worn.positions.rows(), own + others);
+    const Eigen::RowVector3d place = worn.positions.row(own);
+    EXPECT_EQ(worn.positions.bottomRows(others), place.replicate(others, 1));
+    EXPECT_EQ((worn.positions.topRows(own).rowwise() - place).rowwise().norm().minCoeff(), 0);
 }
 
 TEST(DrapeGarment, KeepsPiecesWhereTheyAreSewnAndCountsThem)

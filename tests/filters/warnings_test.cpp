@@ -54,6 +54,19 @@ TEST(Warnings, SayThatTheWayUpIsUncertain)
                        "side, set garment_up" }));
 }
 
+TEST(Warnings, SayWhatWasLeftOutOfAGarment)
+{
+    Scene scene = worn_scene();
+    scene.garments.resize(2);
+    scene.draped->garments[0].left_out = { .solids = 1, .faces = 208 };
+    scene.draped->garments[1].left_out = { 2, 1, 301 };
+    EXPECT_EQ(warnings_of(scene),
+              (Lines { "skirt has 1 solid inside (208 faces), which no body passes; taken for no cloth, left out, and "
+                       "drawn into one point of the cloth",
+                       "coat has 2 solids and 1 lid inside (301 faces), which no body passes; taken for no cloth, left "
+                       "out, and drawn into one point of the cloth" }));
+}
+
 TEST(Warnings, SayThatAFrontIsUncertain)
 {
     Scene scene = worn_scene();

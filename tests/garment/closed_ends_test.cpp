@@ -154,7 +154,41 @@ TEST(ClosedEnds, OfAClothThatASolidFillsAreOpen)
         const OpenedGarment result = opened(fixtures::joined(open, solid));
         EXPECT_EQ(result.closed_ends, 0);
         EXPECT_EQ(result.garment.triangles, open.triangles);
+        EXPECT_EQ(result.left_out.solids, 1);
+        EXPECT_EQ(result.left_out.lids, 0);
+        EXPECT_EQ(result.left_out.faces, solid.triangles.rows());
     }
+}
+
+/// The cloth stays where it is; the vertices behind it lie in one of its own.
+void expect_gathered(const OpenedGarment& result, const TriangleMesh& cloth)
+{
+    const Eigen::Index own = cloth.positions.rows(), others = result.garment.positions.rows() - own;
+    EXPECT_EQ(result.garment.positions.topRows(own), cloth.positions);
+    const Eigen::RowVector3d place = result.garment.positions.row(own);
+    EXPECT_EQ(result.garment.positions.bottomRows(others), place.replicate(others, 1));
+    EXPECT_EQ((cloth.positions.rowwise() - place).rowwise().norm().minCoeff(), 0);
+}
+
+TEST(ClosedEnds, SolidsAndLidsAreGatheredInOnePlaceOfTheCloth)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none);
+    TriangleMesh solid = tube(Cap::around_centre, Cap::around_centre, 0, 8);
+    solid.positions *= 0.9;
+    expect_gathered(opened(fixtures::joined(open, solid)), open);
+    const OpenedGarment lidded = opened(fixtures::joined(open, lid(0.01, 0.098)));
+    expect_gathered(lidded, open);
+    EXPECT_EQ(lidded.left_out.lids, 1);
+    EXPECT_EQ(lidded.left_out.faces, k_around - 2);
+}
+
+TEST(ClosedEnds, CapsStayWhereTheyAre)
+{
+    const TriangleMesh capped = tube(Cap::around_centre, Cap::none);
+    const OpenedGarment result = opened(capped);
+    EXPECT_EQ(result.closed_ends, 1);
+    EXPECT_EQ(result.garment.positions, capped.positions);
+    EXPECT_EQ(result.left_out.faces, 0);
 }
 
 TEST(ClosedEnds, OfSolidsStayClosed)

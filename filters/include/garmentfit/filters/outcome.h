@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/filters/filters.h"
 
 namespace garmentfit {
@@ -22,6 +23,9 @@ bool all_put_on(const Scene& scene);
 Outcome outcome_of(const Dressing& dressing);
 /// Flat caps at the ends of a garment, which are taken for openings; 0 before it is fitted or put on.
 int closed_ends(const Scene& scene, std::size_t garment);
+
+/// Pieces of a garment that are no cloth and were left out; none before it is fitted or put on.
+LeftOut left_out_of(const Scene& scene, std::size_t garment);
 /// One line on what went wrong; only where the outcome is not `done`. `names` are those of the garments.
 std::string explain(const Dressing& dressing, const std::vector<std::string>& names);
 /// "coat.ply (coat): 0 crossings, minimum distance 0.9 mm, strain 4.1% at the 95th percentile". Where the garment

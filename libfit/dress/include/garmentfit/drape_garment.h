@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "garmentfit/certificate.h"
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/cloth.h"
 #include "garmentfit/mesh.h"
 #include "garmentfit/pieces.h"
@@ -62,6 +63,7 @@ struct WornGarment {
     PieceCounts pieces = {};  ///< how it was held together
     double piece_shift = 0;  ///< m; longest_piece_shift()
     int closed_ends = 0;  ///< flat caps at its ends, whose faces `rest` leaves out: a hand, foot or head passes there
+    LeftOut left_out = {};  ///< pieces whose faces `rest` leaves out, each drawn into one place of the cloth
     std::optional<Fabric> fabric = {};  ///< what it is made of, where not of the fabric of ClothOptions
     std::optional<WornStandIn> stand_in = {};  ///< that it followed
 };

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/garment_type.h"
 #include "garmentfit/mesh.h"
 #include "garmentfit/progress.h"
@@ -65,6 +66,7 @@ struct FitResult {
     std::vector<Rejected> rejected;  ///< what was more probable at first
     std::vector<Bone> covered;
     int closed_ends = 0;  ///< of the garment: flat caps that the fit takes for openings
+    LeftOut left_out = {};  ///< of the garment: pieces that are no cloth
     int layer = 0;  ///< of several garments worn together: 0 for the innermost
     /// E_B of equation (1) by the method's own metric, m, at the start and at the end; 0 for uncovered bones.
     std::array<double, bone_count> scores_before {}, scores {};
