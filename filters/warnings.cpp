@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/verdict.h"
 #include "garmentfit/number_text.h"
@@ -158,6 +159,14 @@ std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& 
                            + scene.rig->not_human
                            + "; look at its joints, and correct them (joints) if they are wrong");
     return warnings;
+}
+
+std::vector<std::string> warnings_about_given_rig(const Rig& rig, const BodyMesh& body, const std::string& called)
+{
+    const std::string doubt = doubt_about(rig, body);
+    if (doubt.empty())
+        return {};
+    return { called + " may be wrong: " + doubt };
 }
 
 std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,

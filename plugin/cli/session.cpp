@@ -130,8 +130,9 @@ Rig read_skinned(Session& session, const fs::path& glb)
 
 void take_given(Session& session, Rig rig, const fs::path& path)
 {
-    if (const std::string doubt = doubt_about(rig, *session.scene.body); !doubt.empty())
-        session.warnings.push_back("the skeleton in " + path.filename().string() + " may be wrong: " + doubt);
+    for (const std::string& line :
+         warnings_about_given_rig(rig, *session.scene.body, "the skeleton in " + path.filename().string()))
+        session.warnings.push_back(line);
     session.scene.rig = std::move(rig);
     session.skeleton = "given";
 }

@@ -89,7 +89,7 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
 
 /// The newest fitting in the document that has all inputs of the filter, else the newest of the body, else the file
 /// beside the body.
-Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDocument& document)
+Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDocument& document, Report& report)
 {
     const TriangleMesh body = mesh_of(*choice.body);
     const std::vector<TriangleMesh> garments = meshes_of(choice.garments);
@@ -104,7 +104,7 @@ Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDo
         return *found;
     const std::filesystem::path file = rig_file_beside(*choice.body);
     if (!file.empty() && std::filesystem::exists(file))
-        return fitting_from_file(file, name_of(*choice.body), body);
+        return fitting_from_file(file, *choice.body, report);
     throw InvalidInput(
         ErrorCode::missing_input,
         name_of(*choice.body)
@@ -113,9 +113,18 @@ Fitting known_fitting(const MenuEntry& entry, const Choice& choice, const MeshDo
 
 }  // namespace
 
+Fitting fitting_from_file(const std::filesystem::path& file, const MeshModel& body, Report& report)
+{
+    const Fitting fitting = fitting_from_file(file, name_of(body), mesh_of(body));
+    report.warn(warnings_about_given_rig(*fitting.scene.rig, *fitting.scene.body,
+                                         "the skeleton in " + file.filename().string()));
+    return fitting;
+}
+
 Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocument& document, Report& report)
 {
-    Fitting fitting = entry.begins_with_body() ? new_fitting(choice, report) : known_fitting(entry, choice, document);
+    Fitting fitting
+        = entry.begins_with_body() ? new_fitting(choice, report) : known_fitting(entry, choice, document, report);
     if (!entry.filter || !entry.reads(Data::garments))
         return fitting;
     if (entry.filter->has(Stage::fit))

@@ -13,4 +13,7 @@ namespace garmentfit::meshlab {
 /// body's. @throws InvalidInput where these are missing, or a layer was changed since.
 Fitting inputs_of(const MenuEntry& entry, const Choice& choice, const MeshDocument& document, Report& report);
 
+/// Of a rig file, with a warning where its skeleton seems wrong. @throws InvalidInput where it is the rig of another body.
+Fitting fitting_from_file(const std::filesystem::path& file, const MeshModel& body, Report& report);
+
 }  // namespace garmentfit::meshlab

@@ -66,9 +66,8 @@ Report save_rig(const MenuEntry& entry, const Choice& choice, const MeshDocument
 
 Report load_rig(const Choice& choice, MeshDocument& document)
 {
-    Fitting fitting = with_name(
-        *choice.body, [&] { return fitting_from_file(choice.file, name_of(*choice.body), mesh_of(*choice.body)); });
     Report report;
+    Fitting fitting = with_name(*choice.body, [&] { return fitting_from_file(choice.file, *choice.body, report); });
     report.lines.push_back("read the rig of " + fitting.body_name + " from " + choice.file.string());
     add_results(document, choice, std::move(fitting), { Data::rig });
     return report;

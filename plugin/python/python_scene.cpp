@@ -200,6 +200,9 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
     made.body_frame = body_frame_from(find_array);
     put_body_in(made, positions_from(positions), triangles_from(triangles));
     made.scene.rig = rig_from(find_array, made.scene.body->surface.positions);
+    for (const std::string& line :
+         warnings_about_given_rig(*made.scene.rig, *made.scene.body, "the skeleton of the body"))
+        made.frame_warnings.push_back(line);
     if (fitted)
         made.scene.fits = fits_from(find_array);
     return made;

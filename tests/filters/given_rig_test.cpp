@@ -2,6 +2,7 @@
 #include "garmentfit/filters/given_rig.h"
 
 #include "fixtures.h"
+#include "garmentfit/filters/warnings.h"
 
 namespace garmentfit {
 namespace {
@@ -62,6 +63,9 @@ TEST_F(GivenRig, IsDoubtedWhereItsSkeletonIsWrong)
     for (const int left : { lhipjoint, lfemur, ltibia })
         std::swap(wrong.skeleton.tails[left], wrong.skeleton.tails[mirror_of(left)]);
     EXPECT_NE(doubt_about(wrong, body).find("lie on different sides"), std::string::npos) << doubt_about(wrong, body);
+    EXPECT_TRUE(warnings_about_given_rig(rig, body, "man.rig.json").empty());
+    EXPECT_EQ(warnings_about_given_rig(wrong, body, "man.rig.json"),
+              std::vector<std::string> { "man.rig.json may be wrong: " + doubt_about(wrong, body) });
 }
 
 }  // namespace

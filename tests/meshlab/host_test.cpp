@@ -80,6 +80,14 @@ Ended run(const std::string& name, MeshDocument& document, const RichParameterLi
 
 Ended run(const std::string& name, MeshDocument& document) { return run(name, document, dialog_of(name, document)); }
 
+std::string log_of(const MeshDocument& document)
+{
+    std::string log;
+    for (const auto& line : document.Log.logStringList())
+        log += line.second.toStdString() + '\n';
+    return log;
+}
+
 void choose(RichParameterList& list, const QString& name, MeshDocument& document, int layer)
 {
     list.setValue(name, MeshValue(&document, layer));
@@ -496,6 +504,36 @@ TEST_F(MeshLab, LoadsARigIntoTheLayersOfRigBody)
     ASSERT_EQ(document.size(), 5);
     for (int joint = 0; joint < 1 + bone_count; ++joint)
         EXPECT_EQ(point_of(*document.meshList[2], joint), point_of(*document.meshList[4], joint));
+}
+
+/// With the pelvis in the neck.
+void spoil_rig(const fs::path& path)
+{
+    RigFile contents = read_whole_rig(path);
+    contents.rig.skeleton.root = contents.rig.skeleton.tail(thorax);
+    contents.rig.radii = {};  // of another skeleton
+    write_rig_file(path, contents);
+}
+
+TEST_F(MeshLab, WarnsOfARigFileWhoseSkeletonSeemsWrong)
+{
+    fs::copy(k_small_body, folder / "man.ply");
+    meshlab::open_layer(document, folder / "man.ply");
+    ASSERT_TRUE(run("Rig Body", document).well);
+    ASSERT_TRUE(run("Save Rig", document).well);
+    const auto warned = [&](const char* name, bool with_garment) {
+        MeshDocument reopened;
+        meshlab::open_layer(reopened, folder / "man.ply");
+        if (with_garment)
+            meshlab::open_layer(reopened, k_skirt);
+        const Ended ended = run(name, reopened);
+        EXPECT_TRUE(ended.well) << ended.message;
+        return log_of(reopened).find("the skeleton in man.rig.json may be wrong: the pelvis") != std::string::npos;
+    };
+    EXPECT_FALSE(warned("Load Rig", false));
+    spoil_rig(folder / "man.rig.json");
+    EXPECT_TRUE(warned("Load Rig", false));
+    EXPECT_TRUE(warned("Fit Skeleton", true));
 }
 
 TEST_F(MeshLab, RefusesAnotherBodysRig)

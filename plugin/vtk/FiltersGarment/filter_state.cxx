@@ -171,7 +171,7 @@ Snapshot FilterState::snapshot(double time) const { return snapshot_of(known_.sc
 
 std::vector<std::string> FilterState::warnings() const
 {
-    std::vector<std::string> lines = known_.body_frame_warnings;
+    std::vector<std::string> lines = known_.body_warnings;
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(known_.garment_frame_warnings);
     if (filter.has(Stage::rig))

@@ -22,8 +22,8 @@ struct KnownScene {
     Frame body_frame;
     std::vector<Frame> garment_frames;
     std::vector<std::string> garment_names;  ///< of their blocks in a composite
-    std::vector<std::string> body_frame_warnings,
-        garment_frame_warnings;  ///< one line for each guess that is uncertain
+    std::vector<std::string> body_warnings;  ///< one line for each guess that is uncertain, and about a given rig
+    std::vector<std::string> garment_frame_warnings;  ///< one line for each guess that is uncertain
 };
 
 }  // namespace garmentfit

@@ -67,7 +67,7 @@ KnownScene unknown_body(const TriangleMesh& mesh, const Hints& hints, const Body
     KnownScene known;
     const FrameGuess guess = body_frame(mesh.positions, mesh.triangles, { frame_choice(hints, ""), sizes.height });
     known.body_frame = guess.frame;
-    known.body_frame_warnings = warnings_about_frame("the body", guess, "", set_by_name);
+    known.body_warnings = warnings_about_frame("the body", guess, "", set_by_name);
     set_body(known, mesh);
     return known;
 }
@@ -79,6 +79,7 @@ KnownScene rigged_body(const Filter& filter, vtkPolyData& body)
     known.body_frame = body_frame_from(find);
     set_body(known, mesh_at(body, k_input_position, "the body"));
     known.scene.rig = rig_from(find, known.scene.body->surface.positions);
+    known.body_warnings = warnings_about_given_rig(*known.scene.rig, *known.scene.body, "the skeleton of the body");
     if (filter.reads(Data::fits) || (filter.reads(Data::draped) && find("FitPoses")))
         known.scene.fits = fits_from(find);
     return known;

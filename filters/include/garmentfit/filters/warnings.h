@@ -30,6 +30,10 @@ std::vector<std::string> warnings_about_left_behind(const MeshFile& garment);
 /// About left and right.
 std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set);
 
+/// About a rig that a user gave, where something speaks against it (doubt_about() in given_rig.h).
+/// @param called  the rig in the warning
+std::vector<std::string> warnings_about_given_rig(const Rig& rig, const BodyMesh& body, const std::string& called);
+
 /// About garments that were not fitted in one pose, about type, front and up where they are guessed with a low
 /// probability, and about ends closed by caps.
 std::vector<std::string> warnings_about_fits(const Scene& scene, const std::vector<std::string>& names,

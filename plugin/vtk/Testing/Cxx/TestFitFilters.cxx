@@ -648,6 +648,36 @@ TEST(FitSkeleton, RefusesABodyWithoutARigOrWithTheRigOfAnother)
     }
 }
 
+TEST(FitSkeleton, WarnsOfARigWhoseSkeletonSeemsWrong)
+{
+    vtkNew<vtkRigBody> rig;
+    rig->SetInputData(body());
+    rig->Update();
+    const auto warning_about = [](vtkPolyData* rigged) {
+        vtkNew<vtkFitSkeleton> fit;
+        Errors warnings(*fit);
+        fit->SetInputData(0, rigged);
+        fit->SetInputData(1, shorts());
+        fit->SetTypeByName("shorts");
+        fit->Update();
+        EXPECT_FALSE(warnings.heard->GetError()) << warnings.heard->GetErrorMessage();
+        return warnings.heard->GetWarningMessage();
+    };
+    vtkNew<vtkPolyData> rigged;
+    rigged->DeepCopy(polydata(*rig, 0));
+    EXPECT_EQ(warning_about(rigged).find("may be wrong"), std::string::npos);
+    vtkFieldData& field = *rigged->GetFieldData();
+    field.RemoveArray("RigRadii");  // of another skeleton
+    auto unknown = some_numbers("RigRadii", bone_count, 1);
+    unknown->Fill(0);
+    field.AddArray(unknown);
+    vtkDataArray& joints = *field.GetArray("RigJoints");
+    for (int axis = 0; axis < 3; ++axis)  // a pelvis in the neck
+        joints.SetComponent(0, axis, joints.GetComponent(1 + thorax, axis));
+    EXPECT_NE(warning_about(rigged).find("the skeleton of the body may be wrong: the pelvis"), std::string::npos)
+        << warning_about(rigged);
+}
+
 TEST(DressBody, NamesAMissingInput)
 {
     vtkNew<vtkDressBody> dress;
