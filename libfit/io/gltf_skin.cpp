@@ -42,12 +42,14 @@ public:
     {
     }
 
-    FileSkin read()
+    FileSkin read(NodesBelow below)
     {
         const std::vector<GltfSurface> surfaces = scene_.surfaces();
         for (const GltfSurface& surface : surfaces)
             add_joints(surface.node);
         add_nodes_between();
+        if (below == NodesBelow::taken)
+            add_nodes_below();
         list_joints();
         if (skin_.names.empty())
             file_.fail("has no skinned mesh; give a rigged body");
@@ -115,6 +117,15 @@ private:
             if (is_inner[std::size_t(node)] && !is_joint(node) && !branches[std::size_t(node)].empty())
                 add_weightless(node, joint_near(node, branches));
         }
+    }
+
+    /// A mesh is no joint, whatever its name.
+    void add_nodes_below()
+    {
+        for (const int node : scene_.nodes())  // parents first
+            if (const int above = joint_from(scene_.parent(node));
+                above >= 0 && !is_joint(node) && model_.nodes[std::size_t(node)].mesh < 0)
+                add_weightless(node, above);
     }
 
     /// The joint above a node, or the first one below it.
@@ -251,6 +262,9 @@ private:
 
 }  // namespace
 
-FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model) { return SkinReader(file, model).read(); }
+FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model, NodesBelow below)
+{
+    return SkinReader(file, model).read(below);
+}
 
 }  // namespace garmentfit

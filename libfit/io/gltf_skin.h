@@ -27,8 +27,12 @@ struct FileSkin {
     int loose = 0;  ///< vertices that hung on no joint
 };
 
+/// Nodes below the last joints hold no skin, and are a hand, foot or head that an exporter left out of the skin as it has
+/// no weight, or the goal, weapon or camera of an animator.
+enum class NodesBelow { left_out, taken };
+
 /// A mesh without a skin hangs on the joint above it; what hangs on none, or has no weight, follows the nearest vertex
 /// that has one. @throws InvalidInput: no skinned mesh, mangled
-FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model);
+FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model, NodesBelow below = NodesBelow::left_out);
 
 }  // namespace garmentfit

@@ -64,6 +64,36 @@ FileSkin name_by_vrm(FileSkin skin, const ordered_json& json)
     return skin;
 }
 
+using NamedJoints = std::vector<std::optional<NamedJoint>>;  // of each row of a FileSkin
+
+/// The first row of that kind, parents first; -1: none.
+int row_of(const NamedJoints& joints, JointKind kind, int side)
+{
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        if (joints[j] && joints[j]->kind == kind && joints[j]->side == side)
+            return int(j);
+    return -1;
+}
+
+bool has_all_joints(const NamedJoints& joints)
+{
+    bool all = row_of(joints, JointKind::pelvis, 0) >= 0 && row_of(joints, JointKind::head, 0) >= 0;
+    for (const JointKind kind :
+         { JointKind::hip, JointKind::knee, JointKind::ankle, JointKind::shoulder, JointKind::elbow, JointKind::wrist })
+        all = all && row_of(joints, kind, 1) >= 0 && row_of(joints, kind, 2) >= 0;
+    return all;
+}
+
+/// The joints that the skin has, and, where their names lack some that nodes below them have, these nodes, too.
+FileSkin read_named_skin(const FileBytes& file, const tinygltf::Model& model, const ordered_json& json)
+{
+    FileSkin skin = name_by_vrm(read_skin(file, model), json);
+    if (has_all_joints(recognize_joints(skin.names)))
+        return skin;
+    FileSkin with_nodes = name_by_vrm(read_skin(file, model, NodesBelow::taken), json);
+    return has_all_joints(recognize_joints(with_nodes.names)) ? with_nodes : skin;
+}
+
 UnnamedJoints unnamed(const FileSkin& skin)
 {
     UnnamedJoints joints { skin.parents, skin.places, std::vector<double>(skin.places.size(), 0),
@@ -86,7 +116,7 @@ public:
     Translation(const FileBytes& file, const FileSkin& skin) :
         file_(file), skin_(skin), joints_(recognize_joints(skin.names))
     {
-        if (has_all_joints())
+        if (has_all_joints(joints_))
             return;
         if (auto joints = joints_by_tree(unnamed(skin)); !joints.empty()) {
             joints_ = std::move(joints);
@@ -115,19 +145,8 @@ private:
     /// The first joint of that kind, parents first; null: none.
     const Vec3* find(JointKind kind, int side) const
     {
-        for (std::size_t j = 0; j < joints_.size(); ++j)
-            if (joints_[j] && joints_[j]->kind == kind && joints_[j]->side == side)
-                return &skin_.places[j];
-        return nullptr;
-    }
-
-    bool has_all_joints() const
-    {
-        bool all = find(JointKind::pelvis, 0) && find(JointKind::head, 0);
-        for (const JointKind kind : { JointKind::hip, JointKind::knee, JointKind::ankle, JointKind::shoulder,
-                                      JointKind::elbow, JointKind::wrist })
-            all = all && find(kind, 1) && find(kind, 2);
-        return all;
+        const int row = row_of(joints_, kind, side);
+        return row < 0 ? nullptr : &skin_.places[std::size_t(row)];
     }
 
     /// @throws InvalidInput where there is none.
@@ -262,7 +281,7 @@ private:
 
     const FileBytes& file_;
     const FileSkin& skin_;
-    std::vector<std::optional<NamedJoint>> joints_;
+    NamedJoints joints_;
     bool by_tree_ = false;  ///< the names said nothing
     Skeleton skeleton_;
 };
@@ -282,7 +301,7 @@ ForeignRig read_skinned_gltf(const std::filesystem::path& path)
     const FileBytes file = read_file(path);
     const GltfContainer container = read_plain_gltf(file, path.parent_path());
     const tinygltf::Model model = load_model(file, container, path.parent_path());
-    const FileSkin skin = name_by_vrm(read_skin(file, model), container.json);
+    const FileSkin skin = read_named_skin(file, model, container.json);
     return Translation(file, skin).rig();
 }
 

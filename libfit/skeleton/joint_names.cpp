@@ -102,7 +102,7 @@ std::optional<NamedJoint> look_up(const std::string& word, int side)
     return {};
 }
 
-/// @param as_stand_in  whether a palm is a hand, and a goal of inverse kinematics the joint that it pulls
+/// @param as_stand_in  whether a palm or fist is a hand, and a goal of inverse kinematics the joint that it pulls
 std::optional<NamedJoint> recognize(const std::string& name, bool as_stand_in = false)
 {
     int side = 0;
@@ -112,7 +112,7 @@ std::optional<NamedJoint> recognize(const std::string& name, bool as_stand_in = 
             side = 1;
         else if (token == "right" || token == "r")
             side = 2;
-        else if (as_stand_in && token == "palm")
+        else if (as_stand_in && (token == "palm" || token == "fist"))
             word += "hand";
         else if (std::find(k_fillers.begin(), k_fillers.end(), token) == k_fillers.end()
                  && !(as_stand_in && token == "ik"))

@@ -321,6 +321,31 @@ TEST_F(SkinnedGltf, TakesJointsWithoutSkinFromTheNodesBetweenOthers)
     EXPECT_LT((read.skeleton.tail(thorax) - rig.skeleton.tail(thorax)).norm(), 1e-5);
 }
 
+TEST_F(SkinnedGltf, TakesHandsFeetAndHeadWithoutSkinFromTheNodesBelowJoints)
+{
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             for (const char* end : { "head", "head_top", "lhand", "lhand_tip", "rhand", "rhand_tip", "lfoot",
+                                      "lfoot_tip", "rfoot", "rfoot_tip" })
+                 take_out(document, end);
+             document["nodes"][std::size_t(node_called(document, "ltibia"))]["rotation"] = { 0.6, 0, 0, 0.8 };  // posed
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_FALSE(read.by_tree);
+    for (const int b : { ltibia, rtibia, lradius, rradius, upperneck })
+        EXPECT_LT((read.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 1e-5) << bone_name(b);
+    for (int e = 0; e < extremity_count; ++e)
+        EXPECT_LT((read.skeleton.tips[e] - rig.skeleton.tips[e]).norm(), 1e-5) << e;
+}
+
+TEST_F(SkinnedGltf, TakesNoMeshForAJointBelowOthers)
+{
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             take_out(document, "lfoot");
+             document["nodes"][std::size_t(node_called(document, "lfoot"))]["mesh"] = 0;
+         }));
+    fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "left ankle");
+}
+
 TEST_F(SkinnedGltf, TakesTheLowerOfTwoNecks)
 {
     const Rig near = nearest_rig(person);

@@ -127,12 +127,15 @@ TEST(JointNames, FingersToesAndHelpersAreNot)
         EXPECT_FALSE(recognize_joints({ name })[0]) << name;
 }
 
-TEST(JointNames, PalmsAndGoalsAreOnlyWhatTheyStandInFor)
+TEST(JointNames, PalmsFistsAndGoalsAreOnlyWhatTheyStandInFor)
 {
     const auto joints = recognize_joints({ "hand.L", "palm.01.L", "foot_l", "ik_foot_l" });
     EXPECT_TRUE(joints[0] && joints[2]);
     EXPECT_FALSE(joints[1]);
     EXPECT_FALSE(joints[3]);
+    const auto fist = recognize_joints({ "LowerArm.L", "Fist.L" })[1];
+    EXPECT_TRUE(fist && fist->kind == JointKind::wrist);
+    EXPECT_FALSE(recognize_joints({ "Hand.L", "Fist.L" })[1]);
 }
 
 TEST(JointNames, TheFirstOfASpineIsThePelvisWhereNoOtherIs)
