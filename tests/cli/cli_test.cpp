@@ -44,6 +44,21 @@ std::string read_text(const fs::path& path)
     return { std::istreambuf_iterator<char>(file), {} };
 }
 
+/// Keys of a report, at any depth, that a page does not name as `key`. Those of "bones" are names of bones.
+std::vector<std::string> keys_without_a_word(const nlohmann::json& report, const std::string& page)
+{
+    std::vector<std::string> missing;
+    for (const auto& [key, value] : report.items()) {
+        if (report.is_object() && page.find("`" + key + "`") == std::string::npos)
+            missing.push_back(key);
+        if (!value.is_structured() || key == "bones")
+            continue;
+        const std::vector<std::string> below = keys_without_a_word(value, page);
+        missing.insert(missing.end(), below.begin(), below.end());
+    }
+    return missing;
+}
+
 struct Ended {
     int code = -1;
     std::string out, err;
@@ -846,6 +861,7 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     EXPECT_EQ(crossings.at("body"), 0);
     EXPECT_EQ(crossings.at("self"), 0);
     EXPECT_GT(report.at("garments").at(0).at("min_distance").get<double>(), 0);
+    EXPECT_EQ(keys_without_a_word(report, read_text(GARMENTFIT_DOCS "/report.md")), std::vector<std::string>());
 
     const auto body = garmentfit::MeshFile::read(k_body), came_back = garmentfit::MeshFile::read(dressed / "body.ply");
     EXPECT_EQ(came_back.positions(), body.positions()) << "the body moved";
