@@ -273,9 +273,11 @@ std::optional<std::ptrdiff_t> euler_characteristic(const Patch& patch, const Tri
 }
 
 /// Whether a patch is closed, has tunnels, and has its two sheets no farther apart than padding, or `thickest`.
+/// @param thickest  share of the root of the patch's area
 bool is_thick_cloth(const Patch& patch, const Triangles& triangles, double thickest = k_thickest)
 {
-    return thickness_of(patch) <= thickest && euler_characteristic(patch, triangles).value_or(2) <= 0;
+    return thickness_of(patch) <= thickest * std::sqrt(patch.area)
+        && euler_characteristic(patch, triangles).value_or(2) <= 0;
 }
 
 std::vector<Patch> collect_patches(TriangleMesh& cloth)
@@ -294,7 +296,7 @@ std::vector<Patch> collect_patches(TriangleMesh& cloth)
 }
 
 /// Keeps the outer sheets of cloth with thickness, so that a garment looks the same with and without thickness.
-/// @param thickest  m
+/// @param thickest  as in is_thick_cloth
 TriangleMesh drop_inner_sheets(const TriangleMesh& cloth, const std::vector<Patch>& patches,
                                double thickest = k_thickest)
 {

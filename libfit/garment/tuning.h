@@ -93,8 +93,10 @@ inline constexpr double k_lid_reach = 0.15, k_lid_outline = 0.9, k_lid_middle = 
 
 /// fitted: on the garments. Volume / area^1.5 of a patch: a sphere has 0.094, a sleeve 0.03, a pocket 0.002.
 inline constexpr double k_flat_patch = 0.01;
-/// fitted: guess. m, largest distance between the two sheets of cloth with thickness, padding included.
-inline constexpr double k_thickest = 0.02;
+/// fitted: guess, on few. Largest distance between the two sheets of cloth with thickness, padding included, as a share
+/// of the root of the area of both: of eight closed garments with tunnels seven have 0.001 to 0.005, and padded shorts
+/// 0.024. Two sheets of a skirt, folded flat, would have more than 0.05.
+inline constexpr double k_thickest = 0.03;
 /// fitted: guess. m, distance on both sides of a flat patch at which the winding number is compared.
 inline constexpr double k_side_step = 0.02;
 

@@ -61,6 +61,17 @@ TEST(OutwardCloth, EqualVerticesAndFacesAreMerged)
     EXPECT_EQ(cloth.triangles.rows(), sphere.triangles.rows());
 }
 
+TEST(OutwardCloth, OfThickClothTheOuterSheetIsTheSameInAnyUnit)
+{
+    const TriangleMesh thick = thick_tube(0.25, 0.4, 0.015);
+    const Triangles outer = outward_cloth(garment_of(thick)).triangles;
+    for (const double unit : { 0.1, 10.0 }) {
+        const Triangles scaled = outward_cloth(garment_of({ unit * thick.positions, thick.triangles })).triangles;
+        ASSERT_EQ(scaled.rows(), outer.rows()) << unit;
+        EXPECT_EQ(scaled, outer) << unit;
+    }
+}
+
 TEST(OutwardCloth, OfThickClothTheOuterSheetRemains)
 {
     constexpr double radius = 0.25, thickness = 0.004;
