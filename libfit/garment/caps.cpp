@@ -29,6 +29,7 @@ Caps::Caps(const GarmentMesh& garment, const Weld& weld) :
     smallest_girth_(k_cap_girth * diagonal(garment.positions))
 {
     collect_areas();
+    mark_closed_faces();
     collect_regions();
     for (int side = 0; side < 3 * int(faces_.rows()); ++side)
         add_to_outline(side, regions_[region_of_[side / 3]]);
@@ -43,8 +44,7 @@ std::vector<std::vector<int>> Caps::find()
     const auto add
         = [&](const std::vector<std::vector<int>>& more) { caps.insert(caps.end(), more.begin(), more.end()); };
     add(find_steep());
-    if (is_closed())
-        add(find_filled(caps));
+    add(find_filled(caps));
     return caps;
 }
 
@@ -61,8 +61,8 @@ std::vector<std::vector<int>> Caps::find_fans()
         const bool is_even = std::all_of(faces.begin(), faces.end(), [&](int f) {
             return std::abs(areas_[f].stableNormalized().dot(fan.area.stableNormalized())) > k_fan_cosine;
         });
-        // necks lie in the cloth around, cuffs are crumpled; a garment without any opening has them all the same
-        if (is_closed() ? is_hole(fan, k_fill_depth) : is_even && is_flat_disc(fan, k_fan_depth))
+        // necks lie in the cloth around, cuffs are crumpled; cloth without any opening has them all the same
+        if (is_closed_[faces[0]] ? is_hole(fan, k_fill_depth) : is_even && is_flat_disc(fan, k_fan_depth))
             fans.push_back(faces);
     }
     return fans;
@@ -82,7 +82,7 @@ std::vector<std::vector<int>> Caps::find_filled(const std::vector<std::vector<in
     std::vector<char> is_seed(std::size_t(faces_.rows()));
     for (int side = 0; side < 3 * int(faces_.rows()); ++side) {
         const int other = topology_.opposite(side);
-        if (other < side || is_taken[side / 3] || is_taken[other / 3])
+        if (other < side || !is_closed_[side / 3] || is_taken[side / 3] || is_taken[other / 3])
             continue;
         const bool is_long = lengths[side] > k_fill_edge * usual[side / 3];
         is_seed[side / 3] |= is_long;
@@ -174,6 +174,30 @@ void Caps::collect_areas()
 {
     for (Eigen::Index f = 0; f < faces_.rows(); ++f)
         areas_.push_back(area_vector(positions_, faces_, f));
+}
+
+void Caps::mark_closed_faces()
+{
+    is_closed_.assign(std::size_t(faces_.rows()), is_closed());
+    std::vector<char> is_at_opening(std::size_t(faces_.rows()), 0);
+    for (const std::vector<int>& loop : topology_.border_loops()) {
+        double girth = 0;
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            girth += (positions_.row(loop[i]) - positions_.row(loop[(i + 1) % loop.size()])).norm();
+        const int side = topology_.sides_at(topology_.edge_between(loop[0], loop[1 % loop.size()]))[0];
+        is_at_opening[side / 3] = girth > smallest_girth_;
+    }
+    double whole = 0;  // m^2
+    for (const Vec3& area : areas_)
+        whole += area.norm();
+    for (const std::vector<int>& patch : patches_) {
+        double area = 0;  // m^2
+        for (const int f : patch)
+            area += areas_[f].norm();
+        if (2 * area > whole && std::none_of(patch.begin(), patch.end(), [&](int f) { return is_at_opening[f]; }))
+            for (const int f : patch)
+                is_closed_[f] = 1;
+    }
 }
 
 double Caps::orientation(int side, int other) const

@@ -43,8 +43,8 @@ private:
     /// may be as flat as at a neck.
     std::vector<std::vector<int>> find_fans();
 
-    /// Holes of a closed garment that were filled with triangles from rim to rim: discs of long edges in which no
-    /// vertex lies. Large flat parts of open garments may look the same.
+    /// Holes of closed cloth that were filled with triangles from rim to rim: discs of long edges in which no vertex
+    /// lies. Large flat parts of open cloth may look the same.
     std::vector<std::vector<int>> find_filled(const std::vector<std::vector<int>>& caps);
 
     /// Median of the sides of its patch, by face: a button may have most of a garment's faces.
@@ -65,6 +65,10 @@ private:
     std::vector<std::vector<int>> find_steep() const;
 
     void collect_areas();
+
+    /// The faces of a garment without open edges, and of a patch that is most of the cloth and has no openings but
+    /// buttonholes: buttons, belt loops and labels beside it may be open.
+    void mark_closed_faces();
 
     double cosine(int f, int g) const { return areas_[f].stableNormalized().dot(areas_[g].stableNormalized()); }
 
@@ -93,6 +97,7 @@ private:
     std::vector<std::vector<int>> patches_;
     double smallest_girth_;  // m
     std::vector<Vec3> areas_;
+    std::vector<char> is_closed_;  // by face
     std::vector<Region> regions_;
     std::vector<int> region_of_;
 };
