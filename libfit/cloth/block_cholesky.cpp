@@ -145,7 +145,7 @@ void BlockCholesky::find_fronts(const Lists& columns)
         parts.push_back(part);
     }
     for (const Part& part : parts)
-        fronts_.push_back({ part.begin, part.end, columns[part.end - 1], {}, {} });
+        fronts_.push_back({ part.begin, part.end, columns[part.end - 1], {}, {}, 0 });
 }
 
 void BlockCholesky::link_fronts()
@@ -155,6 +155,8 @@ void BlockCholesky::link_fronts()
         std::fill(front_of.begin() + fronts_[f].begin, front_of.begin() + fronts_[f].end, int(f));
     for (std::size_t f = 0; f < fronts_.size(); ++f) {
         Front& front = fronts_[f];
+        front.left_begin = left_size_;
+        left_size_ += 3 * int(front.rows.size());
         if (front.rows.empty())
             continue;
         Front& parent = fronts_[front_of[front.rows.front()]];
@@ -247,7 +249,7 @@ void BlockCholesky::downwards(const Visit& visit) const
 }
 
 // The matrix's own blocks in the columns of a front.
-void BlockCholesky::take_blocks(const Front& front, Eigen::MatrixXd& factor) const
+void BlockCholesky::take_blocks(const Front& front, Dense& factor) const
 {
     for (int j = front.begin; j < front.end; ++j) {
         auto row = front.rows.begin();
@@ -257,13 +259,13 @@ void BlockCholesky::take_blocks(const Front& front, Eigen::MatrixXd& factor) con
                 row = std::lower_bound(row, front.rows.end(), block_rows_[b]);
                 local = front.columns() + int(row - front.rows.begin());
             }
-            factor.block<3, 3>(3 * local, 3 * (j - front.begin)) += blocks_[b];
+            factor.block<3, 3>(3 * local, 3 * (j - front.begin)) += blocks_[b].cast<float>();
         }
     }
 }
 
-void BlockCholesky::add_remainder(const Front& child, const Eigen::MatrixXd& left, const Front& front,
-                                  Eigen::MatrixXd& factor, Eigen::MatrixXd& remainder)
+void BlockCholesky::add_remainder(const Front& child, const Dense& left, const Front& front, Dense& factor,
+                                  Dense& remainder)
 {
     const std::vector<int>& place = child.in_parent;
     for (int j = 0; j < int(place.size()); ++j)
@@ -277,12 +279,12 @@ void BlockCholesky::add_remainder(const Front& child, const Eigen::MatrixXd& lef
 }
 
 // Takes what the children have left, eliminates the front's columns, and leaves the remainder.
-bool BlockCholesky::eliminate(int f, std::vector<Eigen::MatrixXd>& left)
+bool BlockCholesky::eliminate(int f, std::vector<Dense>& left)
 {
     const Front& front = fronts_[f];
     const int columns = 3 * front.columns(), below = 3 * int(front.rows.size());
-    Eigen::MatrixXd& factor = factors_[f];
-    Eigen::MatrixXd& remainder = left[f];
+    Dense& factor = factors_[f];
+    Dense& remainder = left[f];
     factor.setZero(columns + below, columns);
     remainder.setZero(below, below);
     take_blocks(front, factor);
@@ -290,8 +292,8 @@ bool BlockCholesky::eliminate(int f, std::vector<Eigen::MatrixXd>& left)
         add_remainder(fronts_[child], left[child], front, factor, remainder);
         left[child].resize(0, 0);
     }
-    Eigen::Ref<Eigen::MatrixXd> corner = factor.topRows(columns);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(corner);
+    Eigen::Ref<Dense> corner = factor.topRows(columns);
+    const Eigen::LLT<Eigen::Ref<Dense>> cholesky(corner);
     if (cholesky.info() != Eigen::Success)
         return false;
     if (below > 0) {
@@ -305,7 +307,7 @@ bool BlockCholesky::eliminate(int f, std::vector<Eigen::MatrixXd>& left)
 bool BlockCholesky::factorise()
 {
     factors_.resize(fronts_.size());
-    std::vector<Eigen::MatrixXd> left(fronts_.size());
+    std::vector<Dense> left(fronts_.size());
     std::atomic<bool> is_definite = true;
     upwards([&](int f) {
         if (is_definite && !eliminate(f, left))
@@ -316,40 +318,38 @@ bool BlockCholesky::factorise()
 
 Positions BlockCholesky::solve(const Positions& right) const
 {
-    Eigen::VectorXd x(right.size());
+    Eigen::VectorXf x(right.size()), left(left_size_);
     for (int v = 0; v < int(right.rows()); ++v)
-        x.segment<3>(3 * place_[v]) = right.row(v).transpose();
-    std::vector<Eigen::VectorXd> left(fronts_.size());
+        x.segment<3>(3 * place_[v]) = right.row(v).transpose().cast<float>();
     upwards([&](int f) {
         const Front& front = fronts_[f];
-        const int columns = 3 * front.columns();
-        Eigen::VectorXd all = Eigen::VectorXd::Zero(3 * front.size());
-        auto mine = all.head(columns);
-        mine = x.segment(3 * front.begin, columns);
+        auto mine = x.segment(3 * front.begin, 3 * front.columns());
+        auto below = left.segment(front.left_begin, 3 * Eigen::Index(front.rows.size()));
+        below.setZero();
         for (const int child : front.children) {
             const std::vector<int>& place = fronts_[child].in_parent;
+            const int from = fronts_[child].left_begin;
             for (int i = 0; i < int(place.size()); ++i)
-                all.segment<3>(3 * place[i]) += left[child].segment<3>(3 * i);
-            left[child].resize(0);
+                if (place[i] < front.columns())
+                    mine.segment<3>(3 * place[i]) += left.segment<3>(from + 3 * i);
+                else
+                    below.segment<3>(3 * (place[i] - front.columns())) += left.segment<3>(from + 3 * i);
         }
-        factors_[f].topRows(columns).triangularView<Eigen::Lower>().solveInPlace(mine);
-        x.segment(3 * front.begin, columns) = mine;
-        left[f] = all.tail(all.size() - columns);
-        left[f].noalias() -= factors_[f].bottomRows(left[f].size()) * mine;
+        factors_[f].topRows(mine.size()).triangularView<Eigen::Lower>().solveInPlace(mine);
+        below.noalias() -= factors_[f].bottomRows(below.size()) * mine;
     });
     downwards([&](int f) {
         const Front& front = fronts_[f];
-        const int columns = 3 * front.columns();
-        auto mine = x.segment(3 * front.begin, columns);
-        Eigen::VectorXd others(3 * Eigen::Index(front.rows.size()));
+        auto mine = x.segment(3 * front.begin, 3 * front.columns());
+        auto below = left.segment(front.left_begin, 3 * Eigen::Index(front.rows.size()));
         for (int i = 0; i < int(front.rows.size()); ++i)
-            others.segment<3>(3 * i) = x.segment<3>(3 * front.rows[i]);
-        mine.noalias() -= factors_[f].bottomRows(others.size()).transpose() * others;
-        factors_[f].topRows(columns).triangularView<Eigen::Lower>().transpose().solveInPlace(mine);
+            below.segment<3>(3 * i) = x.segment<3>(3 * front.rows[i]);
+        mine.noalias() -= factors_[f].bottomRows(below.size()).transpose() * below;
+        factors_[f].topRows(mine.size()).triangularView<Eigen::Lower>().transpose().solveInPlace(mine);
     });
     Positions result(right.rows(), 3);
     for (int v = 0; v < int(right.rows()); ++v)
-        result.row(v) = x.segment<3>(3 * place_[v]).transpose();
+        result.row(v) = x.segment<3>(3 * place_[v]).transpose().cast<double>();
     return result;
 }
 

@@ -7,7 +7,8 @@
 //         [amestoy_1996_amd]. Neighbouring columns whose entries lie in the same rows are one front, a dense matrix, which
 //         takes what the fronts below it leave behind and hands its own remainder on. Fronts in different subtrees of the
 //         elimination tree do not depend on each other and are computed side by side.
-// Numbers double precision; the same bits for any number of threads.
+// Numbers blocks are in double precision, the factor and what is solved with it in single precision; the same bits for any
+//         number of threads.
 
 #include <Eigen/Core>
 #include <utility>
@@ -36,12 +37,14 @@ public:
     Positions solve(const Positions& right) const;
 
 private:
+    using Dense = Eigen::MatrixXf;
     /// Columns that are eliminated together. Local rows are those of its columns, then `rows`.
     struct Front {
         int begin, end;  // columns, in the order of elimination
         std::vector<int> rows;  // below them, ascending
         std::vector<int> in_parent;  // for each of `rows` the local row of the parent
         std::vector<int> children;
+        int left_begin;  // of what solve() hands to the parent, among that of all fronts
 
         int columns() const { return end - begin; }
         int size() const { return columns() + int(rows.size()); }
@@ -58,19 +61,20 @@ private:
     void upwards(const Visit& visit) const;
     template <class Visit>
     void downwards(const Visit& visit) const;
-    void take_blocks(const Front& front, Eigen::MatrixXd& factor) const;
-    static void add_remainder(const Front& child, const Eigen::MatrixXd& left, const Front& front,
-                              Eigen::MatrixXd& factor, Eigen::MatrixXd& remainder);
-    bool eliminate(int f, std::vector<Eigen::MatrixXd>& left);
+    void take_blocks(const Front& front, Dense& factor) const;
+    static void add_remainder(const Front& child, const Dense& left, const Front& front, Dense& factor,
+                              Dense& remainder);
+    bool eliminate(int f, std::vector<Dense>& left);
 
     std::vector<int> place_;  // of each row, in the order of elimination
     std::vector<Front> fronts_;  // children before parents
+    int left_size_ = 0;  // of what all fronts hand to their parents
     std::vector<std::vector<Subtree>> levels_;
 
     // Blocks of the lower triangle, by column in the order of elimination.
     std::vector<int> block_begin_, block_rows_;
     std::vector<Eigen::Matrix3d> blocks_;
-    std::vector<Eigen::MatrixXd> factors_;  // of each front: 3 size() x 3 columns()
+    std::vector<Dense> factors_;  // of each front: 3 size() x 3 columns()
 };
 
 }  // namespace garmentfit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tangent_factor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "garmentfit/error.h"
@@ -8,11 +9,17 @@
 namespace garmentfit {
 namespace {
 
+// unit: N/m. Single precision leaves .06 N/m of it; springs have 10 to 4,000.
+constexpr double k_stiffest_in_factor = 1e6;
+// unit: a few times the rounding of single precision.
+constexpr double k_least_shift = 1e-6;
+
+// In single precision a barrier's stiffness without bound would drown that of the springs beside it.
 Eigen::Matrix3d stiffness_matrix(const SoftConstraint& constraint)
 {
+    const double along = std::min(constraint.normal_stiffness, k_stiffest_in_factor);
     return constraint.tangent_stiffness * Eigen::Matrix3d::Identity()
-        + (constraint.normal_stiffness - constraint.tangent_stiffness) * constraint.normal
-        * constraint.normal.transpose();
+        + (along - constraint.tangent_stiffness) * constraint.normal * constraint.normal.transpose();
 }
 
 std::vector<std::pair<int, int>> ends_of(const std::vector<ClothEnergy::Spring>& springs)
@@ -66,7 +73,11 @@ void TangentFactor::factorise(const Positions& x, const std::vector<SoftConstrai
         add_outer(constraint.vertices, constraint.weights, stiffness_matrix(constraint));
     for (int v = 0; v < int(x.rows()); ++v)
         *matrix_.find(v, v) += energy_.masses()[v] * energy_.inertia() * identity;
-    if (!matrix_.factorise())
+    double shift = k_least_shift;  // rounding may leave a matrix that is nearly singular indefinite
+    for (; !matrix_.factorise() && shift < 1; shift *= 10)
+        for (int v = 0; v < int(x.rows()); ++v)
+            *matrix_.find(v, v) += shift * matrix_.find(v, v)->trace() * identity;
+    if (shift >= 1)
         throw SolverFailure(
             "cloth: the tangent stiffness matrix of the garment could not be factorised. Remove faces without area "
             "from the garment, and look for figures of the fabric that are 0 or far too large.");

@@ -93,6 +93,25 @@ TEST(NewtonDirection, KnowsWhatCouplesVerticesWithoutACommonEdge)
     EXPECT_NEAR(newton_direction(cloth.energy, factor, x, touching, forces)(20, 1), 1, 0.3);
 }
 
+TEST(NewtonDirection, KnowsTheSpringsBesideABarrier)
+{
+    const FreeCloth cloth(0.1);
+    const Positions x = stretched(cloth.mesh);
+    const Vec3 normal = Vec3(1, 2, 3).normalized();
+    Positions forces = Positions::Zero(x.rows(), 3);
+    forces.row(20) = normal.cross(Vec3::UnitX()).transpose();
+    const auto way_under = [&](double stiffness) {
+        const std::vector<SoftConstraint> barrier {
+            { { 20, 100, 101, 118 }, { 1, -0.4, -0.3, -0.3 }, Vec3::Zero(), normal, stiffness, 0 }
+        };
+        TangentFactor factor(cloth.energy);
+        factor.factorise(x, barrier);
+        return newton_direction(cloth.energy, factor, x, barrier, forces);
+    };
+    const Positions way = way_under(1e5);  // to springs of 400 N/m that is a wall as well
+    EXPECT_LT((way_under(1e11) - way).norm(), 0.3 * way.norm());
+}
+
 TEST(FrictionAnchors, ResistWhatSlidesAcrossItsWay)
 {
     FrictionAnchors anchors(1);
