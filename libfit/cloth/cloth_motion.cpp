@@ -45,17 +45,6 @@ Positions stack(const Positions& cloth, const Positions& obstacle)
     return result;
 }
 
-// Grows from 0, without a kink, where a gap enters a zone, without bound as the gap closes. Both are in units of the
-// stiffness of contact.
-struct Barrier {
-    Barrier(double gap, double zone) : length((zone - gap) * (zone - gap) / gap), slope(zone * zone / (gap * gap) - 1)
-    {
-    }
-
-    double length;  // m, of the spring with that force
-    double slope;  // of its length over that of the gap
-};
-
 void limit_lengths(Positions& displacements, double longest)
 {
     for (Eigen::Index v = 0; v < displacements.rows(); ++v)
@@ -149,22 +138,40 @@ void ClothMotion::advect(const Positions& cloth, const Positions& obstacle)
     move(stack(weld_.gather(cloth), obstacle));
 }
 
+void ClothMotion::add_active_contact(const ContactPair& pair, const Positions& targets, bool is_guard,
+                                     std::vector<ActiveContact>& contacts) const
+{
+    const Vec3 normal = separation(pair.at.weights, corners_of(x_, pair.vertices)) / pair.at.distance;
+    double distance = contact_distance(pair.reason);
+    if (normal.dot(separation(pair.at.weights, corners_of(targets, pair.vertices))) > k_active_distance * distance)
+        return;
+    if (pair.reason == ContactReason::self)  // sheets that lie closer at rest stay as close
+        distance = std::min(distance, closest_points(pair.kind, corners_of(rest_.positions, pair.vertices)).distance);
+    contacts.push_back({ pair, normal, distance, sticking_.stored(pair, normal), is_guard });
+}
+
 std::vector<ClothMotion::ActiveContact> ClothMotion::find_active_contacts(const Positions& targets,
-                                                                          double blocking_distance) const
+                                                                          double guarded_distance) const
 {
     std::vector<ActiveContact> result;
-    for (const ContactPair& pair : distinct_contacts(contact_.pairs(), x_, blocking_distance)) {
-        const Vec3 normal = separation(pair.at.weights, corners_of(x_, pair.vertices)) / pair.at.distance;
-        double distance = contact_distance(pair.reason);
-        if (normal.dot(separation(pair.at.weights, corners_of(targets, pair.vertices))) > k_active_distance * distance)
-            continue;
-        if (pair.reason == ContactReason::self)  // sheets that lie closer at rest stay as close
-            distance
-                = std::min(distance, closest_points(pair.kind, corners_of(rest_.positions, pair.vertices)).distance);
-        result.push_back(
-            { pair, normal, distance, sticking_.stored(pair, normal), pair.at.distance < blocking_distance });
-    }
+    const DistinctContacts contacts = distinct_contacts(contact_.pairs(), x_);
+    for (const ContactPair& pair : contacts.distinct)
+        add_active_contact(pair, targets, false, result);
+    for (const ContactPair& pair : contacts.repeated)
+        if (pair.at.distance < guarded_distance)
+            add_active_contact(pair, targets, true, result);
     return result;
+}
+
+// Contacts so near turn much in a small motion.
+void ClothMotion::relinearise(std::vector<ActiveContact>& contacts, double within) const
+{
+    for (ActiveContact& contact : contacts)
+        if (contact.pair.at.distance < within) {
+            const Corners corners = corners_of(x_, contact.pair.vertices);
+            contact.pair.at = closest_points(contact.pair.kind, corners);
+            contact.normal = separation(contact.pair.at.weights, corners) / contact.pair.at.distance;
+        }
 }
 
 // Whether a contact at the border of a triangle, which is linear in a direction tilted against the way of the vertex,
@@ -198,6 +205,21 @@ double ClothMotion::area_at(const ContactPair& pair) const
     return areas[0] > 0 && areas[1] > 0 ? std::min(areas[0], areas[1]) : areas[0] + areas[1];
 }
 
+// What is nearer than the minimum distance was given so: its gap may close further, so it has a barrier of its own.
+ClothMotion::Barrier ClothMotion::barrier_at(const ActiveContact& contact, double gap, double gap_before,
+                                             const MotionStep& step) const
+{
+    const bool is_above = contact.pair.at.distance > options_.min_distance;
+    const double floor = is_above ? options_.min_distance : 0;
+    const double zone = step.barrier * (is_above ? contact.rest_distance - floor : k_least_gap * options_.min_distance);
+    // no motion uses up more of the gap than this, wherever the targets are
+    const double kept = is_above ? k_kept_above_minimum : k_kept_below_minimum;
+    const double left = std::max({ gap - floor, kept * (gap_before - floor), k_least_barrier * zone });
+    if (left >= zone)
+        return { 0, 0 };
+    return { (zone - left) * (zone - left) / left, zone * zone / (left * left) - 1 };
+}
+
 // A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
 // law.
 std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<ActiveContact>& contacts,
@@ -225,20 +247,18 @@ std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<A
             }
         }
         const double depth = contact.rest_distance - normal.dot(now);
-        if (depth <= 0 || (!contact.blocks && passes_by(contact, targets)))
+        if (depth <= 0 || (!contact.is_guard && passes_by(contact, targets)))
             continue;
         // The linear contact that has the force and the stiffness of the soft one here.
         double rest_distance = contact.rest_distance - 0.5 * std::min(depth, step.contact_softening);
         constraint.normal_stiffness *= std::min(1.0, depth / step.contact_softening);
-        const double gap = normal.dot(now), zone = step.barrier * (contact.rest_distance - options_.min_distance);
-        // no motion uses up more of the gap than this, wherever the targets are
-        const double left = std::max(gap - options_.min_distance,
-                                     k_kept_above_minimum * (normal.dot(before) - options_.min_distance));
-        if (zone > 0 && left < zone) {
-            const Barrier barrier(std::max(left, k_least_barrier * zone), zone);
-            const double force
-                = constraint.normal_stiffness * (rest_distance - gap) + contact_stiffness * barrier.length;
-            constraint.normal_stiffness += contact_stiffness * barrier.slope;
+        if (step.barrier > 0) {
+            const double gap = normal.dot(now);
+            const Barrier barrier = barrier_at(contact, gap, normal.dot(before), step);
+            // in proportion to the area, it could not carry what the cloth beside a small detail pulls with
+            const double stiffness = std::max(contact_stiffness, step.contact_stiffness * material.stretch_stiffness);
+            const double force = constraint.normal_stiffness * (rest_distance - gap) + stiffness * barrier.length;
+            constraint.normal_stiffness += stiffness * barrier.slope;
             rest_distance = gap + force / constraint.normal_stiffness;
         }
         const Vec3 slip = contact.stored_slip + (now - before) - (now - before).dot(normal) * normal;

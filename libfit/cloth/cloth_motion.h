@@ -101,7 +101,13 @@ private:
         Vec3 normal;
         double rest_distance;  // m; force begins below it
         Vec3 stored_slip;  // m, across the normal
-        bool blocks;  // so near that it would stop motion
+        bool is_guard;  // repeats another contact, and keeps the pair off the distance that stops motion
+    };
+    /// A force that grows from 0, without a kink, where a gap enters a zone, without bound as the gap closes. Both are in
+    /// units of the stiffness of contact.
+    struct Barrier {
+        double length;  // m, of the spring with that force
+        double slope;  // of its length over that of the gap
     };
     class RestSearch;
     Positions move_freely(const Positions& displacements);
@@ -111,10 +117,14 @@ private:
     double snap_obstacle(const Positions& target);
     Positions minimise_energy(const MotionStep& step, const Positions& displacements,
                               const std::vector<ActiveContact>& contacts);
-    std::vector<ActiveContact> find_active_contacts(const Positions& targets, double blocking_distance = 0) const;
+    std::vector<ActiveContact> find_active_contacts(const Positions& targets, double guarded_distance = 0) const;
+    void add_active_contact(const ContactPair& pair, const Positions& targets, bool is_guard,
+                            std::vector<ActiveContact>& contacts) const;
+    void relinearise(std::vector<ActiveContact>& contacts, double within) const;
     static bool passes_by(const ActiveContact& contact, const Positions& targets);
     Material material_at(const ContactPair& pair) const;
     double area_at(const ContactPair& pair) const;
+    Barrier barrier_at(const ActiveContact& contact, double gap, double gap_before, const MotionStep& step) const;
     std::vector<SoftConstraint> contact_constraints(const std::vector<ActiveContact>& contacts,
                                                     const Positions& targets, const MotionStep& step) const;
     void remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before, const MotionStep& step);

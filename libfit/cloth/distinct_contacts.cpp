@@ -34,33 +34,32 @@ int vertices_at(const ContactPair& pair, int begin, int end)
                              [](double weight) { return weight != 0; }));
 }
 
-std::vector<ContactPair> distinct_contacts(const std::vector<ContactPair>& pairs, const Positions& x,
-                                           double blocking_distance)
+DistinctContacts distinct_contacts(const std::vector<ContactPair>& pairs, const Positions& x)
 {
-    const auto blocks = [&](const ContactPair& pair) { return pair.at.distance < blocking_distance; };
     std::vector<ContactPair> edges, faces;
+    DistinctContacts contacts;
     for (const ContactPair& pair : pairs)
         if (pair.kind == PairKind::vertex_face)
             faces.push_back(pair);
-        else if (vertices_at(pair, 0, 2) == 2 && vertices_at(pair, 2, 4) == 2
-                 && (blocks(pair) || !are_parallel(pair, x)))
+        else if (vertices_at(pair, 0, 2) == 2 && vertices_at(pair, 2, 4) == 2 && !are_parallel(pair, x))
             edges.push_back(pair);
+        else
+            contacts.repeated.push_back(pair);
     std::stable_sort(faces.begin(), faces.end(), [](const ContactPair& a, const ContactPair& b) {
         return std::tie(a.vertices[0], a.at.distance) < std::tie(b.vertices[0], b.at.distance);
     });
-    std::vector<ContactPair> result;
+    std::vector<ContactPair>& result = contacts.distinct;
     std::size_t first = 0;  // of the vertex, in result
     for (const ContactPair& pair : faces) {
         if (result.empty() || result.back().vertices[0] != pair.vertices[0])
             first = result.size();
-        const bool is_repeated = !blocks(pair) && vertices_at(pair, 1, 4) < 3
+        const bool is_repeated = vertices_at(pair, 1, 4) < 3
             && std::any_of(result.begin() + std::ptrdiff_t(first), result.end(),
                            [&](const ContactPair& nearer) { return touches_border_of(pair, nearer); });
-        if (!is_repeated)
-            result.push_back(pair);
+        (is_repeated ? contacts.repeated : result).push_back(pair);
     }
     result.insert(result.end(), edges.begin(), edges.end());
-    return result;
+    return contacts;
 }
 
 }  // namespace garmentfit

@@ -14,9 +14,11 @@ int vertices_at(const ContactPair& pair, int begin, int end);
 
 /// Near a vertex that slides over a surface there are several triangles. Those beside the one below it are near, too, at
 /// their borders, and in a direction that is tilted against its way: linear contacts with them would slow it down. A
-/// contact at the end of an edge is one of the vertex there. What lies nearer than the blocking distance stops motion
-/// itself, so it stays, whatever else is near.
-std::vector<ContactPair> distinct_contacts(const std::vector<ContactPair>& pairs, const Positions& x,
-                                           double blocking_distance);
+/// contact at the end of an edge is one of the vertex there.
+struct DistinctContacts {
+    std::vector<ContactPair> distinct;
+    std::vector<ContactPair> repeated;  ///< those that are left out, of which each can stop motion all the same
+};
+DistinctContacts distinct_contacts(const std::vector<ContactPair>& pairs, const Positions& x);
 
 }  // namespace garmentfit

@@ -66,10 +66,10 @@ public:
             const Positions before = cloth();
             if (!left.empty())
                 let_go();
-            in_time = make_round(progress, most);
+            in_time = make_round(left.empty() ? k_enough_at_first : 0, progress, most);
             left.push_back(residual_.mean);
-            const double farthest = (cloth() - before).rowwise().norm().maxCoeff();
-            if (after_rest >= 0 || (left.size() > 1 && residual_.is_at_rest() && farthest < k_still))
+            const bool is_still = stands_still(cloth() - before);
+            if (after_rest >= 0 || (left.size() > 1 && residual_.is_at_rest() && is_still))
                 ++after_rest;
         }
         if (!residual_.is_at_rest() && best_.rows() > 0)
@@ -78,6 +78,15 @@ public:
     }
 
 private:
+    /// Single vertices may be anchored to and fro between two places for ever.
+    static bool stands_still(const Positions& way)
+    {
+        Eigen::VectorXd lengths = way.rowwise().norm();
+        const auto nearly_all = lengths.begin() + Eigen::Index(k_share_still * double(lengths.size() - 1));
+        std::nth_element(lengths.begin(), nearly_all, lengths.end());
+        return *nearly_all < k_still && lengths.maxCoeff() < k_nearly_still;
+    }
+
     /// Whether two rounds brought the forces no nearer to balance.
     static bool has_stalled(const std::vector<double>& left)
     {
@@ -96,10 +105,11 @@ private:
         return left[n - 1] * std::pow(left[n - 1] / left[n - 2], 2 * rounds_left) > k_balanced;
     }
 
+    /// Moves until forces balance, or leave no more than `enough` on the mean.
     /// @return whether there was time enough
-    bool make_round(const Progress& progress, int most)
+    bool make_round(double enough, const Progress& progress, int most)
     {
-        for (int move = 0; move == 0 || (move < k_most_round_moves && !residual_.is_at_rest()); ++move) {
+        for (int move = 0; move == 0 || (move < k_most_round_moves && !is_balanced(enough)); ++move) {
             if (!progress.goes_on(double(moves_) / most))
                 return false;
             make_move();
@@ -110,6 +120,8 @@ private:
         }
         return true;
     }
+
+    bool is_balanced(double enough) const { return residual_.mean < enough || residual_.is_at_rest(); }
 
     void go_back()
     {
@@ -125,12 +137,20 @@ private:
         return found_at_.rows() == 0 || (x - found_at_).rowwise().norm().maxCoeff() > k_contact_reach;
     }
 
+    /// What is further apart does not come to block motion before contacts are found anew.
+    double guarded_distance() const
+    {
+        return k_blocking_distance * motion_.options_.min_distance + 2 * k_contact_reach;
+    }
+
     void find_contacts()
     {
         motion_.contact_.detect(motion_.x_, Positions::Zero(motion_.x_.rows(), 3), motion_.contact_margins());
-        contacts_ = motion_.find_active_contacts(motion_.x_, k_blocking_distance * motion_.options_.min_distance);
+        contacts_ = motion_.find_active_contacts(motion_.x_, guarded_distance());
         for (ActiveContact& contact : contacts_)  // motion must stay possible
-            contact.rest_distance = std::max(contact.rest_distance, k_least_gap * motion_.options_.min_distance);
+            contact.rest_distance = contact.is_guard
+                ? k_blocking_distance * motion_.options_.min_distance
+                : std::max(contact.rest_distance, k_least_gap * motion_.options_.min_distance);
         found_at_ = cloth();
     }
 
@@ -140,6 +160,8 @@ private:
         const Positions x = cloth();
         if (contacts_are_old(x))
             find_contacts();
+        else
+            motion_.relinearise(contacts_, guarded_distance());
         anchors_.set_active_contacts(find_active_contacts(x), x);
         forces_ = forces_at(x);
         residual_ = measure(forces_, energy_.masses());
