@@ -122,9 +122,19 @@ bool ContactDetector::is_searched(const SweptRegion& region) const
     return true;
 }
 
+// Whether the trees of the obstacle, which stands still most of the time, serve for that region as they are.
+bool ContactDetector::has_same_obstacle(const SweptRegion& region) const
+{
+    const auto obstacle = [&](const Positions& all) { return all.bottomRows(all.rows() - cloth_vertices_); };
+    return region_.start.rows() == region.start.rows() && region_.margins.obstacle == region.margins.obstacle
+        && obstacle(region_.start) == obstacle(region.start) && obstacle(region_.path) == obstacle(region.path);
+}
+
 void ContactDetector::refit_trees()
 {
     parallel_for(6, [&](int i) {
+        if (i % 2 == 1 && obstacle_is_fitted_)
+            return;
         Surface& s = i % 2 == 0 ? cloth_ : obstacle_;
         const double margin = i % 2 == 0 ? region_.margins.cloth : region_.margins.obstacle;
         const auto refit = [&](BoxTree& tree, Eigen::Index count, const auto& vertices_of) {
@@ -184,7 +194,8 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
     if (c.reason == ContactReason::self && share_a_vertex(c.vertices, split))
         return;
     const Corners corners = corners_of(region_.start, c.vertices);
-    const double near = approach_bound(region_.path, c.vertices, split) + sum_of(region_.margins, c.reason);
+    const double near
+        = (is_path_empty_ ? 0 : approach_bound(region_.path, c.vertices, split)) + sum_of(region_.margins, c.reason);
     if (are_surely_apart(c.kind, corners, near))
         return;
     c.distance = closest_points(c.kind, corners).distance;
@@ -195,13 +206,18 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
 void ContactDetector::detect(const Positions& x, const Positions& displacements, const Margins& margins)
 {
     if (!is_searched({ x, displacements, margins })) {
-        region_ = { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
+        SweptRegion region { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
+        obstacle_is_fitted_ = has_same_obstacle(region);
+        is_path_empty_ = displacements.isZero(0);
+        region_ = std::move(region);
         search();
     }
+    const bool stands_still = displacements.isZero(0);
     const Eigen::VectorXd moved = (x - region_.start).rowwise().norm();
     pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
         const Candidate& c = candidates_[i];
-        const double near = approach_bound(displacements, c.vertices, first_size(c.kind)) + sum_of(margins, c.reason);
+        const double near = (stands_still ? 0 : approach_bound(displacements, c.vertices, first_size(c.kind)))
+            + sum_of(margins, c.reason);
         if (c.distance - travel_bound(moved, c.kind, c.vertices) > near)
             return {};
         const ClosestPoints at = closest_points(c.kind, corners_of(x, c.vertices));

@@ -87,6 +87,7 @@ private:
     static Surface make_surface(const ContactSurface& surface, int offset);
     ContactReason reason_of(const std::array<int, 4>& vertices) const;
     bool is_searched(const SweptRegion& region) const;
+    bool has_same_obstacle(const SweptRegion& region) const;
     void refit_trees();
     void search();
     void find_vertex_faces(const Surface& a, const Surface& b, std::vector<Found>& parts);
@@ -98,6 +99,8 @@ private:
     Surface cloth_, obstacle_;
     Margins spare_;
     SweptRegion region_;  // the one searched last
+    bool is_path_empty_ = true;  // there
+    bool obstacle_is_fitted_ = false;  // its trees are those of the region
     std::vector<Candidate> candidates_;  // all pairs that may meet there
     std::array<std::unordered_set<std::uint64_t>, 2> ignored_;  // by kind: pairs of cloth that touched
     std::vector<ContactPair> pairs_;

@@ -5,19 +5,12 @@
 #include <limits>
 #include <numeric>
 
-#include "parallel.h"
-
 namespace garmentfit {
 namespace {
 
 constexpr int k_leaf_size = 4;  // unit: decides speed, and the order of pairs
 
 }  // namespace
-
-bool BoxTree::Bounds::meets(const Bounds& other) const
-{
-    return (low - other.high).max(other.low - high).maxCoeff() <= 0;
-}
 
 void BoxTree::Bounds::extend(const Bounds& other)
 {
@@ -111,58 +104,6 @@ std::vector<int> BoxTree::front(int size) const
         nodes.push_back(node.first + 1);
     }
     return nodes;
-}
-
-template <class F>
-void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
-{
-    const Node &x = a.nodes_[na], &y = b.nodes_[nb];
-    if (!x.box.meets(y.box))
-        return;
-    if (x.count > 0 && y.count > 0) {
-        for (int i = x.first; i < x.first + x.count; ++i)
-            for (int j = y.first; j < y.first + y.count; ++j)
-                if (a.boxes_[i].meets(b.boxes_[j]))
-                    f(a.order_[i], b.order_[j]);
-    } else if (y.count > 0 || (x.count == 0 && x.box.girth() >= y.box.girth())) {
-        descend(a, x.first, b, nb, f);
-        descend(a, x.first + 1, b, nb, f);
-    } else {
-        descend(a, na, b, y.first, f);
-        descend(a, na, b, y.first + 1, f);
-    }
-}
-
-// Pairs within one subtree, each once.
-template <class F>
-void BoxTree::descend(int node, const F& f) const
-{
-    const Node& x = nodes_[node];
-    if (x.count == 0) {
-        descend(x.first, f);
-        descend(x.first + 1, f);
-        descend(*this, x.first, *this, x.first + 1, f);
-        return;
-    }
-    for (int i = x.first; i < x.first + x.count; ++i)
-        for (int j = i + 1; j < x.first + x.count; ++j)
-            if (boxes_[i].meets(boxes_[j]))
-                f(order_[i], order_[j]);
-}
-
-void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
-{
-    if (a.empty() || b.empty())
-        return;
-    const std::vector<int> roots = a.front(k_parts);
-    parallel_for(int(roots.size()), [&](int part) {
-        const auto f = [&](int i, int j) { visit(part, i, j); };
-        if (&a != &b)
-            return descend(a, roots[part], b, 0, f);
-        a.descend(roots[part], f);
-        for (std::size_t other = part + 1; other < roots.size(); ++other)
-            descend(a, roots[part], a, roots[other], f);
-    });
 }
 
 }  // namespace garmentfit

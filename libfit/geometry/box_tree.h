@@ -6,10 +6,10 @@
 // starts from nothing (docs/decisions/0016-trees.md). Static items have MedianTree.
 
 #include <Eigen/Geometry>
-#include <functional>
 #include <vector>
 
 #include "garmentfit/types.h"
+#include "parallel.h"
 
 namespace garmentfit {
 
@@ -29,8 +29,8 @@ public:
     /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`. Where `a` and `b` are
     /// one tree, each pair of two primitives comes once. The search consists of k_parts parts that run on all threads.
     /// Visits of one part come in a fixed order, so results gathered by part are the same for any number of threads.
-    using Visit = std::function<void(int part, int i, int j)>;
     static constexpr int k_parts = 64;  ///< unit: enough to keep all threads busy; decides speed only
+    template <class Visit>
     static void overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit);
 
 private:
@@ -38,7 +38,7 @@ private:
     /// fills the registers of wide instructions.
     struct Bounds {
         Eigen::Array4f low, high;
-        bool meets(const Bounds& other) const;
+        bool meets(const Bounds& other) const { return (low - other.high).max(other.low - high).maxCoeff() <= 0; }
         float girth() const;
         void extend(const Bounds& other);
     };
@@ -58,5 +58,58 @@ private:
     std::vector<int> order_;
     std::vector<Bounds> boxes_;  // in the order of order_
 };
+
+template <class F>
+void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
+{
+    const Node &x = a.nodes_[na], &y = b.nodes_[nb];
+    if (!x.box.meets(y.box))
+        return;
+    if (x.count > 0 && y.count > 0) {
+        for (int i = x.first; i < x.first + x.count; ++i)
+            for (int j = y.first; j < y.first + y.count; ++j)
+                if (a.boxes_[i].meets(b.boxes_[j]))
+                    f(a.order_[i], b.order_[j]);
+    } else if (y.count > 0 || (x.count == 0 && x.box.girth() >= y.box.girth())) {
+        descend(a, x.first, b, nb, f);
+        descend(a, x.first + 1, b, nb, f);
+    } else {
+        descend(a, na, b, y.first, f);
+        descend(a, na, b, y.first + 1, f);
+    }
+}
+
+// Pairs within one subtree, each once.
+template <class F>
+void BoxTree::descend(int node, const F& f) const
+{
+    const Node& x = nodes_[node];
+    if (x.count == 0) {
+        descend(x.first, f);
+        descend(x.first + 1, f);
+        descend(*this, x.first, *this, x.first + 1, f);
+        return;
+    }
+    for (int i = x.first; i < x.first + x.count; ++i)
+        for (int j = i + 1; j < x.first + x.count; ++j)
+            if (boxes_[i].meets(boxes_[j]))
+                f(order_[i], order_[j]);
+}
+
+template <class Visit>
+void BoxTree::overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit)
+{
+    if (a.empty() || b.empty())
+        return;
+    const std::vector<int> roots = a.front(k_parts);
+    parallel_for(int(roots.size()), [&](int part) {
+        const auto f = [&](int i, int j) { visit(part, i, j); };
+        if (&a != &b)
+            return descend(a, roots[part], b, 0, f);
+        a.descend(roots[part], f);
+        for (std::size_t other = part + 1; other < roots.size(); ++other)
+            descend(a, roots[part], a, roots[other], f);
+    });
+}
 
 }  // namespace garmentfit
