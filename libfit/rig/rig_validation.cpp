@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "garmentfit/error.h"
@@ -127,11 +126,18 @@ double foot_forwards(const Skeleton& s, bool is_right, const Vec3& up, const Vec
     return (s.tips[is_right ? rfoot_tip : lfoot_tip] - s.tail(shin)).dot(before_shin) / along_shin.norm();
 }
 
-/// How far the foot that points backward most does so, as foot_forwards(); 0 where none does.
-double foot_backwards(const Skeleton& s)
+/// How far each foot points backwards, as foot_forwards(); negative where it points forwards.
+struct FeetBackwards {
+    double left, right;
+
+    bool is_one() const { return std::max(left, right) > k_most_foot_backwards; }
+    bool are_both() const { return std::min(left, right) > k_most_foot_backwards; }
+};
+
+FeetBackwards feet_backwards(const Skeleton& s)
 {
     const Vec3 up = s.tail(thorax) - s.root, front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(up).normalized();
-    return std::max({ 0.0, -foot_forwards(s, false, up, front), -foot_forwards(s, true, up, front) });
+    return { -foot_forwards(s, false, up, front), -foot_forwards(s, true, up, front) };
 }
 
 constexpr const char* k_foot_backwards_text = "a foot points backwards";
@@ -149,16 +155,6 @@ void check_proportions(const Skeleton& skeleton)
 double distance_from_body(const BodyMesh& body, const TriangleTree& skin, const Vec3& joint, double height)
 {
     return winding_number(body.closed, joint) > 0.5 ? 0 : skin.distance(joint) / height;
-}
-
-// A skeleton with left and right exchanged has its front behind. Feet that point down or have no toes tell nothing.
-bool feet_point_backwards(const Skeleton& skeleton, const Vec3& hips)
-{
-    const Vec3 front = hips.cross(skeleton.tail(thorax) - skeleton.root).normalized();
-    double forwards = 0;
-    for (const auto& [tip, shin] : { std::pair(lfoot_tip, ltibia), std::pair(rfoot_tip, rtibia) })
-        forwards += (skeleton.tips[tip] - skeleton.tail(shin)).normalized().dot(front) / 2;
-    return forwards < -k_feet_backwards;
 }
 
 /// A pelvis lies at the lower end of the spine. That of a wrong map lies in the chest or on the floor.
@@ -190,10 +186,9 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
         refuse("the left hip and the left shoulder lie on different sides");
     if (is_pelvis_far(skeleton))
         refuse("the pelvis does not lie at the hips");
-    if (feet_point_backwards(skeleton, hips))
-        refuse("the feet point backwards, so left and right seem to be exchanged");
-    if (foot_backwards(skeleton) > k_most_foot_backwards)
-        refuse(k_foot_backwards_text);
+    if (const FeetBackwards feet = feet_backwards(skeleton); feet.is_one())
+        refuse(feet.are_both() ? "the feet point backwards, so left and right seem to be exchanged"
+                               : k_foot_backwards_text);
     for (int bone = 0; bone < bone_count; ++bone)
         if (const double off = distance_from_body(body, tree, skeleton.tail(bone), height);
             !(off < k_farthest_own_joint))
@@ -229,7 +224,9 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
         const double difference = std::abs(pair.left - pair.right) / std::max(pair.left, pair.right);
         count(std::max(0.0, difference - k_side_tolerance) / k_sides_excess, pair.text());
     }
-    count(std::max(0.0, foot_backwards(skeleton) - k_most_foot_backwards) / k_feet_excess, k_foot_backwards_text);
+    const FeetBackwards feet = feet_backwards(skeleton);
+    count(std::max(0.0, std::max(feet.left, feet.right) - k_most_foot_backwards) / k_feet_excess,
+          k_foot_backwards_text);
     const double inside = share_inside(closed, skeleton);
     count(std::max(0.0, k_inside_share - inside) / k_outside_excess,
           "only " + fixed_text(inside, 2) + " of the skeleton lies inside it");
@@ -241,7 +238,7 @@ HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleto
 
 void check_feet(const Skeleton& skeleton)
 {
-    if (foot_backwards(skeleton) > k_most_foot_backwards)
+    if (feet_backwards(skeleton).is_one())
         throw InvalidInput(ErrorCode::not_human,
                            std::string("body: ") + k_foot_backwards_text
                                + "; give a whole human body whose limbs do not merge, or give joints");

@@ -192,8 +192,6 @@ inline constexpr double k_side_tolerance = 0.2;
 /// shortest limb bone of one. fitted: guess; the joints of a wrong map lie tenths off
 inline constexpr double k_farthest_own_joint = 0.05, k_shortest_own_bone = 0.02;
 
-/// Cosine between the front and the mean direction of the feet, from which they point backwards. fitted: guess
-inline constexpr double k_feet_backwards = 0.3;
 /// Share of the shin's length: how far a foot may point backwards; right feet point .02 to 1.1 forwards. fitted: guess,
 /// on one figure whose toes were taken for a heel
 inline constexpr double k_most_foot_backwards = 0.15;

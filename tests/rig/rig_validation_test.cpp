@@ -104,6 +104,9 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
         std::swap(mirrored.skeleton.tails[left], mirrored.skeleton.tails[mirror_of(left)]);
     std::swap(mirrored.skeleton.tips[lfoot_tip], mirrored.skeleton.tips[rfoot_tip]);
     expect_invalid([&] { check_skeleton(body, mirrored.skeleton); }, "exchanged");
+    Person heel = person;
+    heel.skeleton.tips[lfoot_tip] -= 2 * Vec3(0, 0, (heel.skeleton.tips[lfoot_tip] - heel.skeleton.tail(ltibia)).z());
+    expect_invalid([&] { check_skeleton(body, heel.skeleton); }, "a foot points backwards");
     Person in_chest = person;
     in_chest.skeleton.root = person.skeleton.tail(upperback);
     expect_invalid([&] { check_skeleton(body, in_chest.skeleton); }, "pelvis");
