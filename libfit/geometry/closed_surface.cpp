@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -307,9 +308,9 @@ bool is_solid(const CgalMesh& mesh)
     return mesh.number_of_faces() > 3 && CGAL::is_closed(mesh) && std::abs(pmp::volume(mesh)) > 0;
 }
 
-Body wrapped_body(const TriangleMesh& surface, double alpha)
+Body wrapped_body(const TriangleMesh& surface, double alpha, const std::function<void(std::size_t)>& watch = {})
 {
-    return main_body(to_cgal(wrap_surface(surface, alpha, k_wrap_offset)));
+    return main_body(to_cgal(wrap_surface(surface, alpha, k_wrap_offset, watch)));
 }
 
 /// Wraps a body in parts, wider and wider gaps until nothing large lies apart.
@@ -356,11 +357,17 @@ double share_covered(const TriangleMesh& surface, const TriangleMesh& closed, do
 
 }  // namespace
 
-std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps)
+std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps, const Progress& progress)
 {
+    struct TooManyPoints { };
+    const auto watch = [&](std::size_t points) {
+        progress.at(double(points) / k_most_joined);
+        if (points > k_most_joined)
+            throw TooManyPoints();
+    };
     const double near = k_cover_distance * diagonal(surface.positions);
     try {
-        const CgalMesh mesh = wrapped_body(surface, gaps == Gaps::wide ? k_join_wide : k_join_narrow).mesh;
+        const CgalMesh mesh = wrapped_body(surface, gaps == Gaps::wide ? k_join_wide : k_join_narrow, watch).mesh;
         if (!is_solid(mesh))
             return {};
         TriangleMesh closed = orient_outwards(from_cgal(mesh));
@@ -368,6 +375,8 @@ std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps)
             return closed;
     } catch (const CGAL::Failure_exception&) {
         // another wrap may do
+    } catch (const TooManyPoints&) {
+        // what it wraps is no body in parts
     }
     return {};
 }

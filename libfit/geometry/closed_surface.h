@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "garmentfit/progress.h"
 #include "garmentfit/types.h"
 
 namespace garmentfit {
@@ -15,7 +16,8 @@ TriangleMesh close_surface(const TriangleMesh& surface, bool& repaired);
 enum class Gaps { narrow, wide };
 
 /// Wraps a surface in parts as one body. Nothing where the largest piece of the wrap does not hold nearly all of the
-/// surface. Up to a second for wide gaps, a few for narrow ones.
-std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps);
+/// surface, or where folds and layers give the wrap far more points than a body has. Up to a second for wide gaps, ten
+/// for narrow ones. @throws as `progress`
+std::optional<TriangleMesh> join_parts(const TriangleMesh& surface, Gaps gaps, const Progress& progress = {});
 
 }  // namespace garmentfit

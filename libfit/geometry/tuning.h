@@ -81,6 +81,9 @@ inline constexpr double k_wide_wrap_alphas[] = { 0.025, 0.05 };
 /// The same where no human is found in a body in parts: the narrow wrap keeps arms off the trunk. fitted: guess, on
 /// figures of 2 to 94 parts.
 inline constexpr double k_join_narrow = 0.005, k_join_wide = 0.025;
+/// Points that CGAL puts into such a wrap before it is given up. Figures that the narrow wrap helped have up to 25,000;
+/// tangled hair, clothes and layers cost half a minute. fitted: guess, on eight bodies of strangers.
+inline constexpr std::size_t k_most_joined = 35'000;
 /// Samples of a surface, how near a closed surface has to be, a share of the diagonal, and the least share of samples
 /// there, where it counts as joined. fitted: guess.
 inline constexpr int k_cover_samples = 400;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "body_graph.h"
@@ -360,12 +361,11 @@ private:
     double score_ = 0;
 };
 
-/// A figure in what was contracted for a human, in finer and coarser copies, or, of a body in parts, in other ways to
-/// join them. @throws `refusal` when there is none.
-Rig find_figure(const BodyMesh& body, const RigOptions& options, Copies& copies, const InvalidInput& refusal,
-                const Progress& progress)
+/// Looks at what was contracted for a human, at finer and coarser copies, and, of a body in parts, at other ways to join
+/// them.
+void look_for_figures(FigureSearch& search, const BodyMesh& body, const RigOptions& options, Copies& copies,
+                      const Progress& progress)
 {
-    FigureSearch search(options);
     for (const Contracted& copy : copies.all())
         search.look_at(copy);
     for (; copies.has_more() && !search.is_sure(); progress.at(0.2))
@@ -380,7 +380,8 @@ Rig find_figure(const BodyMesh& body, const RigOptions& options, Copies& copies,
         if (!body.repaired || search.is_sure())
             break;
         try {
-            if (const std::optional<TriangleMesh> joined = join_parts(body.surface, gaps)) {
+            if (const std::optional<TriangleMesh> joined
+                = join_parts(body.surface, gaps, progress.part(done, done + 0.15))) {
                 TriangleMesh proxy = proxy_surface(*joined, options.proxy_vertices);
                 search.look_at(contract(std::move(proxy), progress.part(done + 0.15, done + 0.3)),
                                gaps == Gaps::wide ? k_wide_wrap_cost : 0);
@@ -389,6 +390,21 @@ Rig find_figure(const BodyMesh& body, const RigOptions& options, Copies& copies,
             // this wrap does not contract to curves
         }
         progress.at(done += 0.3);
+    }
+}
+
+/// @throws `refusal` when there is none, also where the time ends before all is looked at: why it is no human says more.
+Rig find_figure(const BodyMesh& body, const RigOptions& options, Copies& copies, const InvalidInput& refusal,
+                const Progress& progress)
+{
+    FigureSearch search(options);
+    try {
+        look_for_figures(search, body, options, copies, progress);
+    } catch (const TimeLimitReached&) {
+        if (search.has_found())
+            throw;
+        throw InvalidInput(refusal.code(),
+                           std::string(refusal.what()) + " (nor was another figure found within the time limit)");
     }
     if (!search.has_found())
         throw refusal;

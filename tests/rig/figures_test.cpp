@@ -3,11 +3,14 @@
 // Bodies that have two arms, two legs and a trunk, but not a human's proportions.
 
 #include <algorithm>
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 
@@ -122,6 +125,41 @@ TEST(Figures, JointsOfACartoonAreTakenWhereAllAreGiven)
     EXPECT_NE(rig.not_human.find("arm to leg"), std::string::npos) << rig.not_human;
     options.humanlike = Humanlike::strict;
     fixtures::expect_invalid([&] { rig_body(body, options); }, "a human has");
+}
+
+/// A tube in two parts with open ends.
+TriangleMesh open_tubes()
+{
+    const GarmentMesh tube = fixtures::sleeve_round(fixtures::capsule_person().skeleton, lfemur, 0.08, 0, 0.5);
+    const Eigen::Index n = tube.positions.rows(), m = tube.triangles.rows();
+    TriangleMesh both { Positions(2 * n, 3), Triangles(2 * m, 3) };
+    both.positions << tube.positions, tube.positions.rowwise() + Vec3(0, 0.51, 0).transpose();
+    both.triangles << tube.triangles, (tube.triangles.array() + int(n)).matrix();
+    return both;
+}
+
+TEST(Figures, WhyABodyIsNoHumanIsSaidWhereTheTimeForFiguresEnds)
+{
+    const TriangleMesh mesh = open_tubes();
+    const BodyMesh body = make_body(mesh.positions, mesh.triangles);
+    std::string refusal;
+    for (double seconds = 2; refusal.empty() && seconds < 100; seconds *= 2)  // until no human was found in time
+        try {
+            const Deadline deadline = Deadline::in(seconds);
+            const auto wait_in_search = [&](double fraction, std::string_view) {
+                while (fraction > 0.971 && !deadline.has_passed())  // figures come last
+                    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                return true;
+            };
+            rig_body(body, { .proxy_vertices = 1000 }, Progress(wait_in_search).until(deadline));
+            FAIL() << "rigged";
+        } catch (const TimeLimitReached&) {
+            continue;
+        } catch (const InvalidInput& error) {
+            refusal = error.what();
+        }
+    EXPECT_NE(refusal.find("give a human body"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("within the time limit"), std::string::npos) << refusal;
 }
 
 TEST(Slow, StrictRefusesApes)
