@@ -17,6 +17,7 @@ using nlohmann::ordered_json;
 // literature: glTF 2.0, sec. 4.4: "JSON", "BIN\0"
 constexpr std::uint32_t k_json_type = 0x4E4F534A;
 constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;  // literature: glTF 2.0, sec. 4.4
+constexpr std::size_t k_most_padding = 3;  // literature: the same
 constexpr int k_deepest_json = 100;  // unit: files of exporters stay below 20, and the parser recurses on the stack
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian, and read as it is");
@@ -138,6 +139,21 @@ std::string chunk_bytes(std::uint32_t type, const std::string& bytes)
     return word_bytes(bytes.size()) + word_bytes(type) + bytes;
 }
 
+/// Some exporters say the length of the buffer before they put the last views into it. The chunk has them all.
+void lengthen_own_buffer(GltfContainer& container)
+{
+    const std::string* const own = container.own_buffer();
+    if (!own || !container.json.is_object() || !container.json.contains("buffers"))
+        return;
+    ordered_json& buffers = container.json["buffers"];
+    if (!buffers.is_array() || buffers.empty() || !buffers[0].is_object() || buffers[0].contains("uri"))
+        return;
+    const auto length = buffers[0].find("byteLength");
+    if (length != buffers[0].end() && length->is_number_unsigned()
+        && length->get<std::size_t>() + k_most_padding < own->size())
+        *length = own->size();
+}
+
 }  // namespace
 
 std::string* GltfContainer::own_buffer()
@@ -153,6 +169,7 @@ GltfContainer read_gltf_container(const FileBytes& file)
         container.chunks = read_chunks(file);
         container.json = parse(file, container.chunks.front().bytes);
         container.chunks.erase(container.chunks.begin());
+        lengthen_own_buffer(container);
     } else {
         container.json = parse(file, file.bytes);
         const std::size_t line_break = file.bytes.find('\n');

@@ -202,6 +202,18 @@ TEST_F(Io, WritesGltfInOneFileWhereverItsBufferLay)
     EXPECT_NE(text.find("\"lost.png\""), std::string::npos) << text;
 }
 
+TEST_F(Io, ReadsAllOfTheChunkOfAGlbWhoseBufferIsSaidToBeShorter)
+{
+    const std::string json = samples::gltf_json(""),
+                      length = "\"byteLength\":" + std::to_string(samples::gltf_buffer().size());
+    const MeshFile whole = read("a.glb", samples::glb(json));
+    const MeshFile shorter = read("a.glb", samples::glb(with(json, length, "\"byteLength\":20")));
+    EXPECT_EQ(shorter.positions(), whole.positions());
+    shorter.write(folder / "b.glb", whole.positions());
+    EXPECT_EQ(MeshFile::read(folder / "b.glb").positions(), whole.positions());
+    expect_complaint("a.glb", samples::glb(with(json, length, "\"byteLength\":20000")), "glb");
+}
+
 TEST_F(Io, AMirroringNodeOfGltfTurnsItsFacesOver)
 {
     const MeshFile mesh = read("a.glb", samples::glb(with(samples::gltf_json(""), "[2,2,2]", "[-2,2,2]")));
