@@ -14,6 +14,7 @@
 #include "gltf_unpack.h"
 #include "joint_names.h"
 #include "joints_by_tree.h"
+#include "missing_ends.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -64,17 +65,6 @@ FileSkin name_by_vrm(FileSkin skin, const ordered_json& json)
     return skin;
 }
 
-using NamedJoints = std::vector<std::optional<NamedJoint>>;  // of each row of a FileSkin
-
-/// The first row of that kind, parents first; -1: none.
-int row_of(const NamedJoints& joints, JointKind kind, int side)
-{
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j] && joints[j]->kind == kind && joints[j]->side == side)
-            return int(j);
-    return -1;
-}
-
 bool has_all_joints(const NamedJoints& joints)
 {
     bool all = row_of(joints, JointKind::pelvis, 0) >= 0 && row_of(joints, JointKind::head, 0) >= 0;
@@ -113,14 +103,16 @@ UnnamedJoints unnamed(const FileSkin& skin)
 /// Finds the bones of Skeleton among the joints of another rig.
 class Translation {
 public:
-    Translation(const FileBytes& file, const FileSkin& skin) :
-        file_(file), skin_(skin), joints_(recognize_joints(skin.names))
+    Translation(const FileBytes& file, FileSkin skin) :
+        file_(file), skin_(std::move(skin)), joints_(recognize_joints(skin_.names))
     {
         if (has_all_joints(joints_))
             return;
-        if (auto joints = joints_by_tree(unnamed(skin)); !joints.empty()) {
+        if (auto joints = joints_by_tree(unnamed(skin_)); !joints.empty()) {
             joints_ = std::move(joints);
             by_tree_ = true;
+        } else {
+            add_missing_ends(skin_, joints_);
         }
     }
 
@@ -280,7 +272,7 @@ private:
     }
 
     const FileBytes& file_;
-    const FileSkin& skin_;
+    FileSkin skin_;
     NamedJoints joints_;
     bool by_tree_ = false;  ///< the names said nothing
     Skeleton skeleton_;
@@ -301,8 +293,7 @@ ForeignRig read_skinned_gltf(const std::filesystem::path& path)
     const FileBytes file = read_file(path);
     const GltfContainer container = read_plain_gltf(file, path.parent_path());
     const tinygltf::Model model = load_model(file, container, path.parent_path());
-    const FileSkin skin = read_named_skin(file, model, container.json);
-    return Translation(file, skin).rig();
+    return Translation(file, read_named_skin(file, model, container.json)).rig();
 }
 
 }  // namespace garmentfit

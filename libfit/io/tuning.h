@@ -74,6 +74,17 @@ inline constexpr int k_skin_samples = 12;
 /// guess, on the skeletons of Mixamo and MakeHuman.
 inline constexpr double k_neck_above_shoulders = 0.7;
 
+// A skeleton whose names lack a hand, foot or head.
+/// Dimensionless, shares of the farthest skin: between them it lies along the bone. fitted: guess, on one figure each.
+inline constexpr double k_limb_middle[] = { 0.2, 0.7 };
+/// Dimensionless. The length of a shin as a share of that from the knee to the sole [drillis_1966_segments].
+inline constexpr double k_shin_to_sole = 0.86;
+/// Dimensionless. The length of a forearm as a share of the upper arm's [drillis_1966_segments], and the least and the
+/// largest as a share of that from the elbow to the fingertips. fitted: guess.
+inline constexpr double k_forearm_to_upper_arm = 0.8, k_forearm_to_fingertip[] = { 0.5, 0.8 };
+/// Dimensionless. From the neck's lowest joint to the head's as a share of that to the crown. fitted: guess.
+inline constexpr double k_neck_to_crown = 0.35;
+
 /// Dimensionless. From the ankle to the tip of the foot, and from the wrist to the tip of the hand: where the toes and
 /// the fingers begin. fitted: guess.
 inline constexpr double k_ball_of_foot = 0.65, k_knuckles = 0.45;

@@ -16,8 +16,7 @@ using namespace garmentfit;
 TriangleMesh ball(double x)
 {
     const Vec3 corner = Vec3::Constant(0.6);
-    TriangleMesh mesh
-        = fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.5; }, Vec3(-corner), corner, 0.1);
+    TriangleMesh mesh = fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.5; }, Vec3(-corner), corner, 0.1);
     mesh.positions.col(0).array() += x;
     return mesh;
 }
