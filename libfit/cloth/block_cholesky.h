@@ -26,6 +26,9 @@ public:
     BlockCholesky(int count, const std::vector<std::pair<int, int>>& pairs);
 
     void set_zero();
+    /// All blocks, to set them back later.
+    const std::vector<Eigen::Matrix3d>& blocks() const { return blocks_; }
+    void set_blocks(const std::vector<Eigen::Matrix3d>& blocks) { blocks_ = blocks; }
     /// The block of rows i and columns j, and of j and i, which must be symmetric in itself; nullptr where there is none.
     Eigen::Matrix3d* find(int i, int j);
 

@@ -78,6 +78,16 @@ Eigen::Matrix3d ClothEnergy::Spring::tangent(const Positions& x) const
     return stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
 }
 
+Vec3 ClothEnergy::Spring::tangent_times(const Positions& x, const Vec3& longer) const
+{
+    const Vec3 edge = (x.row(i) - x.row(j)).transpose();
+    const double square = edge.squaredNorm();
+    if (!(square > 0))
+        return Vec3::Zero();
+    const Vec3 along = edge.dot(longer) / square * edge;
+    return stiffness * (along + std::max(0.0, 1 - length / std::sqrt(square)) * (longer - along));
+}
+
 Eigen::Matrix3d ClothEnergy::FramedSum::frame(const Positions& x) const
 {
     return kind == Kind::hinge ? hinge_frame(x, v) : triangle_frame(x, v);
@@ -315,7 +325,7 @@ Positions ClothEnergy::tangent_times(const Positions& x, const Positions& displa
     Positions loads(springs_.size(), 3);
     const auto load = [&](Eigen::Index e) {
         const Spring& s = springs_[e];
-        loads.row(e) = (displacement.row(s.i) - displacement.row(s.j)) * s.tangent(x);
+        loads.row(e) = s.tangent_times(x, (displacement.row(s.i) - displacement.row(s.j)).transpose()).transpose();
     };
     parallel_for(loads.rows(), load, k_grain);
     return multiply(spring_gradients_, loads) + apply_framed_form(displacement);

@@ -35,6 +35,8 @@ public:
 
         /// Without the pressure of a compressed one, which would make the tangent indefinite [choi_2002_buckling].
         Eigen::Matrix3d tangent(const Positions& x) const;
+        /// The same times what its two ends move apart by.
+        Vec3 tangent_times(const Positions& x, const Vec3& longer) const;
     };
     /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
     struct FramedSum {

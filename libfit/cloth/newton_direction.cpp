@@ -19,18 +19,18 @@ Positions newton_direction(const ClothEnergy& energy, const TangentFactor& facto
     Positions way = factor.solve(left);
     double square = dot(left, way);
     const double enough = k_newton_tolerance * k_newton_tolerance * square;
+    bool is_enough = false;
     for (int i = 1; square > 0; ++i) {
         Positions resisting = energy.tangent_times(x, way);
         add_stiffness_times(constraints, way, resisting);
         const double length = square / dot(way, resisting);
         result += length * way;
-        if (i == k_newton_iterations)
+        if (is_enough || i == k_newton_iterations)
             break;
         left -= length * resisting;
         const Positions next = factor.solve(left);
         const double before = std::exchange(square, dot(left, next));
-        if (square <= enough)
-            break;
+        is_enough = square <= enough;  // the dear part of the next iteration, its solution, is done: go on with it
         way = next + square / before * way;
     }
     return result;

@@ -35,6 +35,9 @@ std::vector<std::pair<int, int>> ends_of(const std::vector<ClothEnergy::Spring>&
 TangentFactor::TangentFactor(const ClothEnergy& energy) :
     energy_(energy), matrix_(int(energy.masses().size()), ends_of(energy.springs()))
 {
+    for (const ClothEnergy::FramedSum& sum : energy_.framed_sums())
+        add_outer(sum.v, sum.coefficients, sum.stiffness * Eigen::Matrix3d::Identity());
+    framed_ = matrix_.blocks();
 }
 
 // Adds coefficients * coefficients^T, each entry times a block.
@@ -64,11 +67,9 @@ void TangentFactor::add_outer(const std::array<int, Count>& vertices, const std:
 void TangentFactor::factorise(const Positions& x, const std::vector<SoftConstraint>& constraints)
 {
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-    matrix_.set_zero();
+    matrix_.set_blocks(framed_);
     for (const ClothEnergy::Spring& spring : energy_.springs())
         add_outer<2>({ spring.i, spring.j }, { 1, -1 }, spring.tangent(x));
-    for (const ClothEnergy::FramedSum& sum : energy_.framed_sums())
-        add_outer(sum.v, sum.coefficients, sum.stiffness * identity);
     for (const SoftConstraint& constraint : constraints)
         add_outer(constraint.vertices, constraint.weights, stiffness_matrix(constraint));
     for (int v = 0; v < int(x.rows()); ++v)

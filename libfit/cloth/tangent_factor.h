@@ -39,6 +39,7 @@ private:
 
     const ClothEnergy& energy_;
     BlockCholesky matrix_;
+    std::vector<Eigen::Matrix3d> framed_;  // its blocks of hinges and ties alone, which do not change
 };
 
 }  // namespace garmentfit
