@@ -6,9 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-HEAD = """| outfit | nearest point | weights of clothes | nearest point, covered skin hidden | both | share | faces hidden |
-| --- | ---: | ---: | ---: | ---: | ---: | ---: |"""
-
+HEAD = """| outfit | nearest point | weights of clothes | nearest point, covered skin hidden | both | share | faces hidden \
+| skin out, nearest | skin out, weights | edges torn, nearest | edges torn, weights |
+| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"""
 
 HOLES_HEAD = """| outfit | faces hidden | pixels of skin | through | deep |
 | --- | ---: | ---: | ---: | ---: |"""
@@ -25,15 +25,19 @@ def measure(program: str, folder: Path) -> list:
 
 
 def row(name: str, results: list) -> tuple:
-    """Crossings of all garments and poses: nearest, ours, each with the whole body and with what is shown."""
-    total = [sum(result[rival][k] for result in results) for k in (0, 1) for rival in ("nearest", "ours")]
+    """Of all garments and poses, nearest and ours: crossings with the whole body and with what is shown; skin that came
+    out; edges torn."""
+    rivals = "nearest", "ours"
+    crossings = [sum(result[rival]["crossings"][k] for result in results) for k in (0, 1) for rival in rivals]
+    others = [sum(result[rival][what] for result in results) for what in ("out", "torn") for rival in rivals]
     hidden = sum(1 - result["shown_faces"] / result["faces"] for result in results) / len(results)
-    return name, *total, hidden
+    return name, *crossings, hidden, *others
 
 
-def line(name: str, nearest: int, ours: int, nearest_shown: int, ours_shown: int, hidden: float) -> str:
+def line(name: str, nearest: int, ours: int, nearest_shown: int, ours_shown: int, hidden: float, *others: int) -> str:
     share = f"{ours_shown / nearest:.2f}" if nearest else "-"
-    return f"| {name} | {nearest} | {ours} | {nearest_shown} | {ours_shown} | {share} | {hidden:.0%} |"
+    columns = [name, nearest, ours, nearest_shown, ours_shown, share, f"{hidden:.0%}", *others]
+    return "| " + " | ".join(map(str, columns)) + " |"
 
 
 def holes_row(name: str, results: list) -> tuple:
@@ -64,7 +68,8 @@ def main(program: str, *outfits: str) -> None:
         rows.append(row(name, measure(program, Path(folder))))
         print(line(*rows[-1]), flush=True)
     sums = [sum(column) for column in list(zip(*rows))[1:]]
-    print(line("all", *sums[:-1], sums[-1] / len(rows)))
+    sums[4] /= len(rows)
+    print(line("all", *sums))
 
 
 if __name__ == "__main__":

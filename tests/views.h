@@ -27,7 +27,7 @@ public:
         seen.assign(depths.size(), Seen::nothing);
     }
 
-    /// Faces wound against the clock from outside.
+    /// Faces wound against the clock from outside. A side that shows `nothing` is not drawn.
     void add(const Positions& positions, const Triangles& triangles, Seen front, Seen back)
     {
         for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -51,7 +51,7 @@ private:
     {
         const Eigen::Vector2d a = corners.col(0).head<2>(), b = corners.col(1).head<2>(), c = corners.col(2).head<2>();
         const double area = cross(b - a, c - a);
-        if (area == 0)
+        if (area == 0 || (area > 0 ? front : back) == Seen::nothing)
             return;
         const auto first = [&](int axis) { return std::max(0, int(std::ceil(corners.row(axis).minCoeff() - 0.5))); };
         const auto last
@@ -126,6 +126,22 @@ inline Holes holes_seen(const Worn& worn, const Vec3& direction, int pixels)
             holes.deep += shown.seen[p] == Seen::cloth && shown.depths[p] > whole.depths[p] + k_far_behind;
         }
     return holes;
+}
+
+/// Pixels that show skin with cloth right under it: skin that came out of the cloth.
+inline long skin_before_cloth(const TriangleMesh& body, const TriangleMesh& cloth, const Vec3& direction, int pixels)
+{
+    Positions all(body.positions.rows() + cloth.positions.rows(), 3);
+    all << body.positions, cloth.positions;
+    View clothes(direction, pixels, all), front(direction, pixels, all), back(direction, pixels, all);
+    clothes.add(cloth.positions, cloth.triangles, Seen::cloth, Seen::cloth);
+    front.add(body.positions, body.triangles, Seen::skin, Seen::inside_of_skin);
+    back.add(body.positions, body.triangles, Seen::nothing, Seen::inside_of_skin);
+    long count = 0;
+    for (std::size_t p = 0; p < front.seen.size(); ++p)
+        count
+            += front.seen[p] == Seen::skin && front.depths[p] < clothes.depths[p] && clothes.depths[p] < back.depths[p];
+    return count;
 }
 
 /// Number `i` of `count` directions, evenly over the sphere: a Fibonacci lattice.

@@ -40,11 +40,11 @@ void require_valid(const TriangleMesh& body, const JointWeights& weights, const 
                            "garment: " + std::to_string(worn.rows()) + " vertices as worn, "
                                + std::to_string(garment.positions.rows())
                                + " as given; give the same vertices in the same order");
-    if (!(options.reach > 0) || !(options.largest_angle > 0 && options.largest_angle < 90)
-        || options.joints_per_vertex < 1 || options.joints_per_vertex > k_most_joints)
-        throw InvalidInput(ErrorCode::out_of_range,
-                           "weights of a garment: give a reach above 0, an angle between 0 and 90 degrees, and 1 to 8 "
-                           "joints per vertex");
+    if (!(options.largest_angle > 0 && options.largest_angle < 90) || options.joints_per_vertex < 1
+        || options.joints_per_vertex > k_most_joints)
+        throw InvalidInput(
+            ErrorCode::out_of_range,
+            "weights of a garment: give an angle between 0 and 90 degrees, and 1 to 8 joints per vertex");
     for (Eigen::Index v = 0; v < weights.rows(); ++v)
         if (!(std::abs(weights.row(v).sum() - 1) < k_row_sum_precision))
             throw InvalidInput(ErrorCode::bad_rig,
@@ -91,20 +91,33 @@ struct Sides {
     bool fits(double cosine) const { return is_two_sheets() || (cosine > 0) == (inside >= outside); }
 };
 
-/// Vertices of the cloth that lie close to skin of the same direction.
-std::vector<char> find_matches(const std::vector<Foot>& feet, DisjointSets& pieces, double reach, double least_cosine)
+/// Of each piece of cloth, by its root, which of its sides the skin within `reach` lies on.
+std::vector<Sides> sides_of(const std::vector<Foot>& feet, DisjointSets& pieces, double reach, double least_cosine)
 {
     std::vector<Sides> sides(feet.size());
-    const auto is_near = [&](const Foot& foot, double distance) {
-        return foot.distance < distance && std::abs(foot.cosine) > least_cosine;
-    };
     for (int v = 0; v < int(feet.size()); ++v)
-        if (is_near(feet[v], k_wide_reach * reach))
+        if (feet[v].distance < reach && std::abs(feet[v].cosine) > least_cosine)
             ++(feet[v].cosine > 0 ? sides[pieces.root(v)].inside : sides[pieces.root(v)].outside);
-    std::vector<char> matches(feet.size());
-    for (int v = 0; v < int(feet.size()); ++v)
-        matches[v] = is_near(feet[v], reach) && sides[pieces.root(v)].fits(feet[v].cosine);
-    return matches;
+    return sides;
+}
+
+/// The weights of skin far away are smoothed more, as less is known which skin the cloth will follow.
+double pull_of(double distance, double close)
+{
+    const double length = k_smoothing_of_distance * std::max(distance, close);
+    return 1 / (length * length);
+}
+
+/// How firmly each vertex of the cloth is drawn to the weights of its foot: the nearer and the more alike in direction.
+Eigen::VectorXd pulls_to_skin(const std::vector<Foot>& feet, DisjointSets& pieces, const std::vector<Sides>& sides,
+                              double close, double least_cosine)
+{
+    Eigen::VectorXd pulls(Eigen::Index(feet.size()));
+    for (int v = 0; v < int(feet.size()); ++v) {
+        const double cosine = sides[pieces.root(v)].fits(feet[v].cosine) ? std::abs(feet[v].cosine) : 0;
+        pulls[v] = std::max(0.0, cosine - least_cosine) / (1 - least_cosine) * pull_of(feet[v].distance, close);
+    }
+    return pulls;
 }
 
 DisjointSets pieces_of(const GarmentMesh& cloth)
@@ -117,43 +130,42 @@ DisjointSets pieces_of(const GarmentMesh& cloth)
 }
 
 /// What is held by other cloth, such as a button, follows that cloth and not the skin.
-void release_held_pieces(const std::vector<Tie>& ties, DisjointSets& pieces, std::vector<char>& is_known)
+void release_held_pieces(const std::vector<Tie>& ties, DisjointSets& pieces, Eigen::VectorXd& pulls)
 {
-    std::vector<char> is_held(is_known.size(), 0);
+    std::vector<char> is_held(std::size_t(pulls.size()), 0);
     for (const Tie& tie : ties)
         if (!tie.is_seam)
             is_held[pieces.root(tie.vertex)] = 1;
-    for (int v = 0; v < int(is_known.size()); ++v)
+    for (int v = 0; v < int(pulls.size()); ++v)
         if (is_held[pieces.root(v)])
-            is_known[v] = 0;
+            pulls[v] = 0;
 }
 
-/// Cloth that hangs on nothing that is known follows the skin next to it.
-void anchor_the_rest(const std::vector<Foot>& feet, const std::vector<Tie>& ties, DisjointSets pieces,
-                     std::vector<char>& is_known)
+/// Cloth that nothing draws follows the skin next to it.
+void anchor_the_rest(const std::vector<Foot>& feet, const std::vector<Tie>& ties, DisjointSets pieces, double close,
+                     Eigen::VectorXd& pulls)
 {
     for (const Tie& tie : ties)
         for (const int corner : tie.corners)
             pieces.join(tie.vertex, corner);
-    std::vector<char> has_known(feet.size(), 0);
+    std::vector<char> is_drawn(feet.size(), 0);
     std::vector<int> nearest(feet.size(), -1);
     for (int v = 0; v < int(feet.size()); ++v) {
         int& best = nearest[pieces.root(v)];
-        has_known[pieces.root(v)] |= is_known[v];
+        is_drawn[pieces.root(v)] |= pulls[v] > 0;
         if (best < 0 || feet[v].distance < feet[best].distance)
             best = v;
     }
     for (int v = 0; v < int(feet.size()); ++v)
-        if (nearest[v] >= 0 && !has_known[v])
-            is_known[nearest[v]] = 1;
+        if (nearest[v] >= 0 && !is_drawn[v])
+            pulls[nearest[v]] = pull_of(feet[nearest[v]].distance, close);
 }
 
-Eigen::MatrixXd weights_at(const std::vector<Foot>& feet, const std::vector<char>& is_known, const TriangleMesh& body,
-                           const JointWeights& weights)
+Eigen::MatrixXd weights_at(const std::vector<Foot>& feet, const TriangleMesh& body, const JointWeights& weights)
 {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Eigen::Index(feet.size()), weights.cols());
     for (std::size_t v = 0; v < feet.size(); ++v)
-        for (int k = 0; k < 3 && is_known[v]; ++k)
+        for (int k = 0; k < 3; ++k)
             for (JointWeights::InnerIterator entry(weights, body.triangles(feet[v].triangle, k)); entry; ++entry)
                 result(Eigen::Index(v), entry.col()) += feet[v].corners[k] * entry.value();
     return result;
@@ -232,16 +244,17 @@ JointWeights garment_weights(const TriangleMesh& body, const JointWeights& body_
     const std::vector<Tie> ties
         = find_sewn_pieces(cloth, MeshTopology(cloth.triangles, int(cloth.positions.rows()))).ties;
     DisjointSets pieces = pieces_of(cloth);
-    const double reach = options.reach * diagonal(body.positions);
+    const double size = diagonal(body.positions), close = k_close_skin * size;
+    const double least_cosine = std::cos(options.largest_angle * std::numbers::pi / 180);
 
     const std::vector<Foot> feet = find_feet(body, worn_cloth, vertex_normals(worn_cloth, cloth.triangles));
-    std::vector<char> is_known
-        = find_matches(feet, pieces, reach, std::cos(options.largest_angle * std::numbers::pi / 180));
-    release_held_pieces(ties, pieces, is_known);
-    anchor_the_rest(feet, ties, pieces, is_known);
+    const std::vector<Sides> sides = sides_of(feet, pieces, k_side_reach * size, least_cosine);
+    Eigen::VectorXd pulls = pulls_to_skin(feet, pieces, sides, close, least_cosine);
+    release_held_pieces(ties, pieces, pulls);
+    anchor_the_rest(feet, ties, pieces, close, pulls);
 
-    Eigen::MatrixXd weights = weights_at(feet, is_known, body, body_weights);
-    inpaint(cloth, ties, is_known, k_wide_reach * reach, weights);
+    const Eigen::MatrixXd weights
+        = inpaint(cloth, ties, pulls, weights_at(feet, body, body_weights), k_stiff_length * size);
     return spread(weights, weld, options.joints_per_vertex);
 }
 

