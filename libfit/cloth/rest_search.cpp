@@ -72,12 +72,26 @@ public:
             if (after_rest >= 0 || (left.size() > 1 && residual_.is_at_rest() && is_still))
                 ++after_rest;
         }
-        if (!residual_.is_at_rest() && best_.rows() > 0)
+        if (!residual_.is_at_rest() && best_)
             go_back();
         return in_time;
     }
 
 private:
+    struct State {
+        ForceResidual residual;
+        Positions all;
+        Positions found_at;
+        FrictionAnchors anchors;
+        double grip;
+    };
+
+    /// A single vertex that is jammed may have more than all others together, so it does not decide.
+    static bool is_better(const ForceResidual& one, const ForceResidual& other)
+    {
+        return one.is_at_rest() != other.is_at_rest() ? one.is_at_rest() : one.percentile_99 < other.percentile_99;
+    }
+
     /// Single vertices may be anchored to and fro between two places for ever.
     static bool stands_still(const Positions& way)
     {
@@ -113,20 +127,22 @@ private:
             if (!progress.goes_on(double(moves_) / most))
                 return false;
             make_move();
-            if (residual_.mean < least_) {
-                least_ = residual_.mean;
-                best_ = motion_.x_;
-            }
+            if (!best_ || is_better(residual_, best_->residual))
+                best_ = { residual_, motion_.x_, found_at_, anchors_, grip_ };
         }
         return true;
     }
 
     bool is_balanced(double enough) const { return residual_.mean < enough || residual_.is_at_rest(); }
 
+    /// To the best state, with the contacts and the anchors that it was in balance with.
     void go_back()
     {
-        motion_.x_ = best_;
+        anchors_ = best_->anchors;
+        grip_ = best_->grip;
+        motion_.x_.topRows(motion_.cloth_vertices_) = best_->found_at;
         find_contacts();
+        motion_.x_ = best_->all;
         find_forces();
     }
 
@@ -279,9 +295,8 @@ private:
     FrictionAnchors anchors_;
     double grip_ = k_kinetic_friction;  // share of the friction coefficients
     int moves_ = 0, next_factor_ = 0;
-    double least_ = INFINITY;  // mean residual
-    Positions best_;  // all positions, there
-    Positions found_at_;
+    std::optional<State> best_;
+    Positions found_at_;  // the cloth, when contacts were found
     std::vector<ActiveContact> contacts_;
     std::vector<SoftConstraint> constraints_;  // of the last forces_at()
     Positions forces_;  // where the cloth is

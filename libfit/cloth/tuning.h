@@ -146,7 +146,7 @@ inline constexpr int k_newton_iterations = 10;
 /// Share of the way from the minimum distance to where contact begins, within which a force grows without bound; and the
 /// share of that zone where it grows no further.
 /// fitted: guess: a jumpsuit, an outfit of two layers and a suit of the house data, whose searches ended in jams of 131,
-/// 158 and 5.8 weights, come to rest.
+/// 158 and 5.8 weights, come to rest, the jumpsuit and the suit not from every start.
 inline constexpr double k_barrier = 1. / 3, k_least_barrier = 1e-3;
 /// Minimum distances. What lies nearer comes to stop motion, so it is in contact in any case, if only from there on:
 /// otherwise the cut of motion carries a load that no force balances.

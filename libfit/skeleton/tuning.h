@@ -42,8 +42,8 @@ inline constexpr double k_second_sheet = 0.25;
 /// fitted: guess. Share of the diagonal of the body: skin this near shows which side of cloth is inside. Loose cloth may
 /// be near other limbs only, which it faces with its outside.
 inline constexpr double k_side_reach = 0.05;
-/// fitted: on P02, P04, P06, P08, P10 and P12, judged on the other six pairs (docs/outfits.md). Dimensionless: weights of
-/// skin are smoothed over this share of its distance from the cloth. Half or twice as much changes crossings by a tenth.
+/// fitted: on P02, P04, P06, P08, P10 and P12; the choice between 0.3 and 0.4 saw the other six, too (docs/outfits.md).
+/// Dimensionless: weights of skin are smoothed over this share of its distance from the cloth.
 inline constexpr double k_smoothing_of_distance = 0.4;
 /// fitted: as above. Shares of the diagonal of the body: skin nearer than this is as good as touched; and the length
 /// below which weights are smooth where nothing draws them (skin_inpainting.h).

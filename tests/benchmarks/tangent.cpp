@@ -24,7 +24,8 @@ struct Coat {
             mesh = Refinement(mesh).round(std::numeric_limits<std::size_t>::max());
         x = mesh.positions;
         const MeshTopology topology(mesh.triangles, int(x.rows()));
-        energy.emplace(GarmentMesh { x, mesh.triangles }, topology, std::vector<std::pair<int, int>> {}, ClothOptions());
+        energy.emplace(GarmentMesh { x, mesh.triangles }, topology, std::vector<std::pair<int, int>> {},
+                       ClothOptions());
         energy->set_time_step(0.5);
         factor.emplace(*energy);
         factor->factorise(x, {});
