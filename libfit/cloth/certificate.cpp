@@ -12,6 +12,7 @@
 #include "quantile.h"
 #include "stretch.h"
 #include "used_vertices.h"
+#include "weld.h"
 #include "winding_number.h"
 
 namespace garmentfit {
@@ -38,6 +39,7 @@ std::vector<Crossing> crossings(const IndexedMesh& a, const IndexedMesh& b)
 std::vector<Crossing> self_crossings(const IndexedMesh& a) { return find_self_crossings(a.mesh, a.edges, a.tree); }
 
 // The winding number is the same along an edge that does not cross the body: one evaluation serves a whole piece.
+// Files with a normal for each face have no common vertices, but vertices at one place.
 int count_vertices_inside(const TriangleMesh& body, const IndexedMesh& garment,
                           const std::vector<Crossing>& through_body)
 {
@@ -50,8 +52,16 @@ int count_vertices_inside(const TriangleMesh& body, const IndexedMesh& garment,
     for (Eigen::Index e = 0; e < edges.rows(); ++e)
         if (!crosses[e])
             pieces.join(edges(e, 0), edges(e, 1));
+    const std::vector<int> used = used_vertices(garment.mesh.triangles);
+    const Weld weld({ positions, garment.mesh.triangles });
+    std::vector<int> first_at(positions.rows(), -1);
+    for (const int v : used) {
+        int& first = first_at[weld.cloth_vertex(v)];
+        first = first < 0 ? v : first;
+        pieces.join(first, v);
+    }
     std::vector<int> size(positions.rows(), 0), roots;
-    for (int v : used_vertices(garment.mesh.triangles))
+    for (int v : used)
         if (size[pieces.root(v)]++ == 0)
             roots.push_back(pieces.root(v));
     std::vector<char> inside(size.size(), 0);

@@ -62,6 +62,22 @@ TEST(Certificate, FindsAGarmentThatLiesInsideTheBodyWithoutCrossingIt)
     EXPECT_LT(good.min_distance, 0.05);
 }
 
+TEST(Certificate, CountsEachVertexInsideWhereFacesShareNone)
+{
+    const TriangleMesh body = ball(0.2), inner = ball(0.1), outer = ball(0.25);
+    const auto apart = [](const TriangleMesh& mesh) {
+        GarmentMesh result { Positions(3 * mesh.triangles.rows(), 3), mesh.triangles };
+        for (int corner = 0; corner < int(result.positions.rows()); ++corner) {
+            result.positions.row(corner) = mesh.positions.row(mesh.triangles(corner / 3, corner % 3));
+            result.triangles(corner / 3, corner % 3) = corner;
+        }
+        return result;
+    };
+    const GarmentMesh hidden = apart(inner), both = apart(joined(inner, outer));
+    EXPECT_EQ(certify(body, hidden, hidden.positions).vertices_inside, hidden.positions.rows());
+    EXPECT_EQ(certify(body, both, both.positions).vertices_inside, hidden.positions.rows());
+}
+
 TEST(Certificate, ForgivesOnlyTheSelfCrossingsThatTheInputHad)
 {
     const TriangleMesh two = joined(ball(0.1), ball(0.1, Vec3(0.103, 0.007, 0.011)));
