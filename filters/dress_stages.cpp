@@ -169,8 +169,6 @@ try {
     throw;
 }
 
-/// Puts the garments on from the inside out. Those already worn move to the pose of the next one. Ends at the first
-/// that cannot be put on.
 void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
 {
     Dressing dressing;

@@ -54,12 +54,8 @@ int count_vertices_inside(const TriangleMesh& body, const IndexedMesh& garment,
             pieces.join(edges(e, 0), edges(e, 1));
     const std::vector<int> used = used_vertices(garment.mesh.triangles);
     const Weld weld({ positions, garment.mesh.triangles });
-    std::vector<int> first_at(positions.rows(), -1);
-    for (const int v : used) {
-        int& first = first_at[weld.cloth_vertex(v)];
-        first = first < 0 ? v : first;
-        pieces.join(first, v);
-    }
+    for (const int v : used)
+        pieces.join(v, weld.given_vertex(weld.cloth_vertex(v)));
     std::vector<int> size(positions.rows(), 0), roots;
     for (int v : used)
         if (size[pieces.root(v)]++ == 0)
