@@ -18,31 +18,41 @@ double normal(double deviation, double spread)
     return std::exp(-0.5 * std::pow(deviation / spread, 2)) / (std::sqrt(2 * std::numbers::pi) * spread);
 }
 
+/// No garment hangs far below the feet of whom it fits, and none is a doll's. @param share  of the stature
+double likelihood_of_length(double share)
+{
+    const double beyond
+        = std::max({ 0.0, std::log(share / k_longest_share), std::log(k_shortest_share / share) }) / k_length_spread;
+    return std::exp(-0.5 * beyond * beyond);
+}
+
 /// What the measures of a garment say of the person whom it fits. A measure may be mistaken for another, or be a style:
 /// none of them can exclude a size that the others agree on.
 class Wearer {
 public:
-    Wearer(const std::vector<WearerHeight>& wearers, double height) : wearers_(wearers), height_(height) { }
+    Wearer(const std::vector<WearerHeight>& wearers, double length, double height) :
+        wearers_(wearers), length_(length), height_(height)
+    {
+    }
 
     /// That the garment, with its size multiplied by exp(log_factor), fits the body.
     double likelihood(double log_factor) const
     {
-        double log_likelihood = 0;
-        for (const WearerHeight& wearer : wearers_)
-            log_likelihood += std::log((1 - k_mistaken) * normal(deviation(wearer) + log_factor, wearer.spread)
-                                       + k_mistaken * k_mistaken_density);
-        return std::exp(log_likelihood / k_dependence);
+        return likelihood_of_measures(log_factor) * likelihood_of_length(std::exp(log_factor) * length_ / height_);
     }
 
-    /// The same where it was made for somebody else, as large as the body or not.
+    /// The same where it was made for somebody else, as large as the body or not, but no taller than people are.
     double likelihood_of_others(double log_factor) const
     {
+        const double tallest = std::max(height_, k_tallest_wearer);
         double sum = 0;
         for (int i = -k_steps_of_others; i <= k_steps_of_others; ++i) {
             const double other = i * k_step;
             const double share = (1 - k_children) * normal(other, k_wearer_spread)
                 + k_children * normal(other - k_child_size, k_child_spread);
-            sum += share * k_step * likelihood(log_factor - other);
+            const double stature = std::min(std::exp(other) * height_, tallest);
+            sum += share * k_step * likelihood_of_measures(log_factor - other)
+                * likelihood_of_length(std::exp(log_factor) * length_ / stature);
         }
         return sum;
     }
@@ -65,10 +75,19 @@ private:
     static constexpr int k_steps_of_others = 100;
     static constexpr double k_widest = 4;  // unit: of a spread, where nothing is left of it
 
+    double likelihood_of_measures(double log_factor) const
+    {
+        double log_likelihood = 0;
+        for (const WearerHeight& wearer : wearers_)
+            log_likelihood += std::log((1 - k_mistaken) * normal(deviation(wearer) + log_factor, wearer.spread)
+                                       + k_mistaken * k_mistaken_density);
+        return std::exp(log_likelihood / k_dependence);
+    }
+
     double deviation(const WearerHeight& wearer) const { return std::log(wearer.height / height_); }
 
     const std::vector<WearerHeight>& wearers_;
-    double height_;
+    double length_, height_;
 };
 
 /// An explanation of the size.
@@ -76,21 +95,13 @@ struct Hypothesis {
     double factor = 1, weight = 0;
 };
 
-/// No garment hangs far below the feet of whom it fits, and none is a doll's. @param share  of the stature
-double likelihood_of_length(double share)
-{
-    const double beyond
-        = std::max({ 0.0, std::log(share / k_longest_share), std::log(k_shortest_share / share) }) / k_length_spread;
-    return std::exp(-0.5 * beyond * beyond);
-}
-
 double usualness(const UsualUnit& unit, double body_unit)
 {
     return unit.usualness * (metres_per(unit.name) == body_unit ? k_body_unit : 1);
 }
 
-/// One for each unit, made for people as large as the body or not. @param length  share of the stature
-std::vector<Hypothesis> in_units(const Wearer& wearer, double length, double metres_per_unit, double body_unit)
+/// One for each unit, made for people as large as the body or not.
+std::vector<Hypothesis> in_units(const Wearer& wearer, double metres_per_unit, double body_unit)
 {
     double all = 0;
     for (const UsualUnit& unit : k_usual_units)
@@ -98,24 +109,20 @@ std::vector<Hypothesis> in_units(const Wearer& wearer, double length, double met
     std::vector<Hypothesis> hypotheses;
     for (const UsualUnit& unit : k_usual_units) {
         const double factor = metres_per(unit.name) / metres_per_unit;
-        hypotheses.push_back(
-            { factor,
-              (1 - k_without_unit) * usualness(unit, body_unit) / all * wearer.likelihood_of_others(std::log(factor))
-                  * likelihood_of_length(factor * length) });
+        hypotheses.push_back({ factor,
+                               (1 - k_without_unit) * usualness(unit, body_unit) / all
+                                   * wearer.likelihood_of_others(std::log(factor)) });
     }
     return hypotheses;
 }
 
 /// Any size may be the right one, made for the body.
-std::vector<Hypothesis> without_unit(const Wearer& wearer, double length)
+std::vector<Hypothesis> without_unit(const Wearer& wearer)
 {
     std::vector<Hypothesis> hypotheses;
-    for (const double log_factor : wearer.log_factors()) {
-        const double factor = std::exp(log_factor);
-        hypotheses.push_back({ factor,
-                               k_without_unit * k_without_unit_density * k_step * wearer.likelihood(log_factor)
-                                   * likelihood_of_length(factor * length) });
-    }
+    for (const double log_factor : wearer.log_factors())
+        hypotheses.push_back(
+            { std::exp(log_factor), k_without_unit * k_without_unit_density * k_step * wearer.likelihood(log_factor) });
     return hypotheses;
 }
 
@@ -151,9 +158,8 @@ ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, 
 {
     if (wearers.empty() || !(height > 0) || !(length > 0))
         return {};
-    const Wearer wearer(wearers, height);
-    const std::vector<Hypothesis> units = in_units(wearer, length / height, metres_per_unit, body_unit),
-                                  any = without_unit(wearer, length / height);
+    const Wearer wearer(wearers, length, height);
+    const std::vector<Hypothesis> units = in_units(wearer, metres_per_unit, body_unit), any = without_unit(wearer);
     const Hypothesis unit = *std::max_element(units.begin(), units.end(),
                                               [](const auto& a, const auto& b) { return a.weight < b.weight; });
     const double sum = sum_of(units) + sum_of(any);

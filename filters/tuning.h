@@ -59,7 +59,10 @@ inline constexpr double k_usual_longest_side = 1;
 
 /// Share of the stature that the longest clothes have, hoods and trains apart, that the shortest have, and the spread of
 /// the logarithm beyond them. fitted: guess; from shoulder to floor it is about 0.82
-inline constexpr double k_longest_share = 0.95, k_shortest_share = 0.1, k_length_spread = 0.08;
+inline constexpr double k_longest_share = 0.95, k_shortest_share = 0.1, k_length_spread = 0.05;
+/// m. Tallest people for whom clothes are made, where the body is not taller. fitted: guess; as the longest share is
+/// ample, a garment without a hood may be made for people of 2.2 m
+inline constexpr double k_tallest_wearer = 1.9;
 
 // The size of a garment (garment_scale.h), in natural logarithms. fitted: guesses, on one half of 125 garments of a
 // catalogue, in their units and multiplied by factors of 0.1 to 1000, judged on the other half.

@@ -74,19 +74,42 @@ TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
     }
 }
 
+/// The shirt with its trunk drawn out below the sleeves.
+TriangleMesh gown(double factor)
+{
+    constexpr double k_below_sleeves = 1.2;
+    TriangleMesh mesh = shirt();
+    for (double& y : mesh.positions.col(1))
+        if (y < k_below_sleeves)
+            y = k_below_sleeves - factor * (k_below_sleeves - y);
+    return mesh;
+}
+
+double length_of(const TriangleMesh& mesh)
+{
+    const Eigen::VectorXd heights = mesh.positions(mesh.triangles.reshaped(), 1);
+    return heights.maxCoeff() - heights.minCoeff();
+}
+
 // Slim limbs of usual girth on a garment far longer than its wearer: the size is not that of any unit.
 TEST(GarmentScale, NoGarmentIsLongerThanItsWearerIsTall)
 {
-    TriangleMesh gown = shirt();
-    for (Eigen::Index v = 0; v < gown.positions.rows(); ++v)
-        if (gown.positions(v, 1) < 1.2)  // below the sleeves
-            gown.positions(v, 1) = 1.2 - 7 * (1.2 - gown.positions(v, 1));
-    const Eigen::VectorXd heights = gown.positions(gown.triangles.reshaped(), 1);
-    const double length = heights.maxCoeff() - heights.minCoeff();
-    ASSERT_GT(length, 1.2 * body_stature());
-    const FrameGuess guess = garment_frame(gown.positions, gown.triangles, {}, {}, body_stature());
+    const TriangleMesh mesh = gown(7);
+    ASSERT_GT(length_of(mesh), 1.2 * body_stature());
+    const FrameGuess guess = garment_frame(mesh.positions, mesh.triangles, {}, {}, body_stature());
     EXPECT_LT(guess.scale, 0.95) << guess.why;
-    EXPECT_LT(length * guess.frame.metres_per_unit, body_stature());
+    EXPECT_LT(length_of(mesh) * guess.frame.metres_per_unit, body_stature());
+}
+
+// It may be longer than a child is tall, who is not its wearer.
+TEST(GarmentScale, AnAdultsGarmentKeepsItsSizeOnAChild)
+{
+    const TriangleMesh mesh = gown(4.8);
+    const double child = 0.75 * body_stature();
+    ASSERT_GT(length_of(mesh), 1.1 * child);
+    ASSERT_LT(length_of(mesh), 0.9 * body_stature());
+    const FrameGuess guess = garment_frame(mesh.positions, mesh.triangles, {}, {}, child);
+    EXPECT_EQ(guess.frame.metres_per_unit, 1) << guess.why;
 }
 
 TEST(GarmentScale, WhatHasNoVerticesOrNoSizeIsLeftToItsPreparation)
