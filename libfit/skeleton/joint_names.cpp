@@ -4,11 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
+
+using namespace skeleton_tuning;
 
 struct Word {
     std::string_view word;
@@ -102,8 +108,27 @@ std::optional<NamedJoint> look_up(const std::string& word, int side)
     return {};
 }
 
+/// What nearly all names of a rig hold, as a figure's name or "jnt", says nothing about a joint: "Character1_LeftArm",
+/// "l_arm_jnt".
+std::set<std::string> common_tokens(const std::vector<std::string>& names)
+{
+    std::map<std::string, std::size_t> counts;
+    for (const std::string& name : names) {
+        const std::vector<std::string> tokens = tokens_of(name);
+        for (const std::string& token : std::set<std::string>(tokens.begin(), tokens.end()))
+            ++counts[token];
+    }
+    std::set<std::string> common;
+    for (const auto& [token, count] : counts)
+        if (count >= k_fewest_common_names && double(count) >= k_common_share * double(names.size()))
+            common.insert(token);
+    return common;
+}
+
+/// @param common  what is left out
 /// @param as_stand_in  whether a palm or fist is a hand, and a goal of inverse kinematics the joint that it pulls
-std::optional<NamedJoint> recognize(const std::string& name, bool as_stand_in = false)
+std::optional<NamedJoint> recognize(const std::string& name, const std::set<std::string>& common,
+                                    bool as_stand_in = false)
 {
     int side = 0;
     std::string word;
@@ -112,6 +137,8 @@ std::optional<NamedJoint> recognize(const std::string& name, bool as_stand_in = 
             side = 1;
         else if (token == "right" || token == "r")
             side = 2;
+        else if (common.contains(token))
+            continue;
         else if (as_stand_in && (token == "palm" || token == "fist"))
             word += "hand";
         else if (std::find(k_fillers.begin(), k_fillers.end(), token) == k_fillers.end()
@@ -133,10 +160,10 @@ bool has_token(const std::string& name, std::string_view token)
 /// Names that mean one thing alone and another thing beside others.
 class JointNames {
 public:
-    explicit JointNames(const std::vector<std::string>& names) : names_(names)
+    explicit JointNames(const std::vector<std::string>& names) : names_(names), common_(common_tokens(names))
     {
         for (const std::string& name : names)
-            joints_.push_back(recognize(name));
+            joints_.push_back(recognize(name, common_));
     }
 
     std::vector<std::optional<NamedJoint>> read()
@@ -199,7 +226,7 @@ private:
     void name_stand_ins(JointKind kind)
     {
         for (std::size_t i = 0; i < joints_.size(); ++i)
-            if (const auto joint = recognize(names_[i], true); !joints_[i] && joint && joint->kind == kind)
+            if (const auto joint = recognize(names_[i], common_, true); !joints_[i] && joint && joint->kind == kind)
                 joints_[i] = joint;
     }
 
@@ -213,6 +240,7 @@ private:
     }
 
     const std::vector<std::string>& names_;
+    std::set<std::string> common_;
     std::vector<std::optional<NamedJoint>> joints_;
 };
 

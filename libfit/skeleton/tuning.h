@@ -8,6 +8,7 @@
 //        "pairs": the twelve pairs of body and garment of the house data.
 // A number "fitted: guess" was tried by hand on these data. No score was recorded and no script fits it again.
 
+#include <cstddef>
 #include <numbers>
 
 namespace garmentfit::skeleton_tuning {
@@ -107,6 +108,13 @@ inline constexpr Angles k_hip_joint_range { radians(-5.0), radians(5.0), radians
     k_upper_arm_range { radians(-40.0), radians(100.0), radians(-45.0), radians(110.0) },
     k_forearm_range { radians(-8.0), radians(145.0), radians(-45.0), radians(45.0) },
     k_spine_range { radians(-15.0), radians(20.0), radians(-15.0), radians(15.0) };
+
+// ---- names of joints (joint_names.cpp) ------------------------------------------------------------------------------
+
+/// Dimensionless, a share of the names, and a number of names: what so many of them hold says nothing about a joint.
+/// fitted: guess; in the skeletons of Mixamo and of Unreal no word for a part of the body is in more than half of them.
+inline constexpr double k_common_share = 0.75;
+inline constexpr std::size_t k_fewest_common_names = 6;
 
 // ---- joints without names (joints_by_tree.cpp) ----------------------------------------------------------------------
 
