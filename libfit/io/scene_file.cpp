@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include "bind_spaces.h"
 #include "gltf_model.h"
 #include "run_apart.h"
 
@@ -50,13 +52,15 @@ std::string convert(const FileBytes& file)
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // else each joint is a chain of nodes
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = importer.ReadFileFromMemory(
-        file.bytes.data(), file.bytes.size(),
-        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_LimitBoneWeights, is_fbx(file.bytes) ? "fbx" : "dae");
+    importer.ReadFileFromMemory(file.bytes.data(), file.bytes.size(),
+                                aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_LimitBoneWeights,
+                                is_fbx(file.bytes) ? "fbx" : "dae");
+    const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
     if (!scene)
         throw std::runtime_error(importer.GetErrorString());
+    unify_bind_spaces(*scene);
     Assimp::Exporter exporter;
-    const aiExportDataBlob* glb = exporter.ExportToBlob(scene, "glb2");
+    const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2");
     if (!glb)
         throw std::runtime_error(exporter.GetErrorString());
     return { static_cast<const char*>(glb->data), glb->size };

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -35,6 +36,16 @@ void convert(const std::filesystem::path& from, const std::filesystem::path& to,
     ASSERT_TRUE(scene) << importer.GetErrorString();
     Assimp::Exporter exporter;
     ASSERT_EQ(exporter.Export(scene, format, to.string()), aiReturn_SUCCESS) << exporter.GetErrorString();
+}
+
+/// The same scene with a mesh in a space of its own, as modelling programs write it whose objects have other units and
+/// axes: what it shows stays.
+void move_bind_space(aiMesh& mesh, const aiMatrix4x4& own_from_common)
+{
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+        mesh.mVertices[v] *= own_from_common;
+    for (unsigned b = 0; b < mesh.mNumBones; ++b)
+        mesh.mBones[b]->mOffsetMatrix = mesh.mBones[b]->mOffsetMatrix * aiMatrix4x4(own_from_common).Inverse();
 }
 
 /// A square and a triangle of one mesh.
@@ -82,6 +93,28 @@ TEST_F(SceneFile, ASkinnedBodyKeepsItsSkeleton)
     for (const int bone : { lfemur, ltibia, rfemur, lhumerus, rradius })
         EXPECT_LT((read.skeleton.head(bone) - person.skeleton.head(bone)).norm(), 1e-4) << bone_name(bone);
     EXPECT_EQ(read.weights.weights.rows(), MeshFile::read(folder / "body.dae").positions().rows());
+}
+
+TEST_F(SceneFile, MeshesWithBindMatricesOfTheirOwnLieWhereTheyBelong)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    const Rig rig = fixtures::simple_rig(person);
+    write_outfit_glb(folder / "dressed.glb", rig,
+                     { { "body", person.mesh, rig.weights }, { "suit", person.mesh, rig.weights } },
+                     { .names = BoneNames::smpl });
+    Assimp::Importer importer;
+    importer.ReadFile((folder / "dressed.glb").string(), 0);
+    const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+    ASSERT_TRUE(scene && scene->mNumMeshes == 2) << importer.GetErrorString();
+    move_bind_space(*scene->mMeshes[1], { 0, 0, 100, 3, 0, 100, 0, -20, -100, 0, 0, 7, 0, 0, 0, 1 });
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(scene.get(), "collada", (folder / "dressed.dae").string()), aiReturn_SUCCESS);
+
+    const Positions shown = MeshFile::read(folder / "dressed.dae").positions();
+    const Eigen::Index half = shown.rows() / 2;
+    EXPECT_LT((shown.topRows(half) - shown.bottomRows(half)).cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_NEAR(shown.col(1).maxCoeff(), person.mesh.positions.col(1).maxCoeff(), 1e-4);
+    EXPECT_NEAR(shown.col(1).minCoeff(), person.mesh.positions.col(1).minCoeff(), 1e-4);
 }
 
 TEST_F(SceneFile, FilesThatOnlyNameTheseFormatsAreReadAsWhatTheyAre)
