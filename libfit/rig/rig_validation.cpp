@@ -157,6 +157,10 @@ double distance_from_body(const BodyMesh& body, const TriangleTree& skin, const 
     return winding_number(body.closed, joint) > 0.5 ? 0 : skin.distance(joint) / height;
 }
 
+/// Files have one to five joints here; those of Skeleton are placed on the straight line between the ends, which a bent
+/// trunk may leave.
+bool is_placed_evenly(int bone) { return bone == lowerback || bone == upperback || bone == lowerneck; }
+
 /// A pelvis lies at the lower end of the spine. That of a wrong map lies in the chest or on the floor.
 bool is_pelvis_far(const Skeleton& skeleton)
 {
@@ -191,7 +195,7 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
                                : k_foot_backwards_text);
     for (int bone = 0; bone < bone_count; ++bone)
         if (const double off = distance_from_body(body, tree, skeleton.tail(bone), height);
-            !(off < k_farthest_own_joint))
+            !(off < (is_placed_evenly(bone) ? k_farthest_placed_joint : k_farthest_own_joint)))
             refuse("the end of " + std::string(bone_name(bone)) + " lies " + fixed_text(off * height, 2)
                    + " m outside of the body");
 }

@@ -191,6 +191,9 @@ inline constexpr double k_side_tolerance = 0.2;
 /// Shares of the body's height: how far outside of the skin a joint of a skeleton by another program may lie, and the
 /// shortest limb bone of one. fitted: guess; the joints of a wrong map lie tenths off
 inline constexpr double k_farthest_own_joint = 0.05, k_shortest_own_bone = 0.02;
+/// The same for joints between pelvis, neck and head, which are not read but placed. fitted: guess, on one figure in a
+/// robe, whose joint lies .054 outside
+inline constexpr double k_farthest_placed_joint = 0.1;
 
 /// Share of the shin's length: how far a foot may point backwards; right feet point .02 to 1.1 forwards. fitted: guess,
 /// on one figure whose toes were taken for a heel

@@ -82,6 +82,20 @@ std::vector<std::string_view> filters_for(const Call& call, const Session& sessi
     return { call.filter->name };
 }
 
+/// Runs a filter. Where the shape is refused after the file's own skeleton was, both reasons are told.
+void run_filter(std::string_view name, const Parameters& parameters, Session& session, const Progress& progress)
+{
+    try {
+        filter_of(name).run(session.scene, parameters, progress);
+    } catch (const InvalidInput& error) {
+        if (session.scene.rig || session.skeleton_refusal.empty())
+            throw;
+        throw InvalidInput(error.code(),
+                           std::string(error.what())
+                               + "; nor is the skeleton in its file used: " + session.skeleton_refusal);
+    }
+}
+
 void compute(const Call& call, Session& session, const Deadline& deadline)
 {
     ProgressBar bar(isatty(STDERR_FILENO) && !call.quiet);
@@ -91,7 +105,7 @@ void compute(const Call& call, Session& session, const Deadline& deadline)
     parameters.recover.cloth = call.filter->cloth(parameters);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double n = double(names.size());
-        filter_of(names[i]).run(session.scene, parameters, progress.part(double(i) / n, double(i + 1) / n));
+        run_filter(names[i], parameters, session, progress.part(double(i) / n, double(i + 1) / n));
         if (session.scene.draped && !all_put_on(session.scene))
             break;
     }

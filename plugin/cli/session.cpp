@@ -247,8 +247,9 @@ void read_own_skeleton(Session& session)
         session.scene.rig = rig;
         session.skeleton = "file";
     } catch (const InvalidInput& error) {
+        session.skeleton_refusal = error.what();
         session.warnings.push_back("the skeleton in the body's file is not used, the shape decides: "
-                                   + std::string(error.what()));
+                                   + session.skeleton_refusal);
     }
 }
 

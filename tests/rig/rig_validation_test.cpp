@@ -83,6 +83,25 @@ TEST(RigValidation, ASkeletonMayHaveACartoonsProportions)
     EXPECT_NO_THROW(check_skeleton(body_of(chibi), chibi.skeleton));
 }
 
+TEST(RigValidation, AJointThatIsNotReadButPlacedMayLieFartherOutsideOfTheBody)
+{
+    const Person person = capsule_person();
+    const BodyMesh body = body_of(person);
+    const double height = body.surface.positions.col(1).maxCoeff() - body.surface.positions.col(1).minCoeff();
+    double behind = 0;  // of the back, at the height of that joint
+    for (const auto& skin : body.surface.positions.rowwise())
+        if (std::abs(skin.y() - person.skeleton.tail(lowerback).y()) < 0.05 && std::abs(skin.x()) < 0.05)
+            behind = std::min(behind, skin.z());
+    Person bent = person;
+    bent.skeleton.tails[lowerback].z() = behind - 0.07 * height;
+    EXPECT_NO_THROW(check_skeleton(body, bent.skeleton));
+    bent.skeleton.tails[lowerback].z() = behind - 0.2 * height;
+    expect_invalid([&] { check_skeleton(body, bent.skeleton); }, "the end of lowerback");
+    Person beside = person;
+    beside.skeleton.tails[thorax].z() = behind - 0.07 * height;
+    expect_invalid([&] { check_skeleton(body, beside.skeleton); }, "the end of thorax");
+}
+
 TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
 {
     const Person person = capsule_person();
