@@ -177,6 +177,7 @@ private:
         const Vec3* found = find(JointKind::neck, 0);
         const Vec3 neck = found ? *found : neck_below(head);
         skeleton_.tails[thorax] = neck;
+        raise_pelvis();
         skeleton_.tails[upperneck] = head;
         skeleton_.tails[lowerback] = skeleton_.root + (neck - skeleton_.root) / 3;
         skeleton_.tails[upperback] = skeleton_.root + (neck - skeleton_.root) * 2 / 3;
@@ -185,6 +186,16 @@ private:
              ++j)  // in a rig that this library wrote, joints are the heads of bones
             if (const int b = bone_of(skin_.names[j]); b == upperback || b == thorax || b == upperneck)
                 skeleton_.tails[parent_of(b)] = skin_.places[j];
+    }
+
+    /// Some figures have it in the crotch or below. Between the legs of trousers there would be no way for its bones.
+    void raise_pelvis()
+    {
+        const Vec3 between_hips = 0.5 * (skeleton_.tail(lhipjoint) + skeleton_.tail(rhipjoint));
+        const Vec3 trunk = skeleton_.tail(thorax) - between_hips;
+        const double share = (skeleton_.root - between_hips).dot(trunk) / trunk.squaredNorm();
+        if (share < 0)
+            skeleton_.root -= share * trunk;
     }
 
     /// Where a head hangs on the trunk, from the shoulders on.

@@ -321,6 +321,22 @@ TEST_F(SkinnedGltf, TakesJointsWithoutSkinFromTheNodesBetweenOthers)
     EXPECT_LT((read.skeleton.tail(thorax) - rig.skeleton.tail(thorax)).norm(), 1e-5);
 }
 
+TEST_F(SkinnedGltf, APelvisBelowTheHipsIsRaisedToThem)
+{
+    Rig low = nearest_rig(person);
+    const auto between_hips = [](const Skeleton& s) { return Vec3(0.5 * (s.tail(lhipjoint) + s.tail(rhipjoint))); };
+    low.skeleton.root = between_hips(low.skeleton) - Vec3(0, 0.12, 0);
+    write_outfit_glb(glb, low, { { "body", person.mesh, low.weights } }, { BoneNames::mixamo });
+    const Skeleton raised = read_skinned_gltf(glb).skeleton;
+    EXPECT_NEAR(raised.root.y(), between_hips(raised).y(), 0.005);
+    EXPECT_NEAR(raised.root.x(), between_hips(raised).x(), 0.005);
+
+    Rig high = low;
+    high.skeleton.root = between_hips(low.skeleton) + Vec3(0, 0.06, 0);
+    write_outfit_glb(glb, high, { { "body", person.mesh, high.weights } }, { BoneNames::mixamo });
+    EXPECT_LT((read_skinned_gltf(glb).skeleton.root - high.skeleton.root).norm(), 1e-5);
+}
+
 constexpr const char* k_ends[]
     = { "head", "head_top", "lhand", "lhand_tip", "rhand", "rhand_tip", "lfoot", "lfoot_tip", "rfoot", "rfoot_tip" };
 
