@@ -146,6 +146,16 @@ std::vector<std::string> warnings_about_left_behind(const MeshFile& garment)
              + "; they belong to the shape in the file, and the dressed garment has none" };
 }
 
+std::string warning_about_figure(const Rig& rig, const HowToSet& set)
+{
+    if (rig.human_probability < k_hopeless_figure)
+        return "the skeleton is probably wrong, as the body is hardly like a human (probability below "
+            + rounded_text(100 * k_hopeless_figure, 1) + "%): " + rig.not_human + "; correct its joints (joints), or "
+            + set("humanlike") + " strict to have such bodies refused";
+    return "the body is far from human" + percent_text(rig.human_probability) + ": " + rig.not_human
+        + "; look at its joints, and correct them (joints) if they are wrong";
+}
+
 std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& set)
 {
     std::vector<std::string> warnings;
@@ -155,9 +165,7 @@ std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& 
         warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));
     if (scene.rig->human_probability < k_far_from_human)
-        warnings.push_back("the body is far from human" + percent_text(scene.rig->human_probability) + ": "
-                           + scene.rig->not_human
-                           + "; look at its joints, and correct them (joints) if they are wrong");
+        warnings.push_back(warning_about_figure(*scene.rig, set));
     return warnings;
 }
 
