@@ -26,8 +26,7 @@ std::optional<aiMatrix4x4> common_from_mesh(const aiMesh& mesh, const BindMatric
     const aiBone* best = nullptr;
     for (const aiBone* bone : bones_of(mesh))
         if (const auto bind = binds.find(bone->mName.C_Str());
-            bind != binds.end() && bind->second.Determinant() != 0
-            && (!best || bone->mNumWeights > best->mNumWeights))
+            bind != binds.end() && bind->second.Determinant() != 0 && (!best || bone->mNumWeights > best->mNumWeights))
             best = bone;
     if (!best)
         return {};

@@ -54,10 +54,11 @@ TEST(Warnings, SayThatASkeletonIsProbablyWrongWhereItIsHardlyAHumans)
               (Lines { "the body is far from human (probability 34%): the ratio trunk to leg is 2.64, a human has 0.40 "
                        "to 1.25; look at its joints, and correct them (joints) if they are wrong" }));
     scene.rig->human_probability = 4e-9;
-    EXPECT_EQ(warnings_of(scene),
-              (Lines { "the skeleton is probably wrong, as the body is hardly like a human (probability below 0.1%): the "
-                       "ratio trunk to leg is 2.64, a human has 0.40 to 1.25; correct its joints (joints), or set "
-                       "humanlike strict to have such bodies refused" }));
+    EXPECT_EQ(
+        warnings_of(scene),
+        (Lines { "the skeleton is probably wrong, as the body is hardly like a human (probability below 0.1%): the "
+                 "ratio trunk to leg is 2.64, a human has 0.40 to 1.25; correct its joints (joints), or set "
+                 "humanlike strict to have such bodies refused" }));
 }
 
 TEST(Warnings, SayThatTheWayUpIsUncertain)
