@@ -11,6 +11,7 @@
 #include "best_start.h"
 #include "coordinate_ascent.h"
 #include "garmentfit/error.h"
+#include "garmentfit/garment_type.h"
 #include "garmentfit/number_text.h"
 #include "hypotheses.h"
 #include "outward_cloth.h"
@@ -59,6 +60,30 @@ void require_openings(const TriangleMesh& outward, const Skeleton& joints)
         throw InvalidInput(ErrorCode::closed_garment,
                            "garment: closed surface; a garment needs openings for head, arms or legs. Remove the caps, "
                            "or give another garment");
+}
+
+// The best place, refined, along two verticals, in which no bone passes through the cloth: of the posture itself, and of
+// one in comfort through the middle of the cloth. The ascent finds neither where bones are deep in the cloth, as each step
+// costs as much as none. Legs that are much shorter than those of trousers are drawn down into them until the hips lie in
+// the crotch, or both in one leg.
+Posture move_clear(const FitEnergy& energy, const Posture& posture)
+{
+    const Vec3 middle = energy.metric().cloth().barycentre();
+    Posture best = posture;
+    double best_total = FitEnergy::k_any;
+    const auto look_at = [&](const Posture& place) {
+        if (const double total = energy.total(place); total > best_total && !find_crossing(energy, place)) {
+            best = place;
+            best_total = total;
+        }
+    };
+    for (double height = -k_farthest_move; height <= k_farthest_move; height += k_move_step) {
+        Posture moved = posture;
+        moved.root.y() += height;
+        look_at(moved);
+        look_at(comfort_posture(energy, middle + Vec3(0, height, 0), posture.turn));
+    }
+    return best_total > FitEnergy::k_any ? refine_posture(energy, best) : posture;
 }
 
 // The start of [wu_2018_garment_fitting]: the root at the barycentre of the garment.
@@ -121,7 +146,8 @@ void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::v
 
 // The pose of a hypothesis. @throws InvalidInput when no body fits in like that; SolverFailure when bones pass through
 // cloth in the end
-FitResult finish(const Hypothesis& hypothesis, const FitOptions& options)
+// @param moves  whether bones that pass through cloth are looked for another place
+FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool moves)
 {
     if (!hypothesis.is_possible())
         throw refusal_of(hypothesis, options);
@@ -137,6 +163,8 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options)
     // The ascent may end with a bone that all but touches the cloth: no body can grow from there.
     if (find_crossing(thick, fitted))
         fitted = refine_posture(thick, fitted);
+    if (moves && find_crossing(thick, fitted))
+        fitted = move_clear(thick, fitted);
     require_clear(thick, fitted);
 
     FitResult result;
@@ -153,7 +181,7 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options)
 }
 
 // The most probable hypothesis in which a body fits, FitOptions::skipped of those left out.
-FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options)
+FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options, bool moves)
 {
     std::vector<Rejected> rejected;
     std::exception_ptr first;
@@ -171,7 +199,7 @@ FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options)
             if (std::any_of(done.begin(), done.end(),
                             [&](const Hypothesis* other) { return is_same_way(*other, hypothesis); }))
                 continue;
-            FitResult result = finish(hypothesis, options);
+            FitResult result = finish(hypothesis, options, moves);
             if (int(done.size()) < options.skipped) {
                 done.push_back(&hypothesis);
                 continue;
@@ -187,6 +215,30 @@ FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options)
     if (!first)
         throw InvalidInput(ErrorCode::no_fit, "garment: there is no other way in which the body fits into it");
     std::rethrow_exception(first);
+}
+
+// A body whose bones pass through the cloth in all ways of wearing it is moved, but only in garments of the type that the
+// user or the openings say: a wrong type may be why they pass through it.
+FitResult choose(const std::vector<Hypothesis>& all, const GarmentMesh& garment, const FitOptions& options)
+{
+    std::exception_ptr refusal;
+    try {
+        return choose(all, options, false);
+    } catch (const SolverFailure&) {
+        refusal = std::current_exception();
+    }
+    std::vector<Hypothesis> likely = all;
+    if (options.type == GarmentType::automatic)
+        std::erase_if(likely, [guessed = guess_garment_type(garment).type](const Hypothesis& hypothesis) {
+            return hypothesis.attempt->coverage().type != guessed;
+        });
+    try {
+        return choose(likely, options, true);
+    } catch (const InvalidInput&) {
+        std::rethrow_exception(refusal);
+    } catch (const SolverFailure&) {
+        std::rethrow_exception(refusal);
+    }
 }
 
 }  // namespace
@@ -210,7 +262,7 @@ FitResult fit_fast(const Rig& rig, const TriangleMesh& body, const GarmentMesh& 
             ErrorCode::no_fit,
             "garment: no body that faces as its front was given fits into it; check the front, or leave it "
             "out and let the program find it");
-    FitResult result = choose(hypotheses, options);
+    FitResult result = choose(hypotheses, garment, options);
     result.front_given = options.front;
     if (result.type != options.type)
         result.type = type_when_worn(result.type, result.covered);

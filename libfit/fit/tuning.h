@@ -119,6 +119,8 @@ inline constexpr double k_least_shift = 0.05;
 /// m; a bone that passes cloth more closely counts as crossing it: the drape starts with a body of a hundredth of its
 /// thickness, about a millimetre. derived
 inline constexpr double k_bone_thickness = 0.002;
+/// m; how finely and how far up and down a body is moved whose bones pass through the cloth in the end. guess
+inline constexpr double k_move_step = 0.01, k_farthest_move = 0.5;
 /// cosine; nearer ways up, or facings, are one: between quarter turns and noise. derived
 inline constexpr double k_same_direction = 0.5;
 

@@ -563,6 +563,33 @@ TEST(FitSkeleton, ASmallBodyDoesNotSlideIntoOneTrouserLeg)
     expect_clear(joints, garment);
 }
 
+// As of a figure with a large head: legs of a share of a human's length.
+Rig with_short_legs(const PersonOptions& options, double share)
+{
+    Rig rig = rig_of(options);
+    Skeleton& s = rig.skeleton;
+    for (const auto& [hip, knee, ankle, tip] :
+         { std::array<int, 4> { lhipjoint, lfemur, ltibia, lfoot_tip }, { rhipjoint, rfemur, rtibia, rfoot_tip } }) {
+        const Vec3 top = s.tail(hip), old = s.tail(ankle);
+        s.tails[knee] = top + share * (s.tail(knee) - top);
+        s.tails[ankle] = top + share * (old - top);
+        s.tips[tip] += s.tail(ankle) - old;
+    }
+    return rig;
+}
+
+TEST(FitSkeleton, LegsThatAreMuchTooShortForTrousersAreFoundAWay)
+{
+    const GarmentMesh garment = trousers();
+    for (const double share : { 0.3, 0.4, 0.5, 0.6 }) {
+        const Rig rig = with_short_legs({ .arm_angle = 60 }, share);
+        const FitResult result = fit_skeleton(rig, garment, { .type = GarmentType::trousers });
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
+        expect_clear(joints, garment);
+        EXPECT_LT(joints.tail(lfemur).x() * joints.tail(rfemur).x(), 0) << share << ": both in one leg";
+    }
+}
+
 TEST(FitSkeleton, TipsAreShortenedUntilTheyAreClear)
 {
     const Skeleton joints = person_skeleton({});
