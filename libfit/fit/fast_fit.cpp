@@ -225,6 +225,8 @@ FitResult choose(const std::vector<Hypothesis>& all, const GarmentMesh& garment,
     try {
         return choose(all, options, false);
     } catch (const SolverFailure&) {
+        if (options.skipped > 0)  // there is one way already
+            throw;
         refusal = std::current_exception();
     }
     std::vector<Hypothesis> likely = all;
