@@ -35,24 +35,24 @@ public:
     {
     }
 
-    /// That the garment, with its size multiplied by exp(log_factor), fits the body.
-    double likelihood(double log_factor) const
+    /// That the garment, with its size multiplied by exp(log_factor), fits somebody exp(log_stature) times as tall as the
+    /// body, but no taller than people are.
+    double likelihood(double log_factor, double log_stature = 0) const
     {
-        return likelihood_of_measures(log_factor) * likelihood_of_length(std::exp(log_factor) * length_ / height_);
+        const double stature = std::min(std::exp(log_stature) * height_, std::max(height_, k_tallest_wearer));
+        return likelihood_of_measures(log_factor - log_stature)
+            * likelihood_of_length(std::exp(log_factor) * length_ / stature);
     }
 
-    /// The same where it was made for somebody else, as large as the body or not, but no taller than people are.
+    /// The same where it was made for somebody else, as large as the body or not.
     double likelihood_of_others(double log_factor) const
     {
-        const double tallest = std::max(height_, k_tallest_wearer);
         double sum = 0;
         for (int i = -k_steps_of_others; i <= k_steps_of_others; ++i) {
             const double other = i * k_step;
             const double share = (1 - k_children) * normal(other, k_wearer_spread)
                 + k_children * normal(other - k_child_size, k_child_spread);
-            const double stature = std::min(std::exp(other) * height_, tallest);
-            sum += share * k_step * likelihood_of_measures(log_factor - other)
-                * likelihood_of_length(std::exp(log_factor) * length_ / stature);
+            sum += share * k_step * likelihood(log_factor, other);
         }
         return sum;
     }

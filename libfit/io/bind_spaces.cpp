@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bind_spaces.h"
 
-#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,14 +62,15 @@ void move(const aiMatrix4x4& common, aiMesh& mesh)
     move_points(common, mesh);
     for (unsigned i = 0; i < mesh.mNumAnimMeshes; ++i)
         move_points(common, *mesh.mAnimMeshes[i]);
-    for (unsigned f = 0; common.Determinant() < 0 && f < mesh.mNumFaces; ++f)
+    const bool is_mirrored = common.Determinant() < 0;
+    for (unsigned f = 0; is_mirrored && f < mesh.mNumFaces; ++f)
         std::swap(mesh.mFaces[f].mIndices[0], mesh.mFaces[f].mIndices[mesh.mFaces[f].mNumIndices - 1]);
     const aiMatrix4x4 mesh_from_common = aiMatrix4x4(common).Inverse();
     for (aiBone* const bone : bones_of(mesh))
         bone->mOffsetMatrix = bone->mOffsetMatrix * mesh_from_common;
 }
 
-/// A mesh that shares a joint with those before, else the first one; the end where all are taken.
+/// A mesh that shares a joint with those before, else the first one.
 std::vector<aiMesh*>::iterator next_of(std::vector<aiMesh*>& meshes, const BindMatrices& binds)
 {
     for (auto mesh = meshes.begin(); mesh != meshes.end(); ++mesh)

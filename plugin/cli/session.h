@@ -40,8 +40,7 @@ struct Session {
     std::vector<GarmentFile> garments;  ///< those of scene.garments
     Scene scene;
     std::string skeleton = "shape";  ///< where it comes from: "shape", "file" (of the body), "given"
-    std::string
-        skeleton_refusal;  ///< why that of the body's file is not used; empty where it is, or where there is none
+    std::string skeleton_refusal;  ///< why that of the body's file is not used; empty where it is or there is none
     std::vector<std::string> warnings;
     double read_seconds = 0, write_seconds = 0;
 
