@@ -133,20 +133,28 @@ bool face_apart(const Opening& a, const Opening& b)
     return a.facing.dot(across) < 0 && b.facing.dot(across) > 0;
 }
 
-/// Whether two openings lie beyond both sides of all others. Sleeves that hang may face anywhere.
-bool are_beyond(const Opening& a, const Opening& b, const Piece& piece)
+/// Whether two openings lie beyond both sides of all others.
+/// @param distance  between the two, in widths of the widest other one
+bool are_beyond(const Opening& a, const Opening& b, const Piece& piece, double distance)
 {
     const Vec3 across = level_between(a, b), axis = across.stableNormalized();
     return std::all_of(piece.others.begin(), piece.others.end(), [&](const Opening& other) {
         const Eigen::VectorXd along = other.rim * axis;
-        return &other == &a || &other == &b || across.norm() > k_arms_beyond * (along.maxCoeff() - along.minCoeff());
+        return &other == &a || &other == &b || across.norm() > distance * (along.maxCoeff() - along.minCoeff());
     });
+}
+
+bool is_long_tube(const Opening& opening) { return opening.tube_length > k_long_sleeve * opening.tube_girth; }
+
+/// Sleeves that hang may face anywhere; long ones come down beside the hem.
+bool are_hanging_sleeves(const Opening& a, const Opening& b, const Piece& piece)
+{
+    return are_alike(a, b) && are_beyond(a, b, piece, is_long_tube(a) && is_long_tube(b) ? 1 : k_arms_beyond);
 }
 
 bool are_sleeves(const Opening& a, const Opening& b, const Piece& piece)
 {
-    return are_narrow(a, b, piece)
-        && ((are_pair(a, b) && face_apart(a, b)) || (are_alike(a, b) && are_beyond(a, b, piece)));
+    return are_narrow(a, b, piece) && ((are_pair(a, b) && face_apart(a, b)) || are_hanging_sleeves(a, b, piece));
 }
 
 void take_sleeves(Piece& piece)

@@ -25,6 +25,21 @@ Opening opening_at(double height, double facing)
     return opening;
 }
 
+/// A sleeve that hangs beside the hem of k_tube and faces it, as draped sleeves do.
+Opening cuff_at(double x, double tube_length)
+{
+    Opening cuff = opening_at(0, -1);
+    cuff.centre.x() = x;
+    cuff.facing = Vec3(x > 0 ? -0.3 : 0.3, -0.95, 0);
+    cuff.rim = 0.2 * cuff.rim;
+    cuff.rim.col(0).array() += x;
+    cuff.low = cuff.rim.colwise().minCoeff();
+    cuff.high = cuff.rim.colwise().maxCoeff();
+    cuff.girth = cuff.tube_girth = cuff.tube_waist = 0.3;
+    cuff.tube_length = tube_length;
+    return cuff;
+}
+
 const std::vector<Opening> k_tube { opening_at(0, -1), opening_at(0.5, 1) };
 
 std::vector<CoverageKind> kinds_of(GarmentType given, const std::vector<Opening>& openings)
@@ -107,6 +122,21 @@ TEST(Coverage, TrousersThatLeaveTheShinsUncoveredAreShorts)
     EXPECT_EQ(type_when_worn(GarmentType::trousers, { lfemur, rfemur }), GarmentType::shorts);
     EXPECT_EQ(type_when_worn(GarmentType::trousers, { lfemur, rfemur, ltibia }), GarmentType::trousers);
     EXPECT_EQ(type_when_worn(GarmentType::skirt, { lfemur, rfemur }), GarmentType::skirt);
+}
+
+TEST(Coverage, LongSleevesThatHangBesideTheHemAreSleeves)
+{
+    const auto holds_arms = [](double distance, double tube_length) {
+        std::vector<Opening> openings = k_tube;
+        openings.push_back(cuff_at(-distance / 2, tube_length));
+        openings.push_back(cuff_at(distance / 2, tube_length));
+        const std::vector<Bone> bones = possible_coverages(GarmentType::automatic, openings)[0].bones;
+        return std::count(bones.begin(), bones.end(), lradius) > 0;
+    };
+    constexpr double hem = 0.4;
+    EXPECT_TRUE(holds_arms(1.3 * hem, 0.45));
+    EXPECT_FALSE(holds_arms(1.3 * hem, 0.1)) << "short tubes may be anything";
+    EXPECT_FALSE(holds_arms(0.9 * hem, 0.45)) << "legs hang below the waist, not beside it";
 }
 
 }  // namespace
