@@ -250,42 +250,81 @@ Eigen::Matrix3d rotation_of(const Eigen::RowVector3i& corners, const Positions& 
     return frame(positions) * frame(rest).transpose();
 }
 
-/// Moves apart what meets and did not as given, where that is little, to where it lay from each other at rest; cloth
-/// beside it half as far.
-Positions with_gaps_of_rest(const Parts& cloth, const GivenCrossings& given, Positions positions)
+/// From one place of the cloth that meets nothing towards another, as far as it meets nothing there: where it would,
+/// vertices stay.
+Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, const Surroundings& around)
+{
+    for (int round = 0; round < k_drawing_rounds; ++round) {
+        std::vector<char> marks(from.rows(), 0);
+        mark_meeting(cloth, to, around, marks);
+        const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
+        if (meeting.empty())
+            return to;
+        to(meeting, Eigen::all) = from(meeting, Eigen::all);
+    }
+    return from;
+}
+
+/// How to move apart what meets and did not as given, by a step in the direction in which it lay from each other at rest;
+/// cloth beside it goes half as far.
+Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& fresh, const Positions& positions,
+                               double step)
 {
     const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles };
     const Edges& edges = cloth.topology.edges();
-    for (int round = 0; round < k_drawing_rounds; ++round) {
-        const TriangleMesh moved { positions, rest.triangles };
-        const auto fresh = given.compare(positions, find_self_crossings(moved, edges, TriangleTree(moved))).fresh;
-        if (fresh.empty() || fresh.size() > k_few_crossings)
-            return positions;
-        Positions sum = Positions::Zero(positions.rows(), 3);
-        Eigen::VectorXd count = Eigen::VectorXd::Zero(positions.rows());
-        const auto push = [&](int v, const Vec3& by) {
-            sum.row(v) += by;
-            count[v] += 1;
-        };
-        for (const Crossing& crossing : fresh) {
-            const Eigen::RowVector3i corners = rest.triangles.row(crossing.second);
-            const Vec3 by = rotation_of(corners, rest.positions, positions)
-                * offset_at_rest(rest, edges, positions, crossing) / 2;
-            for (const int v : edges.row(crossing.first))
-                push(v, by);
-            for (const int v : corners)
-                push(v, -by);
-        }
-        const Positions motion = sum.array().colwise() / count.array().max(1);
-        Positions beside = Positions::Zero(positions.rows(), 3);
-        add_neighbours(edges, motion, beside);
-        for (Eigen::Index v = 0; v < positions.rows(); ++v)
-            positions.row(v) += count[v] > 0
-                ? Eigen::RowVector3d(motion.row(v))
-                : Eigen::RowVector3d(beside.row(v)
-                                     / std::max<double>(1, double(cloth.topology.neighbours(int(v)).size())) / 2);
+    Positions motion = Positions::Zero(positions.rows(), 3);
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(positions.rows());
+    const auto push = [&](int v, const Vec3& by) {
+        motion.row(v) += by;
+        count[v] += 1;
+    };
+    for (const Crossing& crossing : fresh) {
+        const Eigen::RowVector3i corners = rest.triangles.row(crossing.second);
+        const Vec3 apart = offset_at_rest(rest, edges, positions, crossing).stableNormalized(),
+                   by = step * (rotation_of(corners, rest.positions, positions) * apart);
+        for (const int v : edges.row(crossing.first))
+            push(v, by);
+        for (const int v : corners)
+            push(v, -by);
     }
-    return positions;
+    motion.array().colwise() /= count.array().max(1);
+    Positions beside = Positions::Zero(positions.rows(), 3);
+    add_neighbours(edges, motion, beside);
+    for (int v = 0; v < int(positions.rows()); ++v)
+        if (count[v] == 0)
+            motion.row(v) = beside.row(v) / std::max<double>(1, double(cloth.topology.neighbours(v).size())) / 2;
+    return motion;
+}
+
+/// Gives what meets and did not as given, where that is little, the gaps that it had at rest. Where a fold has no room
+/// for them, sheets are pushed to and fro: then it begins again where the fewest met, with half the step.
+Positions with_gaps_of_rest(const Parts& cloth, const GivenCrossings& given, Positions positions,
+                            const Surroundings& around)
+{
+    const Edges& edges = cloth.topology.edges();
+    double step = k_gap_step * mean_edge_length(cloth.rest.positions, edges);
+    Positions best = positions;
+    std::size_t fewest = k_few_crossings + 1;
+    int futile = 0;
+    for (int round = 0; round < k_gap_rounds; ++round) {
+        const TriangleMesh moved { positions, cloth.rest.triangles };
+        const auto fresh = given.compare(positions, find_self_crossings(moved, edges, TriangleTree(moved))).fresh;
+        if (fresh.size() < fewest) {
+            fewest = fresh.size();
+            best = positions;
+            futile = 0;
+        } else if (++futile == k_futile_gap_rounds) {
+            positions = best;
+            step /= 2;
+            futile = 0;
+            continue;
+        }
+        if (fresh.empty() || fresh.size() > k_few_crossings)
+            break;
+        const Positions motion = towards_gaps_of_rest(cloth, fresh, positions, step);
+        positions = moved_clear(cloth, positions, positions + motion, around);
+    }
+    return best;
 }
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
@@ -297,17 +336,9 @@ Positions untangled(const Parts& cloth, const Positions& positions, const Surrou
     const std::vector<Crossing> given = find_self_crossings(rest, edges, TriangleTree(rest));
     Positions parted = given.size() <= k_few_crossings
         ? untangle(moved, edges).positions
-        : with_gaps_of_rest(cloth, GivenCrossings(rest, edges, given),
-                            parted_to(moved, edges, std::size_t(k_fewer_crossings * double(given.size()))));
-    for (int round = 0; round < k_drawing_rounds; ++round) {
-        std::vector<char> marks(positions.rows(), 0);
-        mark_meeting(cloth, parted, around, marks);
-        const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
-        if (meeting.empty())
-            return parted;
-        parted(meeting, Eigen::all) = positions(meeting, Eigen::all);
-    }
-    return positions;
+        : parted_to(moved, edges, std::size_t(k_fewer_crossings * double(given.size())));
+    return with_gaps_of_rest(cloth, GivenCrossings(rest, edges, given),
+                             moved_clear(cloth, positions, std::move(parted), around), around);
 }
 
 }  // namespace

@@ -163,6 +163,10 @@ inline constexpr double k_fewer_crossings = 0.99, k_least_parting = 1. / 16;
 /// How often cloth that follows its stand-in is drawn in, where it meets something: up to 1/64 of its distance; and how
 /// often it is put back, where it was untangled. fitted: guess
 inline constexpr int k_drawing_rounds = 6;
+/// Step in which what meets and did not as given is moved apart, in mean edges of the garment; how many of them at most,
+/// and how many in vain halve it. fitted: on five clothes of web shops (docs/decisions/0033)
+inline constexpr double k_gap_step = 0.1;
+inline constexpr int k_gap_rounds = 60, k_futile_gap_rounds = 6;
 
 /// Share of the progress that the way takes, and settling of the rest of it.
 /// unit: of a progress bar.

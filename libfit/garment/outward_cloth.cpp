@@ -341,13 +341,62 @@ void orient_outwards(TriangleMesh& cloth, const std::vector<Patch>& patches)
 
 // ---- clothes in parts ----------------------------------------------------------------------------------------------
 
+/// m
+double border_length(const Positions& positions, const MeshTopology& topology)
+{
+    double length = 0;
+    for (const int edge : topology.border_edges())
+        length += (positions.row(topology.edges()(edge, 0)) - positions.row(topology.edges()(edge, 1))).norm();
+    return length;
+}
+
+/// The faces of a patch, cut open along edges where it touches itself: those of more than two of its faces.
+TriangleMesh cut_open(const Patch& patch, const TriangleMesh& cloth)
+{
+    const Triangles faces = cloth.triangles(patch.faces, Eigen::all);
+    const MeshTopology topology(faces, int(cloth.positions.rows()));
+    const auto next = [](int side) { return side / 3 * 3 + (side + 1) % 3; };
+    const auto vertex = [&](int corner) { return faces(corner / 3, corner % 3); };
+    DisjointSets corners { int(faces.size()) };
+    for (int side = 0; side < int(faces.size()); ++side)
+        if (const int other = topology.opposite(side); other >= 0)
+            corners.join(side, vertex(other) == vertex(side) ? other : next(other));
+
+    TriangleMesh cut { Positions(faces.size(), 3), Triangles(faces.rows(), 3) };
+    std::vector<int> row_of(std::size_t(faces.size()), -1);
+    int rows = 0;
+    for (int corner = 0; corner < int(faces.size()); ++corner) {
+        int& row = row_of[corners.root(corner)];
+        if (row < 0) {
+            row = rows++;
+            cut.positions.row(row) = cloth.positions.row(vertex(corner));
+        }
+        cut.triangles(corner / 3, corner % 3) = row;
+    }
+    cut.positions.conservativeResize(rows, 3);
+    return cut;
+}
+
+/// Whether a patch is closed as a sphere is, but for short slits along which it touches itself: panels that a program
+/// for patterns sewed edge to edge touch along parts of their rims.
+bool is_closed_panel(const Patch& patch, const TriangleMesh& cloth)
+{
+    if (!is_panel(thickness_of(patch), patch.area))
+        return false;
+    const TriangleMesh cut = cut_open(patch, cloth);
+    const MeshTopology topology(cut.triangles, int(cut.positions.rows()));
+    const auto characteristic = cut.positions.rows() - topology.edges().rows() + cut.triangles.rows();
+    return characteristic + std::ptrdiff_t(topology.border_loops().size()) == 2
+        && border_length(cut.positions, topology) < k_longest_slits * std::sqrt(patch.area);
+}
+
 /// Whether a large part of the cloth are panels of a pattern, each closed by its own thickness.
 bool has_panels(const TriangleMesh& cloth, const std::vector<Patch>& patches)
 {
     double all = 0, panels = 0;
     for (const Patch& patch : patches) {
         all += patch.area;
-        if (is_panel(thickness_of(patch), patch.area) && euler_characteristic(patch, cloth.triangles).value_or(0) > 0)
+        if (is_closed_panel(patch, cloth))
             panels += patch.area;
     }
     return panels > k_panel_share * all;
@@ -357,11 +406,7 @@ bool has_panels(const TriangleMesh& cloth, const std::vector<Patch>& patches)
 bool has_many_borders(const TriangleMesh& cloth)
 {
     const MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
-    double length = 0;
-    for (const int edge : topology.border_edges())
-        length
-            += (cloth.positions.row(topology.edges()(edge, 0)) - cloth.positions.row(topology.edges()(edge, 1))).norm();
-    return length > k_longest_borders * diagonal(cloth.positions);
+    return border_length(cloth.positions, topology) > k_longest_borders * diagonal(cloth.positions);
 }
 
 /// A garment as it is read without a wrap.

@@ -103,6 +103,9 @@ inline constexpr double k_side_step = 0.02;
 /// fitted: guess. Share of the garment's area that panels with thickness have: from here on it is in parts. Straps and
 /// labels stay below.
 inline constexpr double k_panel_share = 0.1;
+/// derived: length of the slits of a closed panel over the root of its area, both sheets. One sheet alone has a border
+/// of 3.5 and more, a disc's.
+inline constexpr double k_longest_slits = 1.75;
 /// fitted: of 152 garments of the house, the catalogue and the wild data, which are no such ones, trousers of 17 pieces
 /// have 9.5 diagonals of border, and the next one 5.8; four clothes of web shops have 11 to 25. Diagonals.
 inline constexpr double k_longest_borders = 10;

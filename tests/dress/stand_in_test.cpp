@@ -53,15 +53,26 @@ TriangleMesh ball(double radius, const Vec3& centre)
 
 const TriangleMesh k_far_body = ball(0.1, Vec3(0, 9, 0));
 
-/// A quarter of a tube, as it is bent.
-Positions bent(const Positions& positions)
+/// A tube bent about an axis this far to the side, m.
+Positions bent(const Positions& positions, double axis = 1)
 {
     Positions result = positions;
     for (auto row : result.rowwise()) {
-        const double angle = row.y(), radius = 1 - row.x();  // about an axis 1 m to the side
-        row << 1 - radius * std::cos(angle), radius * std::sin(angle), row.z();
+        const double angle = row.y() / axis, radius = axis - row.x();
+        row << axis - radius * std::cos(angle), radius * std::sin(angle), row.z();
     }
     return result;
+}
+
+/// Two tubes at one radius. One goes up and down through the other by some tenths of a millimetre.
+TriangleMesh doubled_sheets(double radius)
+{
+    TriangleMesh outer = strip(radius, 0.6, 0, 6, 83);
+    for (auto row : outer.positions.rowwise()) {
+        const double wave = 3e-4 * std::sin(100 * row.y()) * std::cos(40 * row.x());
+        row += wave * Eigen::RowVector3d(row.x(), 0, row.z()).normalized();
+    }
+    return joined(strip(radius, 0.6, 0, 6, 90), outer);
 }
 
 TEST(StandIn, OfPanelsIsOneSheetInsideOfThem)
@@ -76,6 +87,20 @@ TEST(StandIn, OfPanelsIsOneSheetInsideOfThem)
         beyond += std::hypot(place.x(), place.z()) > 0.1;
     EXPECT_LT(beyond, 0.1 * double(stand_in->positions.rows())) << "but where it ends within the rims";
     EXPECT_EQ(crossing_count({ stand_in->positions, stand_in->triangles }, { panels.positions, panels.triangles }), 0);
+}
+
+TEST(StandIn, OfAPanelWhoseRimTouchesItselfIsOneSheetToo)
+{
+    // a sleeve's pattern rolled up: its outer sheet meets along two parts of the seam
+    constexpr int n = 40;
+    const TriangleMesh inner = strip(0.1, 0.6, 0, 6.25, n);
+    Positions outwards = inner.positions;
+    outwards.col(1).setZero();
+    TriangleMesh panel = thickened(inner, (0.02 * outwards).eval());
+    for (const int first : { 5, 20 })
+        for (int row = first; row < first + 5; ++row)
+            panel.positions.row(n * n + row * n + n - 1) = panel.positions.row(n * n + row * n);
+    EXPECT_TRUE(make_stand_in(make_garment(panel.positions, panel.triangles)));
 }
 
 TEST(StandIn, ClothOfOneLayerHasNone)
@@ -100,13 +125,7 @@ TEST(StandIn, TakesThePartsAlong)
 
 TEST(StandIn, LeavesDoubledSheetsNoMoreCrossingsThanTheyWereGivenWith)
 {
-    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 80), inner = strip(0.205, 0.6, 0, 6, 90);
-    TriangleMesh outer = strip(0.205, 0.6, 0, 6, 83);
-    for (auto row : outer.positions.rowwise()) {  // up and down through the other sheet by some tenths of a millimetre
-        const double wave = 3e-4 * std::sin(100 * row.y()) * std::cos(40 * row.x());
-        row += wave * Eigen::RowVector3d(row.x(), 0, row.z()).normalized();
-    }
-    const TriangleMesh both = joined(inner, outer);
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 80), both = doubled_sheets(0.205);
     const GarmentMesh stand_in { tube.positions, tube.triangles }, garment { both.positions, both.triangles };
     const Certificate bent_one
         = certify(k_far_body, garment, follow(stand_in, bent(stand_in.positions), garment, { k_far_body }));
@@ -125,6 +144,21 @@ TEST(StandIn, DrawsInWhatWouldMeetTheBody)
     const Positions followed = follow(stand_in, stand_in.positions, garment, around);
     EXPECT_TRUE(certify(around.body, garment, followed).clean());
     EXPECT_LT((followed - garment.positions).rowwise().norm().minCoeff(), 1e-6) << "what is clear stays";
+}
+
+TEST(StandIn, GivesSheetsTheirGapsAgainBesideTheBody)
+{
+    // the sheet inside is drawn in through the two around it, which cross as given
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 60), inside = strip(0.193, 0.6, 0, 6, 60);
+    const TriangleMesh doubled = doubled_sheets(0.197);
+    const TriangleMesh all = joined(doubled, inside);
+    const GarmentMesh stand_in { tube.positions, tube.triangles }, garment { all.positions, all.triangles };
+    const Surroundings around { ball(0.195, Vec3(0, 0.3, 0)) };
+    ASSERT_GT(crossing_count({ garment.positions, garment.triangles }, around.body), 0);
+    const Certificate worn = certify(around.body, garment, follow(stand_in, stand_in.positions, garment, around));
+    EXPECT_GT(worn.input_self_crossings, 1000);
+    EXPECT_EQ(worn.self_crossings, 0);
+    EXPECT_TRUE(worn.clean());
 }
 
 }  // namespace
