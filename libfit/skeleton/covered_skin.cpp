@@ -2,16 +2,18 @@
 #include "garmentfit/covered_skin.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <queue>
 #include <string>
 
-#include "crossing_tree.h"
+#include "depth_picture.h"
 #include "garmentfit/error.h"
 #include "garmentfit/mesh.h"
 #include "keyframes.h"
 #include "parallel.h"
-#include "skin_weights.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -21,67 +23,127 @@ namespace {
 
 using namespace skeleton_tuning;
 
-constexpr double k_lift = 1e-5;  // unit: share of the diagonal; a line of sight begins off the faces around its vertex
+using Directions = std::vector<Vec3>;
 
-/// Evenly over the sphere: a Fibonacci lattice.
-std::vector<Vec3> directions_of_sight()
+/// Evenly over half a sphere, other ones for each pose: every so many directions of one Fibonacci lattice.
+Directions directions_of_pose(int pose, int poses)
 {
-    std::vector<Vec3> directions;
-    for (int i = 0; i < k_lines_of_sight; ++i) {
-        const double height = 1 - (2 * i + 1.0) / k_lines_of_sight, radius = std::sqrt(1 - height * height);
+    Directions directions;
+    const int count = k_pictures_of_a_pose * poses;
+    for (int i = pose; i < count; i += poses) {
+        const double height = (i + 0.5) / count, radius = std::sqrt(1 - height * height);
         const double turn = 2 * std::numbers::pi * i / std::numbers::phi;
         directions.emplace_back(radius * std::cos(turn), height, radius * std::sin(turn));
     }
     return directions;
 }
 
-/// Body and clothes in one pose, and what of the body is seen there.
-class Sight {
+/// A ring round each direction.
+Directions directions_around(const Directions& directions, double angle)
+{
+    Directions ring;
+    for (const Vec3& direction : directions) {
+        const Vec3 aside = direction.unitOrthogonal(), across = direction.cross(aside);
+        for (int i = 0; i < k_pictures_around; ++i) {
+            const double turn = 2 * std::numbers::pi * (i + 0.5) / k_pictures_around;
+            ring.push_back(std::cos(angle) * direction
+                           + std::sin(angle) * (std::cos(turn) * aside + std::sin(turn) * across));
+        }
+    }
+    return ring;
+}
+
+/// Where a ray meets a surface first; and last, which a ray the other way meets first.
+struct Depths {
+    float first = std::numeric_limits<float>::infinity(), last = -std::numeric_limits<float>::infinity();
+};
+
+struct Skin {
+    Depths depths;
+    int first = -1, last = -1;  // faces
+
+    void add(float depth, int face)
+    {
+        if (depth < depths.first) {
+            depths.first = depth;
+            first = face;
+        }
+        if (depth > depths.last) {
+            depths.last = depth;
+            last = face;
+        }
+    }
+};
+
+struct Ray {
+    Depths cloth;
+    Skin front, back;  // faces that turn their outside and their inside to who looks along the ray
+};
+
+struct SeenFace {
+    float depth;
+    int face;
+};
+
+/// The face of the body that has to stay for what is seen along a ray, or -1. What lies behind it is not seen. Where
+/// blending pushed skin through its cloth, cloth inside the body shows in place of skin that is left out.
+int face_that_shows(float cloth, const SeenFace& outside, const SeenFace& inside, float most_bulge)
+{
+    if (inside.depth <= outside.depth)
+        return inside.depth < cloth ? inside.face : -1;
+    const bool shows_cloth = cloth <= inside.depth && cloth <= outside.depth + most_bulge;
+    return shows_cloth ? -1 : outside.face;
+}
+
+struct Dressed {
+    TriangleMesh body, cloth;
+};
+
+/// What is seen of a body and its clothes in one direction and in the opposite one.
+class DepthPicture {
 public:
-    Sight(const TriangleMesh& body, const TriangleMesh& cloth) :
-        positions_(body.positions), normals_(vertex_normals(body.positions, body.triangles)), body_(body),
-        cloth_(cloth), far_(2 * diagonal(body.positions))
+    void draw(const Dressed& dressed, const Vec3& direction, double pixel)
     {
+        const auto& [body, cloth] = dressed;
+        const PictureFrame frame(direction, pixel, body.positions);
+        width_ = frame.width();
+        rays_.assign(frame.pixels(), Ray());
+        paint_triangles(frame, frame.project(cloth.positions), cloth.triangles,
+                        [&](std::size_t at, float depth, int, bool) {
+                            Depths& depths = rays_[at].cloth;
+                            depths = { std::min(depths.first, depth), std::max(depths.last, depth) };
+                        });
+        skin_ = frame.project(body.positions);
+        paint_triangles(frame, skin_, body.triangles, [&](std::size_t at, float depth, int face, bool is_front) {
+            (is_front ? rays_[at].front : rays_[at].back).add(depth, face);
+        });
     }
 
-    /// @param depth  m; cloth that lies this far under the skin covers it all the same
-    bool is_seen(Eigen::Index vertex, double depth) const
+    /// Calls mark(face) for each face that has to stay.
+    template <class Mark>
+    void for_each_seen(float most_bulge, const Mark& mark) const
     {
-        const Vec3 normal = normals_.row(vertex), place = lifted(vertex);
-        return !cloth_.is_met(place - depth * normal, place)
-            && std::any_of(directions_.begin(), directions_.end(), [&](const Vec3& direction) {
-                   const Vec3 end = place + far_ * direction;
-                   return is_outwards(direction, normal) && !cloth_.is_met(place, end) && !body_.is_met(place, end);
-               });
+        for (const auto& [cloth, front, back] : rays_)
+            for (const int face : { face_that_shows(cloth.first, { front.depths.first, front.first },
+                                                    { back.depths.first, back.first }, most_bulge),
+                                    face_that_shows(-cloth.last, { -back.depths.last, back.last },
+                                                    { -front.depths.last, front.last }, most_bulge) })
+                if (face >= 0)
+                    mark(face);
     }
 
-    /// Whether cloth ends most lines of sight.
-    bool is_under_cloth(Eigen::Index vertex) const
+    /// Whether cloth lies before a vertex, for a viewer who looks along the direction or against it.
+    bool is_behind_cloth(Eigen::Index vertex, bool along) const
     {
-        const Vec3 normal = normals_.row(vertex), place = lifted(vertex);
-        int all = 0, ended = 0;
-        for (const Vec3& direction : directions_)
-            if (is_outwards(direction, normal)) {
-                ++all;
-                ended += cloth_.is_met(place, place + far_ * direction);
-            }
-        return 2 * ended > all;
+        const Eigen::RowVector3d place = skin_.row(vertex);
+        const Depths& cloth = rays_[std::size_t(place.y()) * std::size_t(width_) + std::size_t(place.x())].cloth;
+        return along ? cloth.first < place.z() : cloth.last > place.z();
     }
 
 private:
-    static bool is_outwards(const Vec3& direction, const Vec3& normal)
-    {
-        return direction.dot(normal) > k_least_sight_cosine;
-    }
-    Vec3 lifted(Eigen::Index vertex) const
-    {
-        return Vec3(positions_.row(vertex)) + k_lift * far_ * Vec3(normals_.row(vertex));
-    }
-
-    Positions positions_, normals_;
-    CrossingTree body_, cloth_;
-    double far_;
-    std::vector<Vec3> directions_ = directions_of_sight();
+    int width_ = 0;
+    Positions skin_;
+    std::vector<Ray> rays_;
 };
 
 TriangleMesh joined_clothes(const std::vector<SkinnedCloth>& clothes, const BoneTransforms& transforms)
@@ -103,31 +165,117 @@ TriangleMesh joined_clothes(const std::vector<SkinnedCloth>& clothes, const Bone
     return all;
 }
 
-/// How far under the skin of each vertex its own limb certainly goes on.
-std::vector<double> depths_under_skin(const Rig& rig, const TriangleMesh& body)
+/// Draws pictures, several at once. look(i, picture) gets that of directions[i].
+template <class Look>
+void draw_pictures(const Dressed& dressed, const Directions& directions, double pixel, const Look& look)
 {
-    const auto radii = bone_radii(rig.skeleton, rig.weights, body.positions);
-    std::vector<double> depths;
-    for (const int bone : strongest_bones(rig.weights))
-        depths.push_back(k_depth_under_skin * radii[std::size_t(bone)]);
-    return depths;
+    constexpr std::size_t k_chunk = 8;  // unit: pictures that share memory
+    parallel_for((directions.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+        DepthPicture picture;
+        for (std::size_t i = k_chunk * chunk; i < std::min(directions.size(), k_chunk * (chunk + 1)); ++i) {
+            picture.draw(dressed, directions[i], pixel);
+            look(i, picture);
+        }
+    });
 }
 
-/// Shows the skin along that which is seen, too: lines of sight are few, and poses between those of the set exist.
-void add_margin(const TriangleMesh& body, std::vector<char>& is_covered)
+/// Whether cloth hides a vertex from most directions that it faces.
+std::vector<char> find_skin_under_cloth(const Dressed& dressed, const Directions& directions, double pixel)
 {
-    const Edges edges = edges_of(body.triangles);
-    double length = 0;
-    for (const auto& edge : edges.rowwise())
-        length += (body.positions.row(edge[0]) - body.positions.row(edge[1])).norm();
-    length /= double(std::max<Eigen::Index>(1, edges.rows()));
-    const int rings = std::clamp(int(std::ceil(k_margin_of_sight * diagonal(body.positions) / length)), 1, 100);
-    for (int ring = 0; ring < rings; ++ring) {
-        const std::vector<char> before = is_covered;
-        for (const auto& edge : edges.rowwise())
-            for (int end = 0; end < 2; ++end)
-                if (!before[std::size_t(edge[end])])
-                    is_covered[std::size_t(edge[1 - end])] = 0;
+    const Positions normals = vertex_normals(dressed.body.positions, dressed.body.triangles);
+    std::vector<std::atomic<int>> balance(std::size_t(normals.rows()));
+    draw_pictures(dressed, directions, pixel, [&](std::size_t i, const DepthPicture& picture) {
+        for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+            const bool along = normals.row(v).dot(directions[i]) < 0;
+            balance[std::size_t(v)].fetch_add(picture.is_behind_cloth(v, along) ? 1 : -1, std::memory_order_relaxed);
+        }
+    });
+    std::vector<char> is_under_cloth;
+    for (const auto& each : balance)
+        is_under_cloth.push_back(each > 0);
+    return is_under_cloth;
+}
+
+/// Vertices that are seen, and those within a margin of them along the edges.
+class SeenSkin {
+public:
+    SeenSkin(const TriangleMesh& body, double margin) :
+        positions_(body.positions), topology_(body.triangles, int(body.positions.rows())), margin_(margin),
+        reach_(std::max(margin, k_edges_to_news * mean_edge_length(body.positions, topology_.edges()))),
+        distances_(std::size_t(body.positions.rows()), reach_)
+    {
+    }
+
+    bool is_seen(int vertex) const { return distances_[std::size_t(vertex)] == 0; }
+    bool is_in_margin(int vertex) const { return distances_[std::size_t(vertex)] < margin_; }
+    bool is_near(int vertex) const { return distances_[std::size_t(vertex)] < reach_; }
+
+    void add(const std::vector<int>& vertices)
+    {
+        for (const int vertex : vertices)
+            reach(0, vertex);
+        while (!next_.empty()) {
+            const auto [distance, vertex] = next_.top();
+            next_.pop();
+            if (distance == distances_[std::size_t(vertex)])
+                for (const int other : topology_.neighbours(vertex))
+                    reach(distance + (positions_.row(vertex) - positions_.row(other)).norm(), other);
+        }
+    }
+
+private:
+    void reach(double distance, int vertex)
+    {
+        if (distance < distances_[std::size_t(vertex)]) {
+            distances_[std::size_t(vertex)] = distance;
+            next_.push({ distance, vertex });
+        }
+    }
+
+    using Step = std::pair<double, int>;
+    const Positions& positions_;
+    MeshTopology topology_;
+    double margin_, reach_;
+    std::vector<double> distances_;  // along edges from skin that is seen
+    std::priority_queue<Step, std::vector<Step>, std::greater<>> next_;
+};
+
+/// What one picture adds to the skin that is seen.
+struct News {
+    std::vector<int> vertices;
+    bool is_far = false;  // from all that was seen before
+};
+
+News news_of(const DepthPicture& picture, const Triangles& triangles, double most_bulge, const SeenSkin& seen)
+{
+    News news;
+    picture.for_each_seen(float(most_bulge), [&](int face) {
+        for (const int corner : triangles.row(face))
+            if (!seen.is_seen(corner)) {
+                news.vertices.push_back(corner);
+                news.is_far = news.is_far || !seen.is_near(corner);
+            }
+    });
+    return news;
+}
+
+/// Looks at one pose. Where a picture shows something far from all that was seen, more are drawn around it: one looks
+/// into sleeves, collars and trouser legs within a few degrees only.
+void look_around(const Dressed& dressed, Directions directions, double size, SeenSkin& seen)
+{
+    double angle = std::sqrt(2 * std::numbers::pi / k_pictures_of_a_pose);  // between neighbours of the lattice
+    for (int level = 0; level <= k_levels_of_sight && !directions.empty(); ++level, angle /= 2) {
+        std::vector<News> news(directions.size());
+        draw_pictures(dressed, directions, k_pixel_of_sight * size, [&](std::size_t i, const DepthPicture& picture) {
+            news[i] = news_of(picture, dressed.body.triangles, k_most_bulge * size, seen);
+        });
+        Directions far;
+        for (std::size_t i = 0; i < news.size(); ++i) {
+            seen.add(news[i].vertices);
+            if (news[i].is_far)
+                far.push_back(directions[i]);
+        }
+        directions = directions_around(far, angle / 2);
     }
 }
 
@@ -148,21 +296,26 @@ std::vector<char> find_covered_skin(const TriangleMesh& body, const Rig& rig, co
     for (const SkinnedCloth& cloth : clothes)
         require_rows(cloth.surface.positions, cloth.weights, "a garment");
 
-    const std::size_t count = std::size_t(body.positions.rows());
-    std::vector<char> is_covered(count, 0);
-    const Sight at_rest(body, joined_clothes(clothes, bone_transforms(rig.skeleton, Pose())));
-    parallel_for(count, [&](std::size_t v) {
-        is_covered[v] = !at_rest.is_seen(Eigen::Index(v), 0) && at_rest.is_under_cloth(Eigen::Index(v));
-    });
-    const std::vector<double> depths = depths_under_skin(rig, body);
-    for (const Keyframe& key : keyframes_of(rig)) {
-        const BoneTransforms transforms = bone_transforms(rig.skeleton, key.pose);
-        const Sight sight({ blend_linearly(body.positions, rig.weights, transforms), body.triangles },
-                          joined_clothes(clothes, transforms));
-        parallel_for(
-            count, [&](std::size_t v) { is_covered[v] = is_covered[v] && !sight.is_seen(Eigen::Index(v), depths[v]); });
+    const std::vector<Keyframe> keys = keyframes_of(rig);
+    const double size = diagonal(body.positions);
+    const int poses = 1 + int(keys.size());
+    const Dressed at_rest { body, joined_clothes(clothes, bone_transforms(rig.skeleton, Pose())) };
+    const std::vector<char> is_under_cloth
+        = find_skin_under_cloth(at_rest, directions_of_pose(0, poses), k_pixel_of_sight * size);
+    SeenSkin seen(body, k_margin_of_sight * size);
+    for (int v = 0; v < int(is_under_cloth.size()); ++v)
+        if (!is_under_cloth[std::size_t(v)])
+            seen.add({ v });
+    look_around(at_rest, directions_of_pose(0, poses), size, seen);
+    for (int pose = 1; pose < poses; ++pose) {
+        const BoneTransforms transforms = bone_transforms(rig.skeleton, keys[std::size_t(pose - 1)].pose);
+        look_around({ { blend_linearly(body.positions, rig.weights, transforms), body.triangles },
+                      joined_clothes(clothes, transforms) },
+                    directions_of_pose(pose, poses), size, seen);
     }
-    add_margin(body, is_covered);
+    std::vector<char> is_covered;
+    for (int v = 0; v < int(body.positions.rows()); ++v)
+        is_covered.push_back(!seen.is_in_margin(v));
     return is_covered;
 }
 

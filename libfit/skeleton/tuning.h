@@ -54,12 +54,17 @@ inline constexpr double k_least_weight = 1e-3;
 
 // ---- covered skin (covered_skin.cpp) ------------------------------------------------------------------------------
 
-/// fitted: guess. Lines of sight over the whole sphere; 64 leave a cone of about 15 degrees around each.
-inline constexpr int k_lines_of_sight = 64;
-/// fitted: guess. Skin that is seen at a lower angle than this is nearly behind other skin: sine of 6 degrees.
-inline constexpr double k_least_sight_cosine = 0.1;
-/// fitted: guess. Share of a limb's radius. Skinning pushes skin this far through the cloth over it.
-inline constexpr double k_depth_under_skin = 0.5;
+/// fitted: on P10, the fewest without a hole (docs/decisions/0040). Drawings of a pose, each looked at from both sides:
+/// about 14 degrees between neighbours.
+inline constexpr int k_pictures_of_a_pose = 100;
+/// fitted: as above. Drawings around one that shows skin that is new, and how often their distance is halved.
+inline constexpr int k_pictures_around = 6, k_levels_of_sight = 3;
+/// fitted: guess. Mean edges of the body: skin nearer than this, or than the margin, to skin that is seen is not new.
+inline constexpr double k_edges_to_news = 1.5;
+/// fitted: as above. Share of the diagonal of the body: the side of a pixel, 6 mm of an adult.
+inline constexpr double k_pixel_of_sight = 0.003;
+/// fitted: guess. Share of the diagonal of the body. Skinning pushes skin this far through the cloth over it.
+inline constexpr double k_most_bulge = 0.01;
 /// fitted: guess. Share of the diagonal of the body: 2 cm of an adult.
 inline constexpr double k_margin_of_sight = 0.01;
 

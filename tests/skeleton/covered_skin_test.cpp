@@ -2,9 +2,11 @@
 #include "garmentfit/covered_skin.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "fixtures.h"
 #include "garmentfit/garment_weights.h"
+#include "garmentfit/rig_body.h"
 #include "keyframes.h"
 #include "views.h"
 
@@ -22,9 +24,18 @@ SkinWeights rigid(Eigen::Index rows, Bone bone)
     return weights;
 }
 
+constexpr double k_spacing = 0.025;  // m; faces are seen as wholes, so they must be smaller than what covers them
+
+Person fine_person()
+{
+    PersonOptions options;
+    options.spacing = k_spacing;
+    return capsule_person(options);
+}
+
 /// A body that moves as a whole, so that its clothes cover in all poses what they cover at rest.
 struct Clothed {
-    Person person = capsule_person();
+    Person person = fine_person();
     Rig rig = simple_rig(person);
 
     Clothed() { rig.weights = rigid(person.mesh.positions.rows(), thorax); }
@@ -32,7 +43,7 @@ struct Clothed {
     /// A garment round all skin with `keep`.
     SkinnedCloth cloth(const std::function<bool(const Vec3&)>& keep) const
     {
-        const TriangleMesh mesh = garment_round(person.skeleton, 0.025, keep);
+        const TriangleMesh mesh = garment_round(person.skeleton, 0.012, keep, k_spacing);
         return { mesh, rigid(mesh.positions.rows(), thorax) };
     }
     Vec3 place(std::size_t v) const { return person.mesh.positions.row(Eigen::Index(v)); }
@@ -56,7 +67,7 @@ TEST(CoveredSkin, IsUnderClothAwayFromItsBorders)
         }
     }
     EXPECT_GT(covered, 100);
-    EXPECT_GT(at_the_belly, 0.9 * belly);
+    EXPECT_GT(at_the_belly, 0.8 * belly) << "but for the front, up to which one looks from the hem";
 }
 
 TEST(CoveredSkin, IsNoneWithoutClothOrUnderOpenCloth)
@@ -85,9 +96,9 @@ TEST(CoveredSkin, IsSeenWhereAPoseOpensTheCloth)
 
 TEST(CoveredSkin, LeavesNoHoleThatAViewOfAPoseShows)
 {
-    const Person person = capsule_person();
-    const Rig rig = simple_rig(person);
-    const TriangleMesh mesh = garment_round(person.skeleton, 0.025, is_shirt);
+    const Person person = fine_person();
+    const Rig rig = rig_body(make_body(person.mesh.positions, person.mesh.triangles));
+    const TriangleMesh mesh = garment_round(person.skeleton, 0.012, is_shirt, k_spacing);
     const SkinnedCloth shirt {
         mesh, garment_weights(person.mesh, rig.weights, make_garment(mesh.positions, mesh.triangles), mesh.positions)
     };
@@ -109,12 +120,40 @@ TEST(CoveredSkin, LeavesNoHoleThatAViewOfAPoseShows)
     const Holes holes = count();
     EXPECT_GT(std::count(is_covered.begin(), is_covered.end(), 1), 5);
     EXPECT_GT(holes.skin, 10000);
-    EXPECT_LE(holes.through, holes.skin / 10000) << "skin that blending pushes out of its clothes counts as covered";
+    EXPECT_EQ(holes.through, 0);
     EXPECT_EQ(holes.deep, 0);
     for (std::size_t v = 0; v < is_covered.size(); ++v)
         is_covered[v] = is_covered[v] || is_shirt(person.mesh.positions.row(Eigen::Index(v)));
     const Holes wrong = count();
     EXPECT_GT(wrong.through + wrong.deep, 100) << "all skin below the shirt, up to its borders";
+}
+
+TEST(CoveredSkin, IsSeenThroughANarrowTubeAlongItsAxisOnly)
+{
+    Clothed clothed;
+    const auto is_leg = [](const Vec3& p) { return p.x() > 0.02 && p.y() > 0.12 && p.y() < 0.75; };
+    const auto covered_leg = [&](const SkinnedCloth& leg) {
+        const auto is_covered = find_covered_skin(clothed.person.mesh, clothed.rig, { leg });
+        int count = 0;
+        for (std::size_t v = 0; v < is_covered.size(); ++v)
+            count += is_covered[v] && is_leg(clothed.place(v));
+        return count;
+    };
+    const TriangleMesh tight = garment_round(clothed.person.skeleton, 0.01, is_leg, k_spacing),
+                       wide = garment_round(clothed.person.skeleton, 0.06, is_leg, k_spacing);
+    const int under_tight = covered_leg({ tight, rigid(tight.positions.rows(), thorax) }),
+              under_wide = covered_leg({ wide, rigid(wide.positions.rows(), thorax) });
+    EXPECT_GT(under_tight, 10);
+    EXPECT_LT(under_wide, under_tight / 2);
+}
+
+TEST(CoveredSkin, IsTheSameForAnyNumberOfThreads)
+{
+    const Clothed clothed;
+    const std::vector<SkinnedCloth> clothes { clothed.cloth(is_shirt) };
+    std::vector<char> alone;
+    tbb::task_arena(1).execute([&] { alone = find_covered_skin(clothed.person.mesh, clothed.rig, clothes); });
+    EXPECT_EQ(find_covered_skin(clothed.person.mesh, clothed.rig, clothes), alone);
 }
 
 TEST(CoveredSkin, LeavesOutFacesOfWhichAllCornersAreCovered)

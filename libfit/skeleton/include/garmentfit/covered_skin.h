@@ -4,11 +4,11 @@
 // Skin that clothes cover whatever the body does: files of outfits can leave it out, so that it cannot pass through the
 // cloth of a posed body.
 //
-// Method  lines of sight from each vertex of the skin in many directions, in the rest pose and in 36 poses of everyday
-//         movement (standing, reaching, sitting, walking, ...), posed by linear blend skinning. Skin that the blending
-//         pushes through the cloth over it counts as covered there. Skin that no line reaches is covered, but for a
-//         margin along the skin that is seen.
-// Cost    O(n log m) lines for each pose, most of them for skin that is covered; n vertices, m faces.
+// Method  depth pictures of body and clothes from many directions, in the rest pose and in 36 poses of everyday movement
+//         (standing, reaching, sitting, walking, ...), posed by linear blend skinning; more where one shows skin that is
+//         new. Skin that the blending pushes through the cloth over it counts as covered there. Skin that no picture
+//         shows is covered, but for a margin along the skin that is seen. The same bits on any number of threads.
+// Cost    O(n) for each of some thousand pictures; n faces of body and clothes.
 
 #include <vector>
 
