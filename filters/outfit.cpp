@@ -7,6 +7,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/garment_weights.h"
+#include "garmentfit/inset_skin.h"
 
 namespace garmentfit {
 namespace {
@@ -49,6 +50,15 @@ std::vector<SkinnedMesh> skinned_meshes(const Scene& scene, const OutfitPart& bo
                            garments.at(i).look });
     }
     return meshes;
+}
+
+/// Draws the body, the first of these, in under the others.
+void inset_body(std::vector<SkinnedMesh>& meshes)
+{
+    std::vector<TriangleMesh> clothes;
+    for (std::size_t i = 1; i < meshes.size(); ++i)
+        clothes.push_back(meshes[i].surface);
+    meshes[0].surface.positions = inset_skin(meshes[0].surface, clothes);
 }
 
 std::vector<char> covered_by_clothes(const std::vector<SkinnedMesh>& meshes, const Rig& rig)
@@ -147,6 +157,8 @@ void write_outfit(const Scene& scene, const OutfitPart& body, const std::vector<
     std::vector<SkinnedMesh> meshes;
     if (!on_avatar || request.hide_covered_skin)
         meshes = skinned_meshes(scene, body, garments);
+    if (!on_avatar && request.hide_covered_skin)
+        inset_body(meshes);
     const std::vector<char> covered
         = request.hide_covered_skin ? covered_by_clothes(meshes, *scene.rig) : std::vector<char>();
     if (on_avatar)

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-HEAD = """| outfit | nearest point | weights of clothes | nearest point, covered skin hidden | both | share | faces hidden \
+HEAD = """| outfit | nearest point | weights of clothes | nearest point, skin hidden and drawn in | both | share | faces hidden \
 | skin out, nearest | skin out, weights | edges torn, nearest | edges torn, weights |
 | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"""
 

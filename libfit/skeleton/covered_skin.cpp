@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <queue>
 #include <string>
 
 #include "depth_picture.h"
+#include "edge_distances.h"
 #include "garmentfit/error.h"
 #include "garmentfit/mesh.h"
 #include "keyframes.h"
@@ -200,44 +200,21 @@ std::vector<char> find_skin_under_cloth(const Dressed& dressed, const Directions
 class SeenSkin {
 public:
     SeenSkin(const TriangleMesh& body, double margin) :
-        positions_(body.positions), topology_(body.triangles, int(body.positions.rows())), margin_(margin),
+        topology_(body.triangles, int(body.positions.rows())), margin_(margin),
         reach_(std::max(margin, k_edges_to_news * mean_edge_length(body.positions, topology_.edges()))),
-        distances_(std::size_t(body.positions.rows()), reach_)
+        distances_(body.positions, topology_, reach_)
     {
     }
 
-    bool is_seen(int vertex) const { return distances_[std::size_t(vertex)] == 0; }
-    bool is_in_margin(int vertex) const { return distances_[std::size_t(vertex)] < margin_; }
-    bool is_near(int vertex) const { return distances_[std::size_t(vertex)] < reach_; }
-
-    void add(const std::vector<int>& vertices)
-    {
-        for (const int vertex : vertices)
-            reach(0, vertex);
-        while (!next_.empty()) {
-            const auto [distance, vertex] = next_.top();
-            next_.pop();
-            if (distance == distances_[std::size_t(vertex)])
-                for (const int other : topology_.neighbours(vertex))
-                    reach(distance + (positions_.row(vertex) - positions_.row(other)).norm(), other);
-        }
-    }
+    bool is_seen(int vertex) const { return distances_[vertex] == 0; }
+    bool is_in_margin(int vertex) const { return distances_[vertex] < margin_; }
+    bool is_near(int vertex) const { return distances_[vertex] < reach_; }
+    void add(const std::vector<int>& vertices) { distances_.add(vertices); }
 
 private:
-    void reach(double distance, int vertex)
-    {
-        if (distance < distances_[std::size_t(vertex)]) {
-            distances_[std::size_t(vertex)] = distance;
-            next_.push({ distance, vertex });
-        }
-    }
-
-    using Step = std::pair<double, int>;
-    const Positions& positions_;
     MeshTopology topology_;
     double margin_, reach_;
-    std::vector<double> distances_;  // along edges from skin that is seen
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> next_;
+    EdgeDistances distances_;  // from skin that is seen
 };
 
 /// What one picture adds to the skin that is seen.

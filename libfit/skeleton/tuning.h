@@ -68,6 +68,17 @@ inline constexpr double k_most_bulge = 0.01;
 /// fitted: guess. Share of the diagonal of the body: 2 cm of an adult.
 inline constexpr double k_margin_of_sight = 0.01;
 
+// ---- skin under clothes (inset_skin.cpp) --------------------------------------------------------------------------
+
+/// fitted: guess. Shares of the diagonal of the body: how near cloth is that covers skin, 8 cm of an adult; how far the
+/// skin goes in, 2 cm; how far from bare skin it begins to, 1 cm.
+inline constexpr double k_nearby_cloth = 0.04, k_inset = 0.01, k_inset_margin = 0.005;
+/// fitted: guess. Depth over the distance from there on; largest depth as a share of the limb's thickness: both sides of
+/// a wrist leave three fifths.
+inline constexpr double k_inset_slope = 0.5, k_inset_share = 0.2;
+/// fitted: guess.
+inline constexpr int k_inset_smoothing_passes = 5;
+
 // ---- skin of hands and feet (extremity_skin.h) --------------------------------------------------------------------
 
 /// fitted: guess, on the bodies with hands or feet removed. Share of the bone before: a shorter extremity is a stump.

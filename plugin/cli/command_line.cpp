@@ -168,9 +168,11 @@ void add_outfit_options(CLI::App& command, Call& call)
                     "weights for all meshes, so that other programs can pose them")
         ->check([](const std::string& path) { return fault_of_outfit_name(path); });
     command
-        .add_flag("--hide-covered-skin", call.outfit.hide_covered_skin,
-                  "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
-                  "movement, so that they cannot pass through posed cloth")
+        .add_flag(
+            "--hide-covered-skin", call.outfit.hide_covered_skin,
+            "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
+            "movement, and draw in skin under cloth by up to 2 cm (of an adult; not on an avatar's own bones), so "
+            "that less passes through posed cloth")
         ->needs("--outfit");
     command
         .add_option_function<std::string>(

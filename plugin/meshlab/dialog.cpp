@@ -191,8 +191,10 @@ void add_outfit(RichParameterList& list, const MeshModel& body)
         bones.push_back(name);
     add_choice(list, k_outfit_bones, bones, "Bones",
                "Names and number of the joints, as that program has them; a .vrm file has those of VRM");
-    list.addParam(RichBool(k_hide_covered_skin, false, "Hide covered skin",
-                           "Leave out faces of the body that the garments cover in poses of everyday movement"));
+    list.addParam(
+        RichBool(k_hide_covered_skin, false, "Hide covered skin",
+                 "Leave out faces of the body that the garments cover in poses of everyday movement, and draw in "
+                 "skin under cloth by up to 2 cm"));
     list.addParam(SaveFileParameter(k_file, QString::fromStdString(outfit_beside(body).string()), "*.glb", "Outfit",
                                     "A .glb or .vrm file; without a name: man.outfit.glb beside man.ply"));
 }

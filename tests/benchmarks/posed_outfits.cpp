@@ -3,7 +3,7 @@
 // Poses a dressed body and counts what passes through: `posed_outfits BODY GARMENT WORN [FOLDER]`, in metres. WORN is
 // the dressed garment of `garmentfit dress`. Prints one line of JSON; with FOLDER, writes body and garment in each pose.
 // Weights of the garment: ours, against those of the nearest point of the skin. Counts of crossings are pairs: [whole body,
-// body without covered skin]; `out` counts pixels of skin that came out of the cloth in 1,008 views of the whole body,
+// body without covered skin, drawn in under the cloth]; `out` counts pixels of skin that came out of the cloth in 1,008 views of the whole body,
 // and `torn` the edges that poses stretch to more than twice their length. scripts/measure-outfits makes the table.
 
 #include <filesystem>
@@ -17,6 +17,7 @@
 #include "garmentfit/certificate.h"
 #include "garmentfit/covered_skin.h"
 #include "garmentfit/garment_weights.h"
+#include "garmentfit/inset_skin.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 #include "keyframes.h"
@@ -87,7 +88,7 @@ long torn_edges(const TriangleMesh& posed, const Positions& worn)
 
 /// One of the poses, and the first of its views of all those of the set.
 struct Moment {
-    const TriangleMesh& body;
+    const TriangleMesh &body, &shown;  // as it is, and as an outfit without covered skin has it
     int first_view, views;
 };
 
@@ -110,10 +111,10 @@ struct Rival {
     int all = 0, shown = 0;
     long out = 0, torn = 0;
 
-    Json count(const TriangleMesh& cloth, const Moment& moment, const Triangles& shown_skin)
+    Json count(const TriangleMesh& cloth, const Moment& moment)
     {
         const int through_all = crossing_count(moment.body, cloth);
-        const int through_shown = crossing_count({ moment.body.positions, shown_skin }, cloth);
+        const int through_shown = crossing_count(moment.shown, cloth);
         const long pixels = pixels_out(cloth, moment);
         all += through_all;
         shown += through_shown;
@@ -128,8 +129,8 @@ Json measure(const Outfit& outfit, const std::filesystem::path& folder)
     const Triangles& cloth = outfit.garment.triangles;
     Rival rivals[] { { "ours", garment_weights(outfit.body, outfit.rig.weights, outfit.garment, outfit.worn) },
                      { "nearest", nearest_point_weights(outfit.body, outfit.rig.weights, outfit.worn) } };
-    const auto is_covered
-        = find_covered_skin(outfit.body, outfit.rig, { { { outfit.worn, cloth }, rivals[0].weights } });
+    const TriangleMesh inset { inset_skin(outfit.body, { { outfit.worn, cloth } }), outfit.body.triangles };
+    const auto is_covered = find_covered_skin(inset, outfit.rig, { { { outfit.worn, cloth }, rivals[0].weights } });
     const Triangles shown = uncovered_faces(outfit.body.triangles, is_covered);
     Json poses = Json::array();
     const std::vector<Keyframe> keys = keyframes_of(outfit.rig);
@@ -137,18 +138,19 @@ Json measure(const Outfit& outfit, const std::filesystem::path& folder)
         const BoneTransforms transforms = bone_transforms(outfit.rig.skeleton, key.pose);
         const TriangleMesh body { blend_linearly(outfit.body.positions, outfit.rig.weights, transforms),
                                   outfit.body.triangles };
-        const Moment moment { body, int(poses.size()), int(keys.size()) * k_views_of_a_pose };
+        const TriangleMesh shown_skin { blend_linearly(inset.positions, outfit.rig.weights, transforms), shown };
+        const Moment moment { body, shown_skin, int(poses.size()), int(keys.size()) * k_views_of_a_pose };
         Json pose { { "pose", key.name } };
         for (Rival& rival : rivals) {
             const TriangleMesh posed { blend_linearly(outfit.worn, rival.weights, transforms), cloth };
-            pose[rival.name] = rival.count(posed, moment, shown);
+            pose[rival.name] = rival.count(posed, moment);
             rival.torn += torn_edges(posed, outfit.worn);
             if (!folder.empty())
                 write_pose(folder, key.name + " " + rival.name, posed);
         }
         if (!folder.empty()) {
             write_pose(folder, key.name + " body", body);
-            write_pose(folder, key.name + " shown", { body.positions, shown });
+            write_pose(folder, key.name + " shown", shown_skin);
         }
         poses.push_back(pose);
     }

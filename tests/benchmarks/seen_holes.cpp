@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Looks for holes where covered skin was left out: `seen_holes BODY GARMENT WORN [PIXELS [PICTURE]]`, in metres. WORN
-// is the dressed garment of `garmentfit dress`. 1,008 views: each of the 36 poses from 28 directions. Prints a line of
-// JSON: pixels that show skin; of these, those that show nothing or the inner side of the skin once covered skin is
-// left out, and those that show cloth far behind it; and seconds of CPU time that it took to find covered skin. With
-// PICTURE, a PPM file, draws the view with most of them: skin, cloth, and what is seen in place of skin in red
-// (through) and yellow (deep). scripts/measure-outfits --holes makes the table.
+// is the dressed garment of `garmentfit dress`. The body is drawn in under the cloth. 1,008 views: each of the 36 poses
+// from 28 directions. Prints a line of JSON: pixels that show skin; of these, those that show nothing or the inner side
+// of the skin once covered skin is left out, and those that show cloth far behind it; and seconds of CPU time that it
+// took to find covered skin. With PICTURE, a PPM file, draws the view with most of them: skin, cloth, and what is seen in
+// place of skin in red (through) and yellow (deep). scripts/measure-outfits --holes makes the table.
 
 #include <ctime>
 #include <fstream>
@@ -16,6 +16,7 @@
 
 #include "garmentfit/covered_skin.h"
 #include "garmentfit/garment_weights.h"
+#include "garmentfit/inset_skin.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 #include "keyframes.h"
@@ -53,7 +54,8 @@ Json measure(char** files, int pixels, const std::string& picture)
     const GarmentMesh garment = make_garment(given.positions(), given.triangles());
     const SkinWeights weights = garment_weights(body, rig.weights, garment, worn.positions());
     const std::clock_t start = std::clock();
-    const auto is_covered = find_covered_skin(body, rig, { { { worn.positions(), garment.triangles }, weights } });
+    const TriangleMesh inset { inset_skin(body, { { worn.positions(), garment.triangles } }), body.triangles };
+    const auto is_covered = find_covered_skin(inset, rig, { { { worn.positions(), garment.triangles }, weights } });
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     const Triangles shown = uncovered_faces(body.triangles, is_covered);
 
@@ -64,7 +66,7 @@ Json measure(char** files, int pixels, const std::string& picture)
     long most = -1, most_of_views = 0;
     for (std::size_t key = 0; key < keys.size(); ++key) {
         const BoneTransforms transforms = bone_transforms(rig.skeleton, keys[key].pose);
-        const fixtures::Worn posed { blend_linearly(body.positions, rig.weights, transforms),
+        const fixtures::Worn posed { blend_linearly(inset.positions, rig.weights, transforms),
                                      blend_linearly(worn.positions(), weights, transforms), body.triangles, shown,
                                      garment.triangles };
         fixtures::Holes here;

@@ -51,7 +51,8 @@ public:
 
     ///@{
     /**
-   * Leaves out faces of the body that the garments cover in the rest pose and in poses of everyday movement.
+   * Leaves out faces of the body that the garments cover in the rest pose and in poses of everyday movement, and draws
+   * in skin under cloth by up to 2 cm (of an adult).
    */
     vtkSetMacro(HideCoveredSkin, bool);
     vtkGetMacro(HideCoveredSkin, bool);

@@ -31,8 +31,9 @@ struct AvatarFile {
 struct OutfitRequest {
     std::filesystem::path path;  ///< ends in .glb, or in .vrm, which has the joints of VRM whatever `bones` says
     std::optional<BoneNames> bones = {};  ///< none: the avatar's own, or garmentfit without one
-    bool hide_covered_skin
-        = false;  ///< leaves out faces of the body that clothes cover in all poses of everyday movement
+    /// Leaves out faces of the body that clothes cover in all poses of everyday movement, and, but on an avatar's own
+    /// bones, draws in what is under cloth (inset_skin).
+    bool hide_covered_skin = false;
     std::optional<AvatarFile> avatar = {};  ///< whose file the body was read from, where it has a skin
     bool is_stripped = false;  ///< vertices of the body without faces are clothes that its file is to lose
 };
