@@ -280,9 +280,11 @@ std::vector<char> find_covered_skin(const TriangleMesh& body, const Rig& rig, co
     const std::vector<char> is_under_cloth
         = find_skin_under_cloth(at_rest, directions_of_pose(0, poses), k_pixel_of_sight * size);
     SeenSkin seen(body, k_margin_of_sight * size);
+    std::vector<int> bare;
     for (int v = 0; v < int(is_under_cloth.size()); ++v)
         if (!is_under_cloth[std::size_t(v)])
-            seen.add({ v });
+            bare.push_back(v);
+    seen.add(bare);
     look_around(at_rest, directions_of_pose(0, poses), size, seen);
     for (int pose = 1; pose < poses; ++pose) {
         const BoneTransforms transforms = bone_transforms(rig.skeleton, keys[std::size_t(pose - 1)].pose);

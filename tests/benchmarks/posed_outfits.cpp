@@ -2,9 +2,10 @@
 
 // Poses a dressed body and counts what passes through: `posed_outfits BODY GARMENT WORN [FOLDER]`, in metres. WORN is
 // the dressed garment of `garmentfit dress`. Prints one line of JSON; with FOLDER, writes body and garment in each pose.
-// Weights of the garment: ours, against those of the nearest point of the skin. Counts of crossings are pairs: [whole body,
-// body without covered skin, drawn in under the cloth]; `out` counts pixels of skin that came out of the cloth in 1,008 views of the whole body,
-// and `torn` the edges that poses stretch to more than twice their length. scripts/measure-outfits makes the table.
+// Weights of the garment: ours, against those of the nearest point of the skin. Counts of crossings are pairs: [whole
+// body, body without covered skin, drawn in under the cloth]; `out` counts pixels of skin that came out of the cloth in
+// 1,008 views of the whole body, and `torn` the edges that poses stretch to more than twice their length.
+// scripts/measure-outfits makes the table.
 
 #include <filesystem>
 #include <iostream>

@@ -827,6 +827,23 @@ TEST_F(Slow, CarriesMaterialsAndPicturesAlong)
     EXPECT_EQ(look.pictures.size(), 1u);
 }
 
+TEST_F(Slow, LeavesOutSkinUnderAShirtAndDrawsTheRestIn)
+{
+    const Ended ended = run({ "dress", GARMENTFIT_BODIES "/muscular_man_hands_on_hips.ply",
+                              GARMENTFIT_SAMPLES "/shirt.ply", "--quality", "draft", "--outfit", folder / "outfit.glb",
+                              "--hide-covered-skin", "-o", folder / "dressed" });
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto whole = garmentfit::MeshFile::read(folder / "dressed" / "body.ply"),
+               outfit = garmentfit::MeshFile::read(folder / "outfit.glb");
+    const Eigen::Index of_body = (outfit.triangles().rowwise().maxCoeff().array() < whole.positions().rows()).count();
+    EXPECT_LT(of_body, whole.triangles().rows()) << "skin under the shirt is left out";
+    EXPECT_GT(of_body, whole.triangles().rows() / 2);
+    const double deepest
+        = (outfit.positions().topRows(whole.positions().rows()) - whole.positions()).rowwise().norm().maxCoeff();
+    EXPECT_GT(deepest, 0.01);
+    EXPECT_LT(deepest, 0.025);
+}
+
 TEST_F(Slow, KeepsTheFileOfASkinnedBodyInItsOutfit)
 {
     ASSERT_EQ(run({ "rig", k_body, "-o", folder / "rigged" }).code, 0);

@@ -53,13 +53,13 @@ TriangleMesh ball(double radius, const Vec3& centre)
 
 const TriangleMesh k_far_body = ball(0.1, Vec3(0, 9, 0));
 
-/// A tube bent about an axis this far to the side, m.
-Positions bent(const Positions& positions, double axis = 1)
+/// A quarter of a tube, as it is bent.
+Positions bent(const Positions& positions)
 {
     Positions result = positions;
     for (auto row : result.rowwise()) {
-        const double angle = row.y() / axis, radius = axis - row.x();
-        row << axis - radius * std::cos(angle), radius * std::sin(angle), row.z();
+        const double angle = row.y(), radius = 1 - row.x();  // about an axis 1 m to the side
+        row << 1 - radius * std::cos(angle), radius * std::sin(angle), row.z();
     }
     return result;
 }
