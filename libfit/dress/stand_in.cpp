@@ -9,6 +9,8 @@
 #include <Eigen/SVD>
 
 #include "barycentric.h"
+#include "crowding.h"
+#include "disjoint_sets.h"
 #include "exact_crossings.h"
 #include "given_crossings.h"
 #include "nearest.h"
@@ -87,6 +89,12 @@ private:
     std::vector<int> found_;
 };
 
+/// Whether an edge between two vertices grows far longer than cloth does.
+bool is_torn(const Positions& rest, const Positions& worn, int a, int b)
+{
+    return (worn.row(a) - worn.row(b)).norm() > k_torn * (rest.row(a) - rest.row(b)).norm() + k_torn_gap;
+}
+
 /// Where a stand-in is, and how it takes along what is near it.
 class Motion {
 public:
@@ -97,14 +105,27 @@ public:
     {
     }
 
-    Places apply(const Positions& garment) const
+    Places apply(const Positions& garment, const MeshTopology& topology) const
+    {
+        std::vector<Binding> bindings(garment.rows());
+        parallel_for(garment.rows(), [&](Eigen::Index v) { bindings[v] = *sheet_.nearest_triangle(garment.row(v)); });
+        Places places = move(garment, bindings);
+        if (bind_as_neighbours(garment, topology, places.feet + places.offsets, bindings))
+            places = move(garment, bindings);
+        return places;
+    }
+
+private:
+    using Binding = TriangleTree::Nearest;  // where a vertex hangs on the stand-in
+
+    Places move(const Positions& garment, const std::vector<Binding>& bindings) const
     {
         constexpr Eigen::Index k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
         Places places { Positions::Zero(garment.rows(), 3), Positions::Zero(garment.rows(), 3) };
         parallel_for((garment.rows() + k_grain - 1) / k_grain, [&](Eigen::Index piece) {
             Neighbourhood neighbourhood(rest_.positions, topology_);
             for (Eigen::Index v = piece * k_grain; v < std::min((piece + 1) * k_grain, garment.rows()); ++v) {
-                const auto [foot, target] = move(garment.row(v), neighbourhood);
+                const auto [foot, target] = move(garment.row(v), bindings[v], neighbourhood);
                 places.feet.row(v) = foot;
                 places.offsets.row(v) = target - foot;
             }
@@ -112,13 +133,12 @@ public:
         return places;
     }
 
-private:
     /// Where the nearest point of the stand-in goes, and the place itself. What lies side by side is moved alike,
     /// whichever triangles are nearest to it: the motions of all vertices near by are blended.
-    std::pair<Vec3, Vec3> move(const Vec3& place, Neighbourhood& neighbourhood) const
+    std::pair<Vec3, Vec3> move(const Vec3& place, const Binding& binding, Neighbourhood& neighbourhood) const
     {
         constexpr double k_least = 1e-3;  // unit: a triangle larger than the reach has weights as well
-        const auto [nearest, triangle] = *sheet_.nearest_triangle(place);
+        const auto& [nearest, triangle] = binding;
         const Eigen::RowVector3i corners = rest_.triangles.row(triangle);
         const auto corner = [&](int k) { return Vec3(rest_.positions.row(corners[k])); };
         const std::array<double, 3> shares = barycentric(nearest, corner(0), corner(1), corner(2));
@@ -134,6 +154,41 @@ private:
             weights += weight;
         }
         return { foot, sum / weights };
+    }
+
+    /// Where a sleeve hangs beside the trunk, some of its vertices are nearest to the stand-in's trunk and are torn off:
+    /// islands between edges that grow far longer. They go with their neighbours. @return whether there are any
+    static bool bind_as_neighbours(const Positions& rest, const MeshTopology& topology, const Positions& moved,
+                                   std::vector<Binding>& bindings)
+    {
+        const int count = int(rest.rows());
+        DisjointSets pieces(count), whole(count);
+        for (const auto& edge : topology.edges().rowwise()) {
+            pieces.join(edge[0], edge[1]);
+            if (!is_torn(rest, moved, edge[0], edge[1]))
+                whole.join(edge[0], edge[1]);
+        }
+        std::vector<int> size(count, 0), largest(count, -1);  // by the root: of what is whole; and of each piece
+        for (int v = 0; v < count; ++v)
+            ++size[whole.root(v)];
+        for (int v = 0; v < count; ++v)
+            if (int& best = largest[pieces.root(v)]; best < 0 || size[whole.root(v)] > size[best])
+                best = whole.root(v);
+        std::vector<char> is_bound(count);
+        std::vector<int> bound;
+        for (int v = 0; v < count; ++v) {
+            is_bound[v] = size[whole.root(v)] > k_largest_island * size[largest[pieces.root(v)]];
+            if (is_bound[v])
+                bound.push_back(v);
+        }
+        const bool has_islands = int(bound.size()) < count;
+        for (std::size_t next = 0; next < bound.size(); ++next)
+            for (const int n : topology.neighbours(bound[next]))
+                if (!std::exchange(is_bound[n], 1)) {
+                    bindings[n] = bindings[bound[next]];
+                    bound.push_back(n);
+                }
+        return has_islands;
     }
 
     const GarmentMesh& rest_;
@@ -343,13 +398,18 @@ Positions untangled(const Parts& cloth, const Positions& positions, const Surrou
 
 }  // namespace
 
-std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment) { return lining_of_parts(garment); }
+std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment)
+{
+    if (crowding(garment) < k_crowded && !is_in_parts(garment))
+        return {};
+    return lining_of(garment);
+}
 
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
                  const Surroundings& around)
 {
     const Parts cloth(garment);
-    const Positions drawn = draw_in(cloth, Motion(stand_in, worn).apply(cloth.rest.positions), around);
+    const Positions drawn = draw_in(cloth, Motion(stand_in, worn).apply(cloth.rest.positions, cloth.topology), around);
     return cloth.weld.place(untangled(cloth, drawn, around));
 }
 

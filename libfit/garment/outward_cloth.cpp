@@ -504,12 +504,11 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     return count_openings(wrapped) >= k_fewest_openings ? wrapped : std::move(plain.outer);
 }
 
-std::optional<GarmentMesh> lining_of_parts(const GarmentMesh& garment)
+bool is_in_parts(const GarmentMesh& garment) { return !read_plainly(garment).serves; }
+
+std::optional<GarmentMesh> lining_of(const GarmentMesh& garment)
 {
-    const PlainReading plain = read_plainly(garment);
-    if (plain.serves)
-        return {};
-    const Wrap wrap = wrap_parts(plain);
+    const Wrap wrap = wrap_parts(read_plainly(garment));
     if (count_openings(outer_sheet_of(wrap)) < k_fewest_openings)
         return {};
     return inner_sheet_of(wrap);

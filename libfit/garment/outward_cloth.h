@@ -15,9 +15,12 @@ namespace garmentfit {
 /// have (sheets side by side or beside each other), and where only one opening is found.
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
-/// The inner sheet of that wrap: one layer of cloth that goes round the body inside of all parts, facing outwards, in
-/// one piece. None where outward_cloth needs no wrap. The same cost.
-std::optional<GarmentMesh> lining_of_parts(const GarmentMesh& garment);
+/// Whether outward_cloth needs that wrap. Cost O(n log n).
+bool is_in_parts(const GarmentMesh& garment);
+
+/// The inner sheet of such a wrap round any garment: one layer of cloth that goes round the body inside of all parts,
+/// facing outwards, in one piece. None where the wrap closes its openings. The cost of a wrap.
+std::optional<GarmentMesh> lining_of(const GarmentMesh& garment);
 
 /// About the origin.
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn);

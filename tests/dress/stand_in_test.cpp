@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowding.h"
 #include "fixtures.h"
 #include "garmentfit/certificate.h"
 #include "topology.h"
@@ -107,6 +108,39 @@ TEST(StandIn, ClothOfOneLayerHasNone)
 {
     const TriangleMesh tube = strip(0.2, 0.6, 0, 2 * std::numbers::pi, 40);
     EXPECT_FALSE(make_stand_in(make_garment(tube.positions, tube.triangles)));
+}
+
+TEST(StandIn, OfClothWithDetailsOfTinyEdgesIsOneSheetToo)
+{
+    TriangleMesh tube = strip(0.2, 0.6, 0, 6.28, 40), cord = strip(2e-3, 0.02, 0, 6.28, 45);
+    cord.positions.col(1).array() += 0.4;
+    cord.positions.col(2).array() += 0.205;
+    const TriangleMesh both = joined(tube, cord);
+    const auto stand_in = make_stand_in(make_garment(both.positions, both.triangles));
+    ASSERT_TRUE(stand_in);
+    EXPECT_GT(crowding(make_garment(both.positions, both.triangles)), 10);
+    EXPECT_LT(crowding(*stand_in), 0.5);
+}
+
+TEST(StandIn, TakesAlongASleeveThatHangsBesideTheTrunk)
+{
+    // a fold of the sleeve is nearer to the trunk than to the sleeve of the stand-in
+    const TriangleMesh trunk = strip(0.2, 0.6, 0, 6, 60);
+    TriangleMesh sleeve = strip(0.06, 0.5, 0, 6, 50);
+    sleeve.positions.col(0).array() += 0.28;  // 2 cm away
+    const TriangleMesh led = joined(trunk, sleeve);
+    TriangleMesh folded = sleeve;
+    for (auto row : folded.positions.rowwise())
+        if (row.x() < 0.225 && std::abs(row.y() - 0.25) < 0.05)
+            row.x() -= 0.013;
+    const TriangleMesh garment = joined(trunk, folded);
+    Positions worn = led.positions;
+    const Eigen::Index first = trunk.positions.rows();
+    worn.bottomRows(worn.rows() - first).col(0).array() += 0.1;  // away from the trunk
+    const Positions followed
+        = follow({ led.positions, led.triangles }, worn, { garment.positions, garment.triangles }, { k_far_body });
+    const Positions moved = followed.bottomRows(followed.rows() - first) - folded.positions;
+    EXPECT_GT(moved.col(0).minCoeff(), 0.09);
 }
 
 TEST(StandIn, TakesThePartsAlong)

@@ -18,7 +18,9 @@
 namespace garmentfit {
 
 /// A stand-in, for clothes that cannot be read as one layer of cloth: panels that are closed slabs, sheets that lie on
-/// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md). None for all others.
+/// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md); and for clothes with details whose edges
+/// are far shorter than those of the cloth, cords, zips and stitches, where contact has hundreds of pairs for a vertex
+/// (docs/decisions/0033-stand-ins.md). None for all others.
 /// Cost: 4 to 8 s where there is one, whatever the size of the garment; else O(n log n).
 /// @param garment  on a body of human size
 GARMENTFIT_API std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment);
