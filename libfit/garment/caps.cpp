@@ -82,7 +82,7 @@ std::vector<std::vector<int>> Caps::find_filled(const std::vector<std::vector<in
     std::vector<char> is_seed(std::size_t(faces_.rows()));
     for (int side = 0; side < 3 * int(faces_.rows()); ++side) {
         const int other = topology_.opposite(side);
-        if (other < side || !is_closed_[side / 3] || is_taken[side / 3] || is_taken[other / 3])
+        if (other < side || is_taken[side / 3] || is_taken[other / 3])
             continue;
         const bool is_long = lengths[side] > k_fill_edge * usual[side / 3];
         is_seed[side / 3] |= is_long;
@@ -98,9 +98,17 @@ std::vector<std::vector<int>> Caps::find_filled(const std::vector<std::vector<in
     }
     std::vector<std::vector<int>> filled;
     for (const int root : seeded)
-        if (is_hole(region_with(regions[root]), k_fill_depth) && is_without_vertices(regions[root]))
+        if (is_filled(region_with(regions[root])))
             filled.push_back(regions[root]);
     return filled;
+}
+
+bool Caps::is_filled(const Region& region) const
+{
+    if (!is_hole(region, k_fill_depth) || !is_without_inner_vertices(topology_, region.faces))
+        return false;
+    const bool is_sure = region.faces.size() >= k_fan_faces && roundness_of(region) > k_fill_roundness;
+    return is_sure || is_closed_[region.faces[0]];
 }
 
 std::vector<double> Caps::usual_lengths(const std::vector<double>& lengths) const
@@ -127,17 +135,6 @@ bool Caps::is_ear(int side) const
     const Vec3 a = positions_.row(faces_(side / 3, side % 3)), b = positions_.row(faces_(side / 3, (side % 3 + 1) % 3)),
                apex = positions_.row(faces_(side / 3, (side % 3 + 2) % 3));
     return (a - apex).dot(b - apex) < 0;
-}
-
-bool Caps::is_without_vertices(const std::vector<int>& faces) const
-{
-    const std::set<int> own(faces.begin(), faces.end());
-    std::size_t inner = 0;
-    for (const int f : faces)
-        for (int side = 3 * f; side < 3 * f + 3; ++side)
-            if (const int other = topology_.opposite(side); other >= 0)
-                inner += own.count(other / 3);
-    return inner == 2 * (faces.size() - 1);
 }
 
 Caps::Region Caps::region_with(const std::vector<int>& faces)
@@ -260,10 +257,13 @@ bool Caps::is_flat_disc(const Region& region, double depth) const
 
 bool Caps::is_hole(const Region& region, double depth) const
 {
-    const double area = region.area.norm();
-    const double disc = region.girth * region.girth / (4 * std::numbers::pi);
-    return !region.is_taken && region.girth > smallest_girth_ && area > k_cap_roundness * disc && is_disc(region)
-        && is_flat(region, depth);
+    return !region.is_taken && region.girth > smallest_girth_ && roundness_of(region) > k_cap_roundness
+        && is_disc(region) && is_flat(region, depth);
+}
+
+double Caps::roundness_of(const Region& region)
+{
+    return 4 * std::numbers::pi * region.area.norm() / (region.girth * region.girth);
 }
 
 bool Caps::is_disc(const Region& region) const

@@ -43,8 +43,8 @@ private:
     /// may be as flat as at a neck.
     std::vector<std::vector<int>> find_fans();
 
-    /// Holes of closed cloth that were filled with triangles from rim to rim: discs of long edges in which no vertex
-    /// lies. Large flat parts of open cloth may look the same.
+    /// Holes that were filled with triangles from rim to rim: discs of long edges in which no vertex lies. Large flat
+    /// parts of open cloth may look the same, but are neither as round nor of as many triangles.
     std::vector<std::vector<int>> find_filled(const std::vector<std::vector<int>>& caps);
 
     /// Median of the sides of its patch, by face: a button may have most of a garment's faces.
@@ -56,8 +56,7 @@ private:
     /// The angle opposite to the side is obtuse, as in a polygon every triangle's is that does not hold the middle.
     bool is_ear(int side) const;
 
-    /// Of a disc: faces that only share edges from rim to rim are a tree.
-    bool is_without_vertices(const std::vector<int>& faces) const;
+    bool is_filled(const Region& region) const;
 
     /// Some faces as one region with its outline.
     Region region_with(const std::vector<int>& faces);
@@ -85,6 +84,9 @@ private:
     bool is_flat_disc(const Region& region, double depth) const;
 
     bool is_hole(const Region& region, double depth) const;
+
+    /// Its area as a share of a disc of the same girth. @pre its girth is above 0
+    static double roundness_of(const Region& region);
 
     /// Euler characteristic 1: one outline, no handle.
     bool is_disc(const Region& region) const;

@@ -2,11 +2,13 @@
 #include "garment_openings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -171,22 +173,77 @@ struct Slice {
     Vec3 middle = Vec3::Zero();
 };
 
-/// derived: the area between two distances from the opening is the girth times their difference.
+/// A triangle of the cloth, along the distance of its corners from an opening.
+class Graded {
+public:
+    /// @param distances  of the corners, finite
+    Graded(const TriangleMesh& mesh, Eigen::Index face, const std::vector<double>& distances)
+    {
+        std::array<int, 3> corners { mesh.triangles(face, 0), mesh.triangles(face, 1), mesh.triangles(face, 2) };
+        std::sort(corners.begin(), corners.end(), [&](int a, int b) { return distances[a] < distances[b]; });
+        for (int k = 0; k < 3; ++k) {
+            at_[k] = mesh.positions.row(corners[k]);
+            distance_[k] = distances[corners[k]];
+        }
+        area_ = 0.5 * (at_[1] - at_[0]).cross(at_[2] - at_[0]).norm();
+    }
+
+    double first() const { return distance_[0]; }
+    double last() const { return distance_[2]; }
+
+    /// m^2, of what is nearer to the opening
+    double area_below(double distance) const
+    {
+        const auto [low, middle, high] = distance_;
+        if (distance <= low)
+            return 0;
+        if (distance >= high)
+            return area_;
+        return distance < middle
+            ? area_ * (distance - low) * (distance - low) / ((middle - low) * (high - low))
+            : area_ * (1 - (high - distance) * (high - distance) / ((high - middle) * (high - low)));
+    }
+
+    /// The middle of what lies at a distance from the opening.
+    Vec3 middle(double distance) const
+    {
+        const int side = distance < distance_[1] ? 0 : 1;
+        return 0.5 * (along(0, 2, distance) + along(side, side + 1, distance));
+    }
+
+private:
+    Vec3 along(int from, int to, double distance) const
+    {
+        const double length = distance_[to] - distance_[from];
+        const double share = length > 0 ? std::clamp((distance - distance_[from]) / length, 0.0, 1.0) : 0.5;
+        return at_[from] + share * (at_[to] - at_[from]);
+    }
+
+    std::array<Vec3, 3> at_;
+    std::array<double, 3> distance_ {};  // m, rising
+    double area_;  // m^2
+};
+
+/// derived: the area between two distances from the opening is the girth times their difference. Of triangles longer
+/// than a slice each has its part.
 std::vector<Slice> slices_along(const TriangleMesh& mesh, const std::vector<double>& distance, double width)
 {
     std::vector<Slice> slices(1);
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
-        const double mean = (distance[a] + distance[b] + distance[c]) / 3;
-        if (!std::isfinite(mean))
+        if (!std::all_of(mesh.triangles.row(f).begin(), mesh.triangles.row(f).end(),
+                         [&](int v) { return std::isfinite(distance[v]); }))
             continue;
-        const Vec3 p = mesh.positions.row(a), q = mesh.positions.row(b), r = mesh.positions.row(c);
-        const std::size_t bin = std::size_t(mean / width);
-        if (bin >= slices.size())
-            slices.resize(bin + 1);
-        const double girth = 0.5 * (q - p).cross(r - p).norm() / width;
-        slices[bin].girth += girth;
-        slices[bin].middle += girth * (p + q + r) / 3;
+        const Graded triangle(mesh, f, distance);
+        const auto first = std::size_t(triangle.first() / width), last = std::size_t(triangle.last() / width);
+        if (last >= slices.size())
+            slices.resize(last + 1);
+        for (std::size_t bin = first; bin <= last; ++bin) {
+            const double from = std::max(triangle.first(), double(bin) * width),
+                         to = std::min(triangle.last(), double(bin + 1) * width);
+            const double girth = (triangle.area_below(to) - triangle.area_below(from)) / width;
+            slices[bin].girth += girth;
+            slices[bin].middle += girth * triangle.middle(0.5 * (from + to));
+        }
     }
     for (Slice& slice : slices)
         slice.middle /= std::max(slice.girth, k_no_length);
@@ -215,14 +272,17 @@ double distance_to_others(const std::vector<double>& distance, const std::vector
     return nearest;
 }
 
-/// A tube ends at two consecutive wide slices: a single one is a fold. The slices of the hem are not tested.
+/// A tube ends at two consecutive wide slices: a single one is a fold. The slices of the hem are not tested, and what an
+/// arm or a leg needs behind a cuff is not wide.
 void measure_tube(Opening& opening, const std::vector<Slice>& slices, double width)
 {
+    const double limb = k_widest_limb / k_slice * width;
     std::vector<double> sorted;
     double median = opening.girth;
     opening.tube_waist = std::numeric_limits<double>::infinity();
-    const auto is_wide
-        = [&](std::size_t i) { return i >= slices.size() || slices[i].girth > k_tube_widening * median; };
+    const auto is_wide = [&](std::size_t i) {
+        return i >= slices.size() || slices[i].girth > std::max(k_tube_widening * median, limb);
+    };
     for (std::size_t i = 0; i < slices.size() && (i < k_hem_slices || !is_wide(i) || !is_wide(i + 1)); ++i) {
         const double girth = slices[i].girth;
         sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), girth), girth);
@@ -304,9 +364,12 @@ void measure_heights(Opening& opening, const std::vector<Range>& ranges)
     opening.piece_height = ranges[opening.piece].high - opening.piece_low;
 }
 
-/// The largest extent of a rim across the direction along which it is longest, as a share of its extent there: near 0
-/// for a slit.
-double roundness_of(const Positions& rim)
+/// Extents of a rim along the direction in which it is longest, and across it, m.
+struct RimExtents {
+    double length, width;
+};
+
+RimExtents extents_of(const Positions& rim)
 {
     const Positions about = rim.rowwise() - rim.colwise().mean();
     const Eigen::Matrix3d axes
@@ -315,7 +378,15 @@ double roundness_of(const Positions& rim)
         const Eigen::VectorXd along = about * axes.col(axis);
         return along.maxCoeff() - along.minCoeff();
     };
-    return extent(1) / std::max(extent(2), k_no_length);
+    return { extent(2), extent(1) };
+}
+
+/// A long narrow one; a neck that goes on in a placket is as long, but wide.
+/// @param widest  m, girth of a round hole
+bool is_slit(const Positions& rim, double widest)
+{
+    const auto [length, width] = extents_of(rim);
+    return width < k_slit_roundness * length && std::numbers::pi * width < widest;
 }
 
 /// The borders of a garment that a body can pass through, and the tubes that lead to them.
@@ -361,9 +432,10 @@ private:
     /// to a cuff.
     void drop_holes()
     {
+        const double widest = k_widest_hole * diagonal_;
         const auto is_narrow = [&](const Ring& ring) {
             const Opening opening = opening_of(cloth_.positions, ring);
-            return opening.girth < k_widest_hole * diagonal_ || roundness_of(opening.rim) < k_slit_roundness;
+            return opening.girth < widest || is_slit(opening.rim, widest);
         };
         std::vector<Ring> sure;
         std::copy_if(rings_.begin(), rings_.end(), std::back_inserter(sure), std::not_fn(is_narrow));

@@ -102,10 +102,11 @@ Disc disc_of(const TriangleMesh& mesh, const std::vector<int>& faces, bool is_sl
 }
 
 /// As flat, round and wide as a lid of a cuff.
-bool has_shape_of_lid(const Disc& disc, double smallest_girth)
+/// @param depth  the largest, as a share of the mean of the half extents
+bool has_shape_of_lid(const Disc& disc, double smallest_girth, double depth)
 {
     const double size = std::sqrt(disc.half.prod());
-    return disc.half[1] > k_lid_roundness * disc.half[0] && disc.depth < k_lid_depth * size
+    return disc.half[1] > k_lid_roundness * disc.half[0] && disc.depth < depth * size
         && 2 * std::numbers::pi * size > smallest_girth && disc.cover > k_lid_cover && disc.rim.rows() > 0;
 }
 
@@ -158,6 +159,17 @@ std::vector<std::vector<int>> patches_of(const MeshTopology& topology, int faces
     return patches;
 }
 
+bool is_without_inner_vertices(const MeshTopology& topology, const std::vector<int>& disc)
+{
+    const std::set<int> own(disc.begin(), disc.end());
+    std::size_t inner = 0;
+    for (const int f : disc)
+        for (int side = 3 * f; side < 3 * f + 3; ++side)
+            if (const int other = topology.opposite(side); other >= 0)
+                inner += own.count(other / 3);
+    return inner == 2 * (disc.size() - 1);
+}
+
 std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const MeshTopology& topology,
                                             const std::vector<std::vector<int>>& patches,
                                             const std::vector<int>& closed_ends)
@@ -192,7 +204,9 @@ std::vector<std::vector<int>> find_lids(const TriangleMesh& mesh, const MeshTopo
         if (patches.size() < 2 || !is_cloth[patch[0]])
             continue;
         const Disc disc = disc_of(mesh, patch, is_solid(mesh, topology, patch));
-        if (has_shape_of_lid(disc, smallest_girth) && spans_opening(mesh, other_faces(is_cloth, patch), disc))
+        const bool is_filling = patch.size() >= k_fan_faces && is_without_inner_vertices(topology, patch);
+        if (has_shape_of_lid(disc, smallest_girth, is_filling ? k_filled_lid_depth : k_lid_depth)
+            && spans_opening(mesh, other_faces(is_cloth, patch), disc))
             lids.push_back(patch);
     }
     return lids;

@@ -14,6 +14,9 @@ namespace garmentfit {
 /// Faces that are connected through edges of exactly two faces, for each such patch.
 std::vector<std::vector<int>> patches_of(const MeshTopology& topology, int faces);
 
+/// Whether no vertex lies within a disc: its faces, which only share edges from rim to rim, are a tree.
+bool is_without_inner_vertices(const MeshTopology& topology, const std::vector<int>& disc);
+
 /// Solids inside the cloth: patches without open edge and tunnel that are not thin, of some size, and reach beyond the
 /// rest of the mesh nowhere. No body passes through one.
 /// @param closed_ends  caps of each patch: one with three or more is a garment with closed ends
@@ -21,7 +24,8 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
                                             const std::vector<std::vector<int>>& patches,
                                             const std::vector<int>& closed_ends);
 
-/// Lids: flat patches, sheets or slabs, whose rims lie at steep cloth, and whose middles are far from any.
+/// Lids: flat patches, sheets or slabs, whose rims lie at steep cloth, and whose middles are far from any. Those of many
+/// triangles from rim to rim may be as crumpled as the cuff that they close.
 /// @param is_cloth  whether a face is not yet known to be none
 std::vector<std::vector<int>> find_lids(const TriangleMesh& mesh, const MeshTopology& topology,
                                         const std::vector<std::vector<int>>& patches,

@@ -112,6 +112,16 @@ TEST(ClosedEnds, OfAClosedPieceAreOpenedThoughALabelBesideItIsOpen)
     EXPECT_EQ(opened(fixtures::joined(tube_with_wavy_ends(0.02, false), label)).closed_ends, 0);
 }
 
+TEST(ClosedEnds, ThatAreNotFlatAreOpenedThoughAnotherEndIsOpen)
+{
+    TriangleMesh filled = tube_with_wavy_ends(0.02, true);
+    const Eigen::Index faces_of_end = k_around - 2;
+    filled.triangles.conservativeResize(filled.triangles.rows() - faces_of_end, 3);
+    const OpenedGarment result = opened(filled);
+    EXPECT_EQ(result.closed_ends, 1);
+    EXPECT_LE(result.garment.triangles.rows(), filled.triangles.rows() - faces_of_end + 2);
+}
+
 TEST(ClosedEnds, AreNotTheSidesOfPanelsWithThickness)
 {
     constexpr double size = 0.3, thickness = 0.002;
@@ -146,6 +156,17 @@ TEST(ClosedEnds, AreOpenedWhereALidLiesLooselyInThem)
     const OpenedGarment result = opened(fixtures::joined(open, lid(0.01, 0.098)));
     EXPECT_EQ(result.closed_ends, 1);
     EXPECT_EQ(result.garment.triangles, open.triangles);
+}
+
+TEST(ClosedEnds, AreOpenedWhereALidIsAsCrumpledAsItsCuff)
+{
+    const auto wavy = [](TriangleMesh disc) {
+        for (auto row : disc.positions.rowwise())
+            row.y() += 4 * row.x() * row.z();  // a saddle, 0.4 of the radius deep
+        return disc;
+    };
+    const TriangleMesh open = tube_with_wavy_ends(0.02, false);
+    EXPECT_EQ(opened(fixtures::joined(open, wavy(lid(0.005, 0.098)))).closed_ends, 1);
 }
 
 TEST(ClosedEnds, AreNotDiscsThatLieOnTheClothOrOutsideIt)

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -178,6 +180,47 @@ TEST(GarmentOpenings, HolesInTheSideOfATubeAreNone)
     const TriangleMesh slit = tube_with_window(0.15, 0.7, 0.02, 0.25, 0.15);
     EXPECT_EQ(openings_of_cloth(slit).size(), 2u);
     EXPECT_EQ(count_openings(outward_cloth(make_garment(slit.positions, slit.triangles))), 2u);
+}
+
+TEST(GarmentOpenings, ANeckThatGoesOnInAPlacketIsNoSlit)
+{
+    EXPECT_EQ(openings_of_cloth(tube_with_window(0.15, 0.7, 0.13, 0.6, 0.35)).size(), 3u);
+}
+
+/// A tube of a few rows of faces along the y axis, whose radii are given from row to row.
+std::vector<Opening> openings_of_coarse_tube(const std::vector<std::pair<double, double>>& heights_and_radii)
+{
+    constexpr int around = 48;
+    TriangleMesh mesh = panel(-std::numbers::pi, std::numbers::pi, 0, 1, around + 1, int(heights_and_radii.size()));
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+        const auto [height, radius] = heights_and_radii[std::size_t(v / (around + 1))];
+        mesh.positions.row(v) *= radius / k_radius;
+        mesh.positions(v, 1) = height;
+    }
+    return openings_of_cloth(mesh);
+}
+
+TEST(GarmentOpenings, FacesLongerThanASliceLeaveNoGapsInATube)
+{
+    const std::vector<Opening> openings
+        = openings_of_coarse_tube({ { 0, 0.1 }, { 0.17, 0.1 }, { 0.34, 0.1 }, { 0.5, 0.1 } });
+    ASSERT_EQ(openings.size(), 2u);
+    for (const Opening& opening : openings) {
+        EXPECT_GT(opening.tube_length, 0.4);
+        EXPECT_NEAR(opening.tube_girth, 2 * std::numbers::pi * 0.1, 0.03);
+        EXPECT_NEAR(opening.tube_waist, opening.tube_girth, 0.1 * opening.tube_girth);
+    }
+}
+
+TEST(GarmentOpenings, ATubeGoesOnBehindACuffThatIsHalfAsWide)
+{
+    std::vector<std::pair<double, double>> rows;
+    for (int i = 0; i <= 50; ++i)
+        rows.emplace_back(0.01 * i, i < 3 ? 0.019 : 0.035);
+    const std::vector<Opening> openings = openings_of_coarse_tube(rows);
+    ASSERT_EQ(openings.size(), 2u);
+    for (const Opening& opening : openings)
+        EXPECT_GT(opening.tube_length, 0.4);
 }
 
 TEST(GarmentOpenings, ArmholesWithoutATubeAndNarrowCuffsStay)
