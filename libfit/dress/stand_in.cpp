@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/SVD>
@@ -257,22 +258,45 @@ void mark_folds(const Parts& cloth, const Positions& positions, std::vector<char
         }
 }
 
-/// Draws what meets something in towards the stand-in, by a half each time.
+/// Cloth on its way in towards its stand-in.
+struct Drawn {
+    Positions positions;
+    Eigen::VectorXd share;  ///< of the way out from the stand-in, by vertex
+};
+
+/// Draws the marked vertices and their neighbours in by a half. @return whether there are any
+bool draw_half(const Parts& cloth, const Places& places, const std::vector<char>& marks, Drawn& now)
+{
+    const std::vector<int> drawn = with_neighbours(cloth.topology, marks);
+    for (const int v : drawn)
+        now.positions.row(v) = places.feet.row(v) + (now.share[v] /= 2) * places.offsets.row(v);
+    return !drawn.empty();
+}
+
+/// Draws what meets something in towards the stand-in. Sides of a fold as well, as far as that leaves fewer of them:
+/// where a stand-in lies in many folds, what is drawn into one meets more of the others.
 Positions draw_in(const Parts& cloth, const Places& places, const Surroundings& around)
 {
-    Positions positions = places.feet + places.offsets;
-    Eigen::VectorXd share = Eigen::VectorXd::Ones(positions.rows());
-    for (int round = 0; round < k_drawing_rounds; ++round) {
-        std::vector<char> marks(positions.rows(), 0);
-        mark_meeting(cloth, positions, around, marks);
-        mark_folds(cloth, positions, marks);
-        const std::vector<int> drawn = with_neighbours(cloth.topology, marks);
-        if (drawn.empty())
-            break;
-        for (const int v : drawn)
-            positions.row(v) = places.feet.row(v) + (share[v] /= 2) * places.offsets.row(v);
+    Drawn now { places.feet + places.offsets, Eigen::VectorXd::Ones(places.feet.rows()) }, best = now;
+    std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
+    for (int round = 0; round <= k_drawing_rounds; ++round) {
+        std::vector<char> marks(now.share.size(), 0);
+        mark_folds(cloth, now.positions, marks);
+        if (const auto in_folds = std::count(marks.begin(), marks.end(), 1); in_folds <= fewest) {
+            fewest = in_folds;
+            best = now;
+        }
+        mark_meeting(cloth, now.positions, around, marks);
+        if (!draw_half(cloth, places, marks, now))
+            return now.positions;
     }
-    return positions;
+    for (int round = 0; round < k_drawing_rounds; ++round) {
+        std::vector<char> marks(best.share.size(), 0);
+        mark_meeting(cloth, best.positions, around, marks);
+        if (!draw_half(cloth, places, marks, best))
+            break;
+    }
+    return best.positions;
 }
 
 /// Parts the cloth as far as needed for no more than `enough` crossings, in eighths, quarters and halves of the way to

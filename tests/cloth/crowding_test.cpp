@@ -25,14 +25,10 @@ TEST(Crowding, OfEvenClothIsNextToNoneHoweverFineItIs)
 TEST(Crowding, GrowsWithDetailsWhoseEdgesAreFarShorter)
 {
     const GarmentMesh cloth = flat(40, 0.01), detail = flat(20, 2e-4);
-    const TriangleMesh both
-        = joined({ cloth.positions, cloth.triangles }, { detail.positions, detail.triangles });
+    const TriangleMesh both = joined({ cloth.positions, cloth.triangles }, { detail.positions, detail.triangles });
     EXPECT_GT(crowding(make_garment(both.positions, both.triangles)), 20);
 }
 
-TEST(Crowding, OfNothingIsNone)
-{
-    EXPECT_EQ(crowding({}), 0);
-}
+TEST(Crowding, OfNothingIsNone) { EXPECT_EQ(crowding({}), 0); }
 
 }  // namespace

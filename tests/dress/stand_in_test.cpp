@@ -168,6 +168,24 @@ TEST(StandIn, LeavesDoubledSheetsNoMoreCrossingsThanTheyWereGivenWith)
     EXPECT_EQ(bent_one.self_crossings, 0);
 }
 
+TEST(StandIn, KeepsItsShapeInFoldsThatHaveNoRoom)
+{
+    // pleats 0.9 mm apart and 12 mm deep; the garment is 6 mm from its stand-in
+    constexpr double spacing = 0.003, squeeze = 0.15;
+    constexpr int depth = 4;  // edges
+    const TriangleMesh flat = sheet(65, spacing, [](double, double) { return 0; });
+    Positions pleated = flat.positions;
+    for (auto row : pleated.rowwise()) {
+        const int at = int(std::lround(row.x() / spacing)) % (2 * depth);
+        row.x() *= squeeze;
+        row.y() = (at < depth ? at : 2 * depth - at) * spacing * std::sqrt(1 - squeeze * squeeze);
+    }
+    const TriangleMesh outer = sheet(129, spacing / 2, [](double, double) { return 2 * spacing; });
+    const GarmentMesh garment { outer.positions, outer.triangles };
+    const Positions followed = follow({ flat.positions, flat.triangles }, pleated, garment, { k_far_body });
+    EXPECT_LT(certify(k_far_body, garment, followed).strain.p95, 0.38);  // 0.43 where more and more is drawn in
+}
+
 TEST(StandIn, DrawsInWhatWouldMeetTheBody)
 {
     // the stand-in is wide enough for the ball, a sheet inside of it is not
