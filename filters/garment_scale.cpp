@@ -63,7 +63,7 @@ public:
         std::vector<double> ends;
         for (const WearerHeight& wearer : wearers_)
             for (const double sign : { -1.0, 1.0 })
-                ends.push_back(-deviation(wearer) + sign * k_widest * wearer.spread);
+                ends.push_back(std::log(height_ / wearer.height) + sign * k_widest * wearer.spread);
         const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
         std::vector<double> all(std::size_t((*most - *least) / k_step) + 1);
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -79,12 +79,16 @@ private:
     {
         double log_likelihood = 0;
         for (const WearerHeight& wearer : wearers_)
-            log_likelihood += std::log((1 - k_mistaken) * normal(deviation(wearer) + log_factor, wearer.spread)
+            log_likelihood += std::log((1 - k_mistaken) * normal(deviation(wearer, log_factor), wearer.spread)
                                        + k_mistaken * k_mistaken_density);
         return std::exp(log_likelihood / k_dependence);
     }
 
-    double deviation(const WearerHeight& wearer) const { return std::log(wearer.height / height_); }
+    double deviation(const WearerHeight& wearer, double log_factor) const
+    {
+        const double deviation = std::log(wearer.height / height_) + log_factor;
+        return wearer.is_least ? std::max(deviation, 0.0) : deviation;
+    }
 
     const std::vector<WearerHeight>& wearers_;
     double length_, height_;

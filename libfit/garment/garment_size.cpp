@@ -59,6 +59,9 @@ std::vector<WearerHeight> wearer_heights(const GarmentMesh& garment)
     const Extents extents = level_extents(used);
     add(heights, extents.depth, usual_extents(measures).depth);
     add(heights, extents.width, usual_extents(measures).width);
+    if (measures.leg > 0 && measures.shoulders == 0)
+        heights.push_back({ (used.col(1).maxCoeff() - used.col(1).minCoeff()) / k_longest_trousers.size,
+                            k_longest_trousers.spread, true });
     return heights;
 }
 

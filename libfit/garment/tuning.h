@@ -212,6 +212,9 @@ struct Usual {
 inline constexpr double k_usual_wearer = 1.7;
 inline constexpr Usual k_usual_shoulders { 0.336, 0.14 }, k_usual_sleeve { 0.459, 0.19 }, k_usual_trunk { 0.88, 0.18 },
     k_usual_leg { 0.605, 0.16 };
+/// Share of the stature that the longest trousers have, from waist to hem. fitted: guess; of the two catalogues' trousers
+/// the longest have 0.6
+inline constexpr Usual k_longest_trousers { 0.62, 0.05 };
 /// Of garments with legs, with sleeves or armholes, and of others. fitted: on the same half; the spreads of others are
 /// guesses, for skirts may be flared
 struct UsualExtents {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 
+#include "garment_scale.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/warnings.h"
@@ -102,6 +104,37 @@ TEST(GarmentScale, NoGarmentIsLongerThanItsWearerIsTall)
 }
 
 // It may be longer than a child is tall, who is not its wearer.
+TEST(GarmentScale, SlimTrousersAreNoLongerThanTheLegs)
+{
+    // their girths are those of a person of 1.4 m, so they were scaled by a quarter too much
+    const double size = 3.3, height = 1.75;
+    const std::vector<WearerHeight> girths { { size * 1.4, 0.16 }, { size * 1.4, 0.18 } };
+    std::vector<WearerHeight> all = girths;
+    all.push_back({ size * 1.75, 0.05, true });
+    const auto length_of = [&](const std::vector<WearerHeight>& wearers) {
+        return size * guess_scale(wearers, size * 1.08, height, 1, 1).factor;
+    };
+    EXPECT_GT(length_of(girths), 1.2);
+    EXPECT_NEAR(length_of(all), 1, 0.08);
+
+    all.back().height = size * 1.2;  // short ones say nothing of it
+    EXPECT_NEAR(length_of(all), length_of(girths), 0.03);
+}
+
+TEST(GarmentScale, OnlyTrousersLimitTheirLength)
+{
+    const Skeleton s = person_skeleton(k_person);
+    const TriangleMesh trousers
+        = garment_round(s, 0.03, [](const Vec3& p) { return p.y() > 0.15 && p.y() < 1.0 && std::abs(p.x()) < 0.3; });
+    const auto limits = [](const TriangleMesh& mesh) {
+        const auto wearers = wearer_heights(make_garment(mesh.positions, mesh.triangles));
+        return std::count_if(wearers.begin(), wearers.end(),
+                             [](const WearerHeight& wearer) { return wearer.is_least; });
+    };
+    EXPECT_EQ(limits(trousers), 1);
+    EXPECT_EQ(limits(shirt()), 0);
+}
+
 TEST(GarmentScale, AnAdultsGarmentKeepsItsSizeOnAChild)
 {
     const TriangleMesh mesh = gown(4.8);

@@ -14,9 +14,11 @@ namespace garmentfit {
 struct WearerHeight {
     double height = 0;  ///< stature of the usual wearer, m
     double spread = 0;  ///< of its natural logarithm, among garments that fit
+    bool is_least = false;  ///< taller ones it fits as well
 };
 
-/// By each of its shoulders, sleeves, trunk and legs that is found, and by its width and depth, which need no opening.
+/// By each of its shoulders, sleeves, trunk and legs that is found, by its width and depth, which need no opening, and by
+/// the length of trousers, which do not reach below the feet.
 /// The garment is upright. O(n log n).
 GARMENTFIT_API std::vector<WearerHeight> wearer_heights(const GarmentMesh& garment);
 
