@@ -86,8 +86,8 @@ private:
 
     double deviation(const WearerHeight& wearer, double log_factor) const
     {
-        const double deviation = std::log(wearer.height / height_) + log_factor;
-        return wearer.is_least ? std::max(deviation, 0.0) : deviation;
+        const double taller = std::log(wearer.height / height_) + log_factor;
+        return wearer.is_least ? std::max(taller, 0.0) : taller;
     }
 
     const std::vector<WearerHeight>& wearers_;

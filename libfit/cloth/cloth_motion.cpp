@@ -54,6 +54,11 @@ void limit_lengths(Positions& displacements, double longest)
 
 }  // namespace
 
+double self_contact_distance(const ClothOptions& options, const Positions& rest, const Edges& edges)
+{
+    return std::min(options.contact_distance, k_self_contact_edges * mean_edge_length(rest, edges));
+}
+
 ClothMotion::ClothMotion(const GarmentMesh& rest, const Positions& start, const TriangleMesh& obstacle,
                          const ClothOptions& options, const std::vector<int>& garments,
                          const std::vector<Fabric>& fabrics) :
@@ -67,8 +72,7 @@ ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const Cl
     options_(options),
     materials_(options, fabrics, std::move(cloth.garments)), weld_(std::move(cloth.weld)), rest_(cloth.rest),
     topology_(cloth.topology), cloth_vertices_(int(rest_.positions.rows())),
-    self_contact_distance_(std::min(options_.contact_distance,
-                                    k_self_contact_edges * mean_edge_length(rest_.positions, topology_.edges()))),
+    self_contact_distance_(self_contact_distance(options_, rest_.positions, topology_.edges())),
     contact_({ rest_.triangles, topology_.edges(), cloth_vertices_ },
              { obstacle.mesh.triangles, edges_of(obstacle.mesh.triangles), int(obstacle.mesh.positions.rows()) },
              obstacle.body_vertices,

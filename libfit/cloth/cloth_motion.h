@@ -47,6 +47,10 @@ struct RestResult {
     bool out_of_time;  ///< the deadline passed
 };
 
+/// m, at which contact of cloth with itself begins.
+/// @param edges  of the cloth
+double self_contact_distance(const ClothOptions& options, const Positions& rest, const Edges& edges);
+
 class ClothMotion {
 public:
     /// `cloth` and the obstacle must not cross.

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "garmentfit/cloth.h"
+#include "cloth_motion.h"
 #include "topology.h"
 #include "tuning.h"
 #include "weld.h"
@@ -18,10 +18,7 @@ double crowding(const GarmentMesh& garment)
 {
     const GarmentMesh cloth = Weld(garment).gather(garment);
     const auto count = cloth.positions.rows();
-    const MeshTopology topology(cloth.triangles, int(count));
-    const double side = k_active_distance
-        * std::min(ClothOptions().contact_distance,
-                   k_self_contact_edges * mean_edge_length(cloth.positions, topology.edges()));
+    const double side = k_active_distance * self_contact_distance({}, cloth.positions, edges_of(cloth.triangles));
     if (count == 0 || !(side > 0))
         return 0;
     std::vector<std::array<std::int64_t, 3>> cubes;

@@ -279,13 +279,15 @@ Positions draw_in(const Parts& cloth, const Places& places, const Surroundings& 
 {
     Drawn now { places.feet + places.offsets, Eigen::VectorXd::Ones(places.feet.rows()) }, best = now;
     std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
-    for (int round = 0; round <= k_drawing_rounds; ++round) {
+    for (int round = 0;; ++round) {
         std::vector<char> marks(now.share.size(), 0);
         mark_folds(cloth, now.positions, marks);
         if (const auto in_folds = std::count(marks.begin(), marks.end(), 1); in_folds <= fewest) {
             fewest = in_folds;
             best = now;
         }
+        if (round == k_drawing_rounds)
+            break;
         mark_meeting(cloth, now.positions, around, marks);
         if (!draw_half(cloth, places, marks, now))
             return now.positions;
@@ -424,9 +426,7 @@ Positions untangled(const Parts& cloth, const Positions& positions, const Surrou
 
 std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment)
 {
-    if (crowding(garment) < k_crowded && !is_in_parts(garment))
-        return {};
-    return lining_of(garment);
+    return lining_of(garment, crowding(garment) < k_crowded ? Lined::clothes_in_parts : Lined::all);
 }
 
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,

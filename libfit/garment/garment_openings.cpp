@@ -274,9 +274,9 @@ double distance_to_others(const std::vector<double>& distance, const std::vector
 
 /// A tube ends at two consecutive wide slices: a single one is a fold. The slices of the hem are not tested, and what an
 /// arm or a leg needs behind a cuff is not wide.
-void measure_tube(Opening& opening, const std::vector<Slice>& slices, double width)
+void measure_tube(Opening& opening, const std::vector<Slice>& slices, double diagonal)
 {
-    const double limb = k_widest_limb / k_slice * width;
+    const double width = k_slice * diagonal, limb = k_widest_limb * diagonal;
     std::vector<double> sorted;
     double median = opening.girth;
     opening.tube_waist = std::numeric_limits<double>::infinity();
@@ -424,7 +424,7 @@ private:
         std::vector<Slice> slices = slices_along(cloth_, distance, width);
         slices.resize(
             std::size_t(std::clamp(distance_to_others(distance, is_other) / width, 1.0, double(slices.size()))));
-        measure_tube(opening, slices, width);
+        measure_tube(opening, slices, diagonal_);
         return opening;
     }
 

@@ -504,11 +504,12 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     return count_openings(wrapped) >= k_fewest_openings ? wrapped : std::move(plain.outer);
 }
 
-bool is_in_parts(const GarmentMesh& garment) { return !read_plainly(garment).serves; }
-
-std::optional<GarmentMesh> lining_of(const GarmentMesh& garment)
+std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
 {
-    const Wrap wrap = wrap_parts(read_plainly(garment));
+    const PlainReading plain = read_plainly(garment);
+    if (plain.serves && lined == Lined::clothes_in_parts)
+        return {};
+    const Wrap wrap = wrap_parts(plain);
     if (count_openings(outer_sheet_of(wrap)) < k_fewest_openings)
         return {};
     return inner_sheet_of(wrap);

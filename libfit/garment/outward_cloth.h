@@ -15,12 +15,12 @@ namespace garmentfit {
 /// have (sheets side by side or beside each other), and where only one opening is found.
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
-/// Whether outward_cloth needs that wrap. Cost O(n log n).
-bool is_in_parts(const GarmentMesh& garment);
+/// Which clothes get a lining: those that outward_cloth wraps, or all.
+enum class Lined { clothes_in_parts, all };
 
-/// The inner sheet of such a wrap round any garment: one layer of cloth that goes round the body inside of all parts,
-/// facing outwards, in one piece. None where the wrap closes its openings. The cost of a wrap.
-std::optional<GarmentMesh> lining_of(const GarmentMesh& garment);
+/// The inner sheet of such a wrap: one layer of cloth that goes round the body inside of all parts, facing outwards, in
+/// one piece. None for what gets no lining, in O(n log n), and where the wrap closes its openings. The cost of a wrap.
+std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined);
 
 /// About the origin.
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn);

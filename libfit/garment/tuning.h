@@ -61,7 +61,8 @@ inline constexpr double k_steep_sine = 0.77, k_cap_outline = 0.9;
 inline constexpr double k_cap_roundness = 0.2;
 /// fitted: likewise. Depth of a cap, and of a fan, as a share of the root of its area: hems are not flat.
 inline constexpr double k_cap_depth = 0.05, k_fan_depth = 0.35;
-/// fitted: guess. Faces of a fan that closes a hole, at least: vertices of cloth have up to 12.
+/// fitted: guess. Faces that close a hole among others, at least, as a fan or from rim to rim: vertices of cloth have up
+/// to 12.
 inline constexpr std::size_t k_fan_faces = 16;
 /// fitted: guess. Cosine between each face of a fan and the whole. A corner of a cap has faces of the tube, too.
 inline constexpr double k_fan_cosine = 0.5;
@@ -93,11 +94,11 @@ inline constexpr double k_filling = 0.05, k_filling_margin = 0.05;
 /// smallest width as a share of the length, largest depth, area as a share of the rectangle around (an ellipse has
 /// 0.79); vertices beyond this share of the half extents are at the rim.
 inline constexpr double k_lid_roundness = 0.3, k_lid_depth = 0.3, k_lid_cover = 0.6, k_lid_rim = 0.6;
-/// fitted: guess, on two crumpled cuffs of a web shop, 0.3 and 0.45. The same depth, of many triangles from rim to rim.
-inline constexpr double k_filled_lid_depth = 0.6;
 /// fitted: likewise. The rim is nearer to the cloth than this, for this share of its vertices; the middle is farther,
 /// in half widths. Share of the cloth near the rim, by its area, that is as steep as at a cap: a neck has 0.67.
 inline constexpr double k_lid_reach = 0.15, k_lid_outline = 0.9, k_lid_middle = 0.5, k_lid_steep = 0.5;
+/// fitted: guess, on two crumpled cuffs of a web shop, 0.3 and 0.45. Largest depth of a lid of many triangles from rim to rim.
+inline constexpr double k_filled_lid_depth = 0.6;
 
 // ---- outward orientation (outward_cloth.cpp) ----------------------------------------------------------------------
 
@@ -212,9 +213,6 @@ struct Usual {
 inline constexpr double k_usual_wearer = 1.7;
 inline constexpr Usual k_usual_shoulders { 0.336, 0.14 }, k_usual_sleeve { 0.459, 0.19 }, k_usual_trunk { 0.88, 0.18 },
     k_usual_leg { 0.605, 0.16 };
-/// Share of the stature that the longest trousers have, from waist to hem. fitted: guess; of the two catalogues' trousers
-/// the longest have 0.6
-inline constexpr Usual k_longest_trousers { 0.62, 0.05 };
 /// Of garments with legs, with sleeves or armholes, and of others. fitted: on the same half; the spreads of others are
 /// guesses, for skirts may be flared
 struct UsualExtents {
@@ -222,6 +220,9 @@ struct UsualExtents {
 };
 inline constexpr UsualExtents k_usual_with_legs { { 0.29, 0.13 }, { 0.47, 0.1 } },
     k_usual_with_arms { { 0.335, 0.19 }, { 0.75, 0.37 } }, k_usual_without { { 0.39, 0.28 }, { 0.555, 0.28 } };
+/// Share of the stature that the longest trousers have, from waist to hem. fitted: guess; of the two catalogues' trousers
+/// the longest have 0.6
+inline constexpr Usual k_longest_trousers { 0.62, 0.05 };
 
 // ---- upright or not (type_guess.cpp) ------------------------------------------------------------------------------
 // fitted: guesses, on the garments.

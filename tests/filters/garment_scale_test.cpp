@@ -103,7 +103,6 @@ TEST(GarmentScale, NoGarmentIsLongerThanItsWearerIsTall)
     EXPECT_LT(length_of(mesh) * guess.frame.metres_per_unit, body_stature());
 }
 
-// It may be longer than a child is tall, who is not its wearer.
 TEST(GarmentScale, SlimTrousersAreNoLongerThanTheLegs)
 {
     // their girths are those of a person of 1.4 m, so they were scaled by a quarter too much
@@ -135,6 +134,7 @@ TEST(GarmentScale, OnlyTrousersLimitTheirLength)
     EXPECT_EQ(limits(shirt()), 0);
 }
 
+// It may be longer than a child is tall, who is not its wearer.
 TEST(GarmentScale, AnAdultsGarmentKeepsItsSizeOnAChild)
 {
     const TriangleMesh mesh = gown(4.8);
