@@ -44,6 +44,16 @@ double taper(const Centreline& line, double size)
     return girth(k_taper_to) / girth(k_taper_from);
 }
 
+/// Angle between the shin and the end of a leg, rad: the curve of a leg follows its foot to the toes.
+double foot_angle(const Centreline& line, double size)
+{
+    const auto direction = [&](double from, double to) -> Vec3 {
+        return (line.at(line.length() - to * size) - line.at(line.length() - from * size)).normalized();
+    };
+    const double cosine = direction(k_shin_from, k_shin_to).dot(direction(k_forefoot, 0));
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
 double free_length(const Centreline& line) { return line.length() - line.arcs[line.first_free]; }
 
 }  // namespace
@@ -82,7 +92,8 @@ bool has_hand(const Centreline& line, double size)
 
 bool has_foot(const Centreline& line, double size)
 {
-    return end_girth(line) < k_thin_foot * size || widening(line, k_instep * size, size) > k_wider_end;
+    return end_girth(line) < k_thin_foot * size || widening(line, k_instep * size, size) > k_wider_end
+        || foot_angle(line, size) > k_least_foot_angle;
 }
 
 }  // namespace garmentfit

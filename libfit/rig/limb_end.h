@@ -21,8 +21,8 @@ struct Narrowest {
 /// A distance that differs from the mean counts as a larger girth: the most likely cut is chosen.
 Narrowest find_narrowest(const Centreline& line, const Vec3& tip, const TipDistance& distance);
 
-/// Whether a limb ends thin like fingers or toes, widens towards its end, or, an arm, does not taper. @param size
-/// stature, m
+/// Whether a limb ends thin like fingers or toes, widens towards its end, or, an arm, does not taper, or, a leg, bends
+/// at its end. @param size  stature, m
 bool has_hand(const Centreline& line, double size);
 bool has_foot(const Centreline& line, double size);
 

@@ -72,6 +72,10 @@ inline constexpr double k_taper_from = 0.12, k_taper_to = 0.04, k_most_tapered =
 /// fitted: on the bodies with and without hands. Free length of an arm: at least 0.33 with a mitten, at most 0.31
 /// without hand.
 inline constexpr double k_arm_with_hand = 0.32;
+/// fitted: guesses, on the bodies with and without feet and on men in trousers and shoes, which hide where the shin ends.
+/// Distances from the end of a leg's curve between which shin and forefoot have their directions, and the angle, rad,
+/// that is a foot's: feet have 1.0 to 1.6, stumps at most 0.5, or 0.8 where the leg is bent.
+inline constexpr double k_shin_from = 0.3, k_shin_to = 0.18, k_forefoot = 0.05, k_least_foot_angle = 0.9;
 /// fitted: guess. Distances from the end of a limb's curve: where the search for its end begins, and the extent of palm
 /// and instep.
 inline constexpr double k_limb_end = 0.16, k_palm = 0.1, k_instep = 0.14;

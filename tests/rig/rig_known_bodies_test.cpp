@@ -131,6 +131,43 @@ TEST(Slow, JointsOfKnownBodiesAreFound)
     EXPECT_LT(mean(means), 0.013);
 }
 
+/// In trousers that fall on shoes: shins are nowhere thinner than the shoe is, and toes do not show.
+BodyMesh in_wide_trousers(const BodyMesh& body, const Rig& rig)
+{
+    constexpr double k_trousers = 0.08, k_shoe = 0.05;  // m, radii
+    Positions dressed = body.surface.positions;
+    const auto push_out = [&](int v, const Vec3& from, const Vec3& axis, double radius) {
+        const Vec3 off_head = dressed.row(v).transpose() - from;
+        const Vec3 off = off_head - off_head.dot(axis) * axis;
+        dressed.row(v) += (std::max(radius - off.norm(), 0.0) * off.normalized()).transpose();
+    };
+    for (const auto& [shin, foot] : { std::pair(ltibia, lfoot_tip), std::pair(rtibia, rfoot_tip) }) {
+        const Vec3 ankle = rig.skeleton.tail(shin), toes = rig.skeleton.tips[foot], down = rig.skeleton.direction(shin);
+        for (int v = 0; v < int(dressed.rows()); ++v) {
+            if (rig.weights.bones(v, 0) != shin)
+                continue;
+            const double along = (dressed.row(v).transpose() - ankle).dot(down);
+            if (along < 0.03 && along > -rig.skeleton.length(shin))
+                push_out(v, ankle, down, k_trousers);
+            else if (along > 0)
+                push_out(v, ankle + 0.04 * down, (toes - ankle - 0.04 * down).normalized(), k_shoe);
+        }
+    }
+    return make_body(dressed, body.surface.triangles);
+}
+
+TEST(Slow, FeetAreFoundUnderWideTrousers)
+{
+    for (const char* name : { "man_a_pose", "woman_t_pose" }) {
+        SCOPED_TRACE(name);
+        const BodyMesh body = body_of(name);
+        const Rig dressed = rig_body(in_wide_trousers(body, rig_body(body)));
+        const std::vector<double> off = errors(name, dressed.skeleton);
+        EXPECT_LT(mean(off), 0.03);
+        EXPECT_LT(*std::max_element(off.begin(), off.end()), 0.06);
+    }
+}
+
 /// The body without the faces beyond the ends of two bones. Their vertices stay.
 BodyMesh cut_off(const BodyMesh& body, const Rig& rig, const std::array<int, 2>& bones)
 {
