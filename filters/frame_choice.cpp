@@ -17,6 +17,23 @@ namespace {
 
 constexpr double k_same_unit = 1e-9;  // unit: what rounding leaves
 
+/// The axis of a file that a direction is near to; none where it lies between axes.
+std::optional<Vec3> axis_along(const Vec3& direction)
+{
+    Eigen::Index k;
+    if (!(direction.cwiseAbs().maxCoeff(&k) > k_least_along_axis * direction.norm()))
+        return {};
+    return Vec3(std::copysign(1.0, direction[k]) * Vec3::Unit(k));
+}
+
+/// What is known of the up axis of a body: by the user, else by the skeleton in its file.
+std::optional<Vec3> known_up(const BodyChoice& choice)
+{
+    if (choice.up != "auto")
+        return axis_of(choice.up);
+    return choice.trunk ? axis_along(*choice.trunk) : std::nullopt;
+}
+
 /// The guess, replaced by what the user said.
 FrameGuess apply_choice(FrameGuess guess, const FrameChoice& choice)
 {
@@ -167,7 +184,7 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
 {
     const BodySizes sizes { choice.height };
     describe(sizes, CheckRanges());
-    FrameGuess guess = apply_choice(guess_body_frame(positions, triangles), choice);
+    FrameGuess guess = apply_choice(guess_body_frame(positions, triangles, known_up(choice)), choice);
     if (choice.height)
         set_height(guess, positions, *choice.height);
     return guess;

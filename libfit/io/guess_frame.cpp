@@ -181,16 +181,21 @@ double preference(const Shape& shape, const Vec3& up, const Vec3& other)
 
 }  // namespace
 
-FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles)
+FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles, const std::optional<Vec3>& up)
 {
     require_named_vertices("body", positions.rows(), triangles);
     const Samples samples = samples_of(positions, triangles);
     if (!has_size(samples))
         return { {}, 0, 0, "a flat or empty mesh has no size to judge by: taken for metres with +y up" };
-    const Ranked axis = rank_axes(samples, shape_of(samples));
     FrameGuess guess;
-    guess.frame.up = axis_of(k_axes[axis.best]);
-    guess.up_confidence = axis.confidence;
+    if (up) {
+        guess.frame.up = *up;
+        guess.up_confidence = 1;
+    } else {
+        const Ranked axis = rank_axes(samples, shape_of(samples));
+        guess.frame.up = axis_of(k_axes[axis.best]);
+        guess.up_confidence = axis.confidence;
+    }
 
     const double stature = samples.box.sizes().dot(guess.frame.up.cwiseAbs());
     const Ranked unit = rank_units(stature, k_usual_stature, k_stature_spread, k_least_stature, k_largest_stature);
@@ -198,7 +203,7 @@ FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangl
     const double metres = stature * guess.frame.metres_per_unit;
     const bool is_plausible = metres >= k_least_stature && metres <= k_largest_stature;
     guess.unit_confidence = is_plausible ? unit.confidence : 0;
-    guess.why = "the body is " + text_of_length(stature) + " units tall along " + std::string(k_axes[axis.best])
+    guess.why = "the body is " + text_of_length(stature) + " units tall along " + axis_name(guess.frame.up)
         + ", read as " + std::string(k_known_units[unit.best].name) + " that is " + text_of_length(metres) + " m"
         + (is_plausible ? "" : ", which no human is: give the unit yourself");
     return guess;

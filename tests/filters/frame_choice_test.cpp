@@ -25,6 +25,28 @@ TEST(FrameChoice, PutsWhatTheUserSaysBeforeTheGuess)
     EXPECT_EQ(guess.up_confidence, 1);
 }
 
+TEST(FrameChoice, ABodyStandsAlongTheTrunkOfItsSkeleton)
+{
+    const TriangleMesh& mesh = person();
+    BodyChoice choice;
+    choice.trunk = Vec3(0.1, -0.05, 1);
+    EXPECT_EQ(body_frame(mesh.positions, mesh.triangles, choice).frame.up, Vec3::UnitZ());
+    choice.trunk = Vec3(0.7, 0, 0.7);
+    EXPECT_EQ(body_frame(mesh.positions, mesh.triangles, choice).frame.up, Vec3::UnitY()) << "between two axes";
+    choice.trunk = Vec3::UnitX();
+    choice.up = "+y";
+    EXPECT_EQ(body_frame(mesh.positions, mesh.triangles, choice).frame.up, Vec3::UnitY()) << "the user knows better";
+}
+
+TEST(FrameChoice, TheUnitIsThatOfTheLengthAlongAGivenAxis)
+{
+    Positions wide = person().positions;  // a figure with arms of more than twice its height
+    wide.col(0) *= 3;
+    const FrameGuess guess = body_frame(wide, person().triangles, { "auto", "+y" });
+    EXPECT_EQ(guess.frame.metres_per_unit, 1) << guess.why;
+    EXPECT_NE(guess.why.find("along +y"), std::string::npos) << guess.why;
+}
+
 TEST(FrameChoice, UnderstandsAllThatItOffers)
 {
     for (const std::string_view unit : unit_choices())

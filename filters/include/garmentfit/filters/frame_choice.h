@@ -20,6 +20,9 @@ struct FrameChoice {
 struct BodyChoice : FrameChoice {
     /// m; how tall the body is as it stands in its file, from the lowest to the highest point. Overrides the unit.
     std::optional<double> height = {};
+    /// From pelvis to neck of the skeleton in its file, in any length: without an axis from the user, the body stands
+    /// along the nearest one.
+    std::optional<Vec3> trunk = {};
 };
 
 struct GarmentChoice : FrameChoice {

@@ -3,6 +3,7 @@
 
 // Conversion between a file's units and axes and libfit's metres with +y up.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -51,7 +52,9 @@ struct FrameGuess {
 };
 
 /// Guesses units and up axis of a human body from its size and shape. @throws InvalidInput: index out of range.
-GARMENTFIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles);
+/// @param up  an axis, where it is known
+GARMENTFIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles,
+                                           const std::optional<Vec3>& up = {});
 /// The same for a garment. It has the frame of the body unless its size or shape contradicts.
 GARMENTFIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles,
                                               const Frame& body);
