@@ -60,9 +60,12 @@ private:
     MeshPart named(const GltfSurface& surface, Eigen::Index first_triangle) const
     {
         const tinygltf::Node& node = model_.nodes[std::size_t(surface.node)];
-        return {
-            {}, model_.meshes[std::size_t(node.mesh)].name, node.name, first_triangle, fans_.rows() - first_triangle
-        };
+        return { {},
+                 model_.meshes[std::size_t(node.mesh)].name,
+                 node.name,
+                 first_triangle,
+                 fans_.rows() - first_triangle,
+                 node.skin >= 0 };
     }
 
     /// Primitives may share vertices: each run of them is read once.

@@ -22,16 +22,15 @@ bool has_weight(const std::vector<std::pair<int, double>>& hang)
 // @throws InvalidInput where no vertex has a weight
 void hang_on_nearest(const FileBytes& file, const Positions& positions, FileSkin& skin)
 {
-    std::vector<int> held, loose;
+    std::vector<int> held;
     for (std::size_t v = 0; v < skin.hangs.size(); ++v)
-        (has_weight(skin.hangs[v]) ? held : loose).push_back(int(v));
+        (has_weight(skin.hangs[v]) ? held : skin.loose).push_back(int(v));
     if (held.empty())
         file.fail("has a skin, but no vertex with a positive weight; export the weights, too");
-    skin.loose = int(loose.size());
-    if (loose.empty())
+    if (skin.loose.empty())
         return;
     const NearestPoint nearest(positions(held, Eigen::all));
-    for (const int v : loose)
+    for (const int v : skin.loose)
         skin.hangs[std::size_t(v)] = skin.hangs[std::size_t(held[std::size_t(nearest.index(positions.row(v)))])];
 }
 

@@ -24,7 +24,7 @@ struct FileSkin {
     std::vector<Eigen::Affine3d, Eigen::aligned_allocator<Eigen::Affine3d>> joint_from_world;  ///< in the bind pose
     std::vector<std::vector<std::pair<int, double>>> hangs;  ///< of each vertex of MeshFile: joints and weights
     Positions positions;  ///< of all vertices, where the scene shows them
-    int loose = 0;  ///< vertices that hung on no joint
+    std::vector<int> loose;  ///< vertices that hung on no joint, ascending
 };
 
 /// Nodes below the last joints hold no skin, and are a hand, foot or head that an exporter left out of the skin as it has

@@ -121,7 +121,7 @@ public:
         place_limbs();
         place_spine();
         place_tips();
-        ForeignRig result { skeleton_, {}, skin_.loose, by_tree_ };
+        ForeignRig result { skeleton_, {}, int(skin_.loose.size()), by_tree_ };
         std::vector<int> bones;  // k_pelvis for a joint that is none of the bones
         for (std::size_t j = 0; j < skin_.names.size(); ++j)
             bones.push_back(bone_for(int(j)));

@@ -64,6 +64,10 @@ inline constexpr double k_clear_preference = 0.4;
 /// guess; files have none or all.
 inline constexpr double k_left_handed = 0.75;
 
+/// Dimensionless, a share of the diagonal of what an avatar's joints move: what is farther from it is not worn, nor hair
+/// or eyes. fitted: guess, on three files with a desk, a ball and a floor.
+inline constexpr double k_far_from_skin = 0.08;
+
 /// Dimensionless, a share of the weights of a part of clothes: it hangs on bones with more. Dimensionless, a share of
 /// the samples of a bone: skin is under clothes where so many are inside of it. fitted: guess.
 inline constexpr double k_least_hold = 0.05, k_least_skin = 0.7;

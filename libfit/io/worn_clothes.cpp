@@ -10,6 +10,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/skinned_gltf.h"
 #include "mesh_content.h"
+#include "scenery.h"
 #include "tuning.h"
 #include "winding_number.h"
 
@@ -47,6 +48,8 @@ std::vector<std::string> words_of(const std::string& name)
     return words;
 }
 
+constexpr std::size_t k_most_names = 5;  // unit: of a list for the user
+
 enum class Meaning { nothing, body, clothes };
 
 Meaning meaning_of(const std::string& name)
@@ -79,7 +82,7 @@ bool is_clothes(const MeshPart& part)
     return false;
 }
 
-const std::string& name_of(const MeshPart& part)
+const std::string& name_of_clothes(const MeshPart& part)
 {
     for (const std::string* name : { &part.material, &part.mesh, &part.node })
         if (meaning_of(*name) == Meaning::clothes)
@@ -166,13 +169,19 @@ std::vector<int> rows_of(const MeshPart& part)
     return rows;
 }
 
-std::vector<int> rows_of(const std::vector<MeshPart>& parts, const std::vector<char>& is_left_out)
+/// Rows of triangles without those of some parts; parts may be none, in a format without names.
+std::vector<int> rows_without(const MeshFile& avatar, const std::vector<MeshPart>& parts,
+                              const std::vector<char>& is_left_out)
 {
-    std::vector<int> rows;
+    std::vector<char> is_kept(std::size_t(avatar.triangles().rows()), 1);
     for (std::size_t i = 0; i < parts.size(); ++i)
-        if (!is_left_out[i])
+        if (is_left_out[i])
             for (const int row : rows_of(parts[i]))
-                rows.push_back(row);
+                is_kept[std::size_t(row)] = 0;
+    std::vector<int> rows;
+    for (std::size_t row = 0; row < is_kept.size(); ++row)
+        if (is_kept[row])
+            rows.push_back(int(row));
     return rows;
 }
 
@@ -184,13 +193,94 @@ std::string list_of(const std::vector<std::string>& names)
     return text;
 }
 
-StrippedBody whole(const MeshFile& avatar, const std::string& why)
+/// Leaves out clothes.
+class Stripping {
+public:
+    /// @param parts, is_scenery  kept as references
+    Stripping(const MeshFile& avatar, const std::vector<MeshPart>& parts, const std::vector<char>& is_scenery) :
+        avatar_(avatar), parts_(parts), is_scenery_(is_scenery), is_left_out_(is_scenery)
+    {
+    }
+
+    StrippedBody strip()
+    {
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            is_left_out_[i] = is_scenery_[i] || is_clothes(parts_[i]);
+        const std::vector<int> skin_rows = rows_without(avatar_, parts_, is_left_out_);
+        if (is_left_out_ == is_scenery_)
+            return keep_all("no part of the file is named as clothes");
+        if (skin_rows.empty())
+            return keep_all("all parts of the file are named as clothes, and none as skin");
+        try {
+            return strip_above(skin_rows, read_skinned_gltf(avatar_.path()));
+        } catch (const InvalidInput& error) {
+            return keep_all(std::string("without the joints of a skin nothing tells where skin has to be (")
+                            + error.what() + ")");
+        }
+    }
+
+private:
+    StrippedBody keep_all(const std::string& why) const
+    {
+        StrippedBody body;
+        body.kept = rows_without(avatar_, parts_, is_scenery_);
+        body.warnings.push_back(why + "; all parts are the body");
+        return body;
+    }
+
+    StrippedBody strip_above(const std::vector<int>& skin_rows, const ForeignRig& rig)
+    {
+        const TriangleMesh all { avatar_.positions(), avatar_.triangles() },
+            skin { avatar_.positions(), avatar_.triangles()(skin_rows, Eigen::all) };
+        const SkinUnderClothes under(skin, all, rig);
+        StrippedBody body;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            if (!is_left_out_[i] || is_scenery_[i])
+                continue;
+            const std::vector<std::string> missing = under.missing_under(rows_of(parts_[i]));
+            is_left_out_[i] = missing.empty();
+            if (missing.empty())
+                body.stripped.push_back(name_of_clothes(parts_[i]));
+            else
+                body.warnings.push_back(name_of_clothes(parts_[i])
+                                        + " is not left out, as the file has no skin under it at " + list_of(missing)
+                                        + "; it counts as part of the body");
+        }
+        body.kept = rows_without(avatar_, parts_, is_left_out_);
+        return body;
+    }
+
+    const MeshFile& avatar_;
+    const std::vector<MeshPart>& parts_;
+    const std::vector<char>& is_scenery_;
+    std::vector<char> is_left_out_;
+};
+
+std::string first_of(const std::vector<std::string>& names)
 {
-    StrippedBody body;
-    body.kept.resize(std::size_t(avatar.triangles().rows()));
-    std::iota(body.kept.begin(), body.kept.end(), 0);
-    body.warnings.push_back(why + "; all parts are the body");
-    return body;
+    const std::size_t shown = std::min(names.size(), k_most_names);
+    const std::string list = list_of({ names.begin(), names.begin() + std::ptrdiff_t(shown) });
+    return shown == names.size() ? list : list + " and " + std::to_string(names.size() - shown) + " more";
+}
+
+/// The node is what an artist names; a mesh is often "Cube.003".
+std::string name_of_scenery(const MeshPart& part)
+{
+    for (const std::string* name : { &part.node, &part.mesh, &part.material })
+        if (!name->empty())
+            return *name;
+    return "a mesh without a name";
+}
+
+/// Each once: a mesh may have many materials.
+std::vector<std::string> names_of_scenery(const std::vector<MeshPart>& parts, const std::vector<char>& is_scenery)
+{
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (const std::string name = name_of_scenery(parts[i]);
+            is_scenery[i] && std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    return names;
 }
 
 }  // namespace
@@ -210,41 +300,17 @@ Wears wears_called(std::string_view name)
     return Wears(found - names.begin());
 }
 
-StrippedBody strip_clothes(const MeshFile& avatar)
+std::optional<StrippedBody> find_body(const MeshFile& avatar, Wears wears)
 {
     const std::vector<MeshPart> parts = avatar.parts();
-    std::vector<char> is_left_out;
-    for (const MeshPart& part : parts)
-        is_left_out.push_back(is_clothes(part));
-    if (std::count(is_left_out.begin(), is_left_out.end(), 1) == 0)
-        return whole(avatar, "no part of the file is named as clothes");
-    const std::vector<int> skin_rows = rows_of(parts, is_left_out);
-    if (skin_rows.empty())
-        return whole(avatar, "all parts of the file are named as clothes, and none as skin");
-    ForeignRig rig;
-    try {
-        rig = read_skinned_gltf(avatar.path());
-    } catch (const InvalidInput& error) {
-        return whole(avatar,
-                     std::string("without the joints of a skin nothing tells where skin has to be (") + error.what()
-                         + ")");
-    }
-    const TriangleMesh all { avatar.positions(), avatar.triangles() },
-        skin { avatar.positions(), avatar.triangles()(skin_rows, Eigen::all) };
-    const SkinUnderClothes under(skin, all, rig);
-    StrippedBody body;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (!is_left_out[i])
-            continue;
-        const std::vector<std::string> missing = under.missing_under(rows_of(parts[i]));
-        is_left_out[i] = missing.empty();
-        if (missing.empty())
-            body.stripped.push_back(name_of(parts[i]));
-        else
-            body.warnings.push_back(name_of(parts[i]) + " is not left out, as the file has no skin under it at "
-                                    + list_of(missing) + "; it counts as part of the body");
-    }
-    body.kept = rows_of(parts, is_left_out);
+    const std::vector<char> is_scenery = find_scenery(avatar, parts);
+    std::optional<StrippedBody> body;
+    if (wears == Wears::strip)
+        body = Stripping(avatar, parts, is_scenery).strip();
+    else if (std::count(is_scenery.begin(), is_scenery.end(), 1) > 0)
+        body = StrippedBody { rows_without(avatar, parts, is_scenery), {}, {}, {} };
+    if (body)
+        body->scenery = names_of_scenery(parts, is_scenery);
     return body;
 }
 
@@ -253,6 +319,9 @@ std::vector<std::string> notes_on(const StrippedBody& body)
     std::vector<std::string> notes = body.warnings;
     if (!body.stripped.empty())
         notes.push_back("left out of the body: " + list_of(body.stripped));
+    if (!body.scenery.empty())
+        notes.push_back("left out, as no joint moves it and it lies away from what joints move: "
+                        + first_of(body.scenery));
     return notes;
 }
 

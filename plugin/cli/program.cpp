@@ -127,7 +127,7 @@ void write(const Call& call, Session& session, OutputFolder& folder)
     if (!outfit.path.empty()) {
         if (!outfit.bones && !call.ignores_skin)
             outfit.avatar = avatar_in(session.body.file, session.body.frame.frame);
-        outfit.is_stripped = session.body.without_clothes.has_value();
+        outfit.is_stripped = session.body.only_body.has_value();
         if (!is_on_avatar(outfit))  // else its file is kept as it is
             read_body_look(session);
         read_garment_looks(session);

@@ -56,12 +56,26 @@ void make_scene_body(Session& session)
                                    + " is not one closed surface; a repaired copy is used where one is needed");
 }
 
-void strip_body(Session& session, BodyFile& body)
+void leave_out_others(Session& session, BodyFile& body, Wears wears)
 {
-    body.without_clothes = strip_clothes(body.file);
-    body.triangles = triangles_of(body.file, *body.without_clothes);
-    for (const std::string& note : notes_on(*body.without_clothes))
+    body.only_body = find_body(body.file, wears);
+    if (!body.only_body)
+        return;
+    body.triangles = triangles_of(body.file, *body.only_body);
+    for (const std::string& note : notes_on(*body.only_body))
         session.warnings.push_back(body.path.filename().string() + ": " + note);
+}
+
+OwnRig read_own_rig(const BodyFile& body)
+{
+    const std::string& format = body.file.format();
+    if ((format != "glb" && format != "gltf") || !has_skin(body.path))
+        return {};
+    try {
+        return { read_skinned_gltf(body.path), "" };
+    } catch (const InvalidInput& error) {
+        return { {}, error.what() };
+    }
 }
 
 /// Dressed garments are written beside body.ply and the other results.
@@ -110,10 +124,10 @@ Frame frame_on_body(const Session& session, const fs::path& glb)
                            + " do; give the rig of this very mesh in its bind pose");
 }
 
-Rig read_skinned(Session& session, const fs::path& glb)
+/// @param foreign  the rig in that file
+Rig take_skinned(Session& session, const fs::path& glb, const ForeignRig& foreign)
 {
     const Frame frame = frame_on_body(session, glb);
-    const ForeignRig foreign = read_skinned_gltf(glb);
     if (foreign.loose_vertices > 0)
         session.warnings.push_back(glb.filename().string() + ": " + std::to_string(foreign.loose_vertices)
                                    + " vertices hang on no joint; they follow the nearest vertex that does");
@@ -196,9 +210,12 @@ void read_body(Session& session, const fs::path& path, const BodyChoice& choice,
                                    + std::to_string(body.file.positions().rows()) + " points");
     }
     warn_of_file(session, body.file);
-    if (parts.wears == Wears::strip)
-        strip_body(session, body);
-    body.frame = body_frame(body.file.positions(), body.triangles, choice);
+    leave_out_others(session, body, parts.wears);
+    body.own = read_own_rig(body);
+    BodyChoice standing = choice;
+    if (body.own.rig)
+        standing.trunk = body.own.rig->skeleton.tail(thorax) - body.own.rig->skeleton.root;
+    body.frame = body_frame(body.file.positions(), body.triangles, standing);
     session.body = std::move(body);
     make_scene_body(session);
 }
@@ -221,7 +238,7 @@ bool read_rig(Session& session, const fs::path& rig)
 {
     const Stopwatch watch(session.read_seconds);
     if (rig.extension() != ".json") {
-        take_given(session, read_skinned(session, rig), rig);
+        take_given(session, take_skinned(session, rig, read_skinned_gltf(rig)), rig);
         return true;
     }
     if (!fs::exists(rig.parent_path() / "rigged.ply") && !read_rig_file(rig).has_weights())
@@ -238,19 +255,19 @@ bool read_rig(Session& session, const fs::path& rig)
 void read_own_skeleton(Session& session)
 {
     const Stopwatch watch(session.read_seconds);
-    const std::string& format = session.body.file.format();
-    if ((format != "glb" && format != "gltf") || !has_skin(session.body.path))
-        return;
-    try {
-        const Rig rig = read_skinned(session, session.body.path);
-        check_skeleton(*session.scene.body, rig.skeleton);
-        session.scene.rig = rig;
-        session.skeleton = "file";
-    } catch (const InvalidInput& error) {
-        session.skeleton_refusal = error.what();
+    session.skeleton_refusal = session.body.own.refusal;
+    if (session.body.own.rig)
+        try {
+            const Rig rig = take_skinned(session, session.body.path, *session.body.own.rig);
+            check_skeleton(*session.scene.body, rig.skeleton);
+            session.scene.rig = rig;
+            session.skeleton = "file";
+        } catch (const InvalidInput& error) {
+            session.skeleton_refusal = error.what();
+        }
+    if (!session.skeleton_refusal.empty())
         session.warnings.push_back("the skeleton in the body's file is not used, the shape decides: "
                                    + session.skeleton_refusal);
-    }
 }
 
 void read_fitted(Session& session, const fs::path& folder)
@@ -277,8 +294,8 @@ void read_draped(Session& session, const fs::path& folder)
 void read_body_look(Session& session)
 {
     session.body.look = look_of(session, session.body.path, session.body.file);
-    if (session.body.without_clothes)
-        session.body.look = appearance_of(std::move(session.body.look), *session.body.without_clothes);
+    if (session.body.only_body)
+        session.body.look = appearance_of(std::move(session.body.look), *session.body.only_body);
 }
 
 void read_garment_looks(Session& session)

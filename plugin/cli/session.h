@@ -12,16 +12,24 @@
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/io.h"
+#include "garmentfit/skinned_gltf.h"
 #include "garmentfit/worn_clothes.h"
 
 namespace garmentfit::cli {
+
+/// The rig that a body's file holds, or why it is of no use; neither where it has no skin.
+struct OwnRig {
+    std::optional<ForeignRig> rig;
+    std::string refusal;
+};
 
 struct BodyFile {
     std::filesystem::path path;
     MeshFile file;
     Triangles triangles;  ///< of the file, or reconstructed from its points
     FrameGuess frame;  ///< confidences are 1 where the user said it
-    std::optional<StrippedBody> without_clothes = {};  ///< none where all parts of the file are the body
+    std::optional<StrippedBody> only_body = {};  ///< none where all parts of the file are the body
+    OwnRig own = {};
     Appearance look {};  ///< after read_body_look
 };
 

@@ -108,16 +108,15 @@ void bind_mesh_file(nb::module_& m)
             "triangles", [](const MeshFile& file) { return array_of(file.triangles()); }, nb::rv_policy::automatic)
         .def_prop_ro("format", [](const MeshFile& file) { return file.format(); })
         .def("write", &write, "path"_a, "positions"_a);
-    nb::class_<StrippedBody>(m, "StrippedBody", "What is left of an avatar's body without its clothes")
-        .def_ro("stripped", &StrippedBody::stripped);
+    nb::class_<StrippedBody>(m, "StrippedBody", "What of an avatar's file is its body")
+        .def_ro("stripped", &StrippedBody::stripped)
+        .def_ro("scenery", &StrippedBody::scenery);
     m.def(
-        "without_clothes",
-        [](const MeshFile& file, const std::string& wears) {
-            return wears_called(wears) == Wears::strip ? std::optional(strip_clothes(file)) : std::nullopt;
-        },
-        "file"_a, "wears"_a, "None where all parts of the file stay");
+        "find_body",
+        [](const MeshFile& file, const std::string& wears) { return find_body(file, wears_called(wears)); }, "file"_a,
+        "wears"_a, "None where all parts of the file stay");
     m.def(
-        "triangles_without_clothes",
+        "triangles_of_body",
         [](const MeshFile& file, const StrippedBody& left) { return array_of(triangles_of(file, left)); }, "file"_a,
         "left"_a);
 }

@@ -58,7 +58,7 @@ inline void read_all(const std::filesystem::path& path, const std::filesystem::p
         require_surface(mesh);
         require_look(mesh);
         mesh.companions();
-        strip_clothes(mesh);
+        find_body(mesh, Wears::strip);
         require_round_trip(mesh, copy);
         if (mesh.format() == "glb" || mesh.format() == "gltf")
             read_skin(mesh);

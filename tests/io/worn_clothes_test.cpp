@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "edited_glb.h"
 #include "fixtures.h"
 #include "garmentfit/skinned_gltf.h"
 #include "temporary_folder.h"
@@ -79,7 +80,7 @@ using Names = std::vector<std::string>;
 TEST_F(WornClothes, AreLeftOutWhereSkinIsUnderThem)
 {
     const MeshFile avatar = write(person.mesh, { "Wolf3D_Outfit_Top", "Bottoms01", "HatHair" });
-    const StrippedBody body = strip_clothes(avatar);
+    const StrippedBody body = find_body(avatar, Wears::strip).value();
     EXPECT_EQ(body.stripped, (Names { "Wolf3D_Outfit_Top", "Bottoms01" }));
     EXPECT_TRUE(body.warnings.empty());
     const Eigen::Index sleeve_triangles = fixtures::sleeve_round(person.skeleton, lfemur, 0.1, 0, 0.2).triangles.rows();
@@ -91,21 +92,60 @@ TEST_F(WornClothes, AreLeftOutWhereSkinIsUnderThem)
 TEST_F(WornClothes, StayWhereTheFileHasNoSkinUnderThemAndAWarningSaysWhere)
 {
     const MeshFile avatar = write(skin_of({ lhumerus }), { "Shirt", "Trousers", "Hair" });
-    const StrippedBody body = strip_clothes(avatar);
+    const StrippedBody body = find_body(avatar, Wears::strip).value();
     EXPECT_EQ(body.stripped, Names { "Trousers" });
     EXPECT_TRUE(warns(body, "Shirt is not left out, as the file has no skin under it at lhumerus"));
 }
 
 TEST_F(WornClothes, AreNotGuessedAtWithoutNamesOrJoints)
 {
-    const StrippedBody unnamed = strip_clothes(write(person.mesh, { "part1", "eye_socket", "Headband_Hair" }));
+    const StrippedBody unnamed
+        = find_body(write(person.mesh, { "part1", "eye_socket", "Headband_Hair" }), Wears::strip).value();
     EXPECT_TRUE(unnamed.stripped.empty());
     EXPECT_TRUE(warns(unnamed, "no part of the file is named as clothes"));
 
     write_ply(folder / "body.ply", person.mesh.positions, person.mesh.triangles);
-    const StrippedBody ply = strip_clothes(MeshFile::read(folder / "body.ply"));
+    const StrippedBody ply = find_body(MeshFile::read(folder / "body.ply"), Wears::strip).value();
     EXPECT_EQ(Eigen::Index(ply.kept.size()), person.mesh.triangles.rows());
     EXPECT_EQ(ply.warnings.size(), 1u);
+}
+
+/// A file with a ball that no joint moves.
+class Scenery : public WornClothes {
+protected:
+    /// @param centre  m
+    MeshFile write_with_ball(const Vec3& centre, double radius) const
+    {
+        const Vec3 corner = Vec3::Constant(1.2 * radius);
+        const TriangleMesh ball = fixtures::polygonise([&](const Vec3& p) { return (p - centre).norm() - radius; },
+                                                       centre - corner, centre + corner, 0.2 * radius);
+        write_skinned_glb(folder / "avatar.glb", person.skeleton,
+                          { part("Body", person.mesh), part("Ball", ball), sleeve("Shirt", lhumerus) });
+        save("avatar.glb", fixtures::edited(load(folder / "avatar.glb"), [](nlohmann::json& document) {
+                 document["nodes"][std::size_t(fixtures::node_called(document, "Ball"))].erase("skin");
+             }));
+        return MeshFile::read(folder / "avatar.glb");
+    }
+};
+
+TEST_F(Scenery, IsLeftOutWhereverItLies)
+{
+    const Vec3 chest = person.skeleton.tail(upperback);
+    for (const Vec3& centre : { Vec3(1.5, 0.5, 0), chest })  // beside the body, and round it
+        for (const Wears wears : { Wears::keep, Wears::strip }) {
+            const MeshFile avatar = write_with_ball(centre, 1);
+            const std::optional<StrippedBody> body = find_body(avatar, wears);
+            ASSERT_TRUE(body);
+            EXPECT_EQ(body->scenery, Names { "Ball" });
+            EXPECT_EQ(body->stripped, wears == Wears::strip ? Names { "Shirt" } : Names());
+            EXPECT_EQ(triangles_of(avatar, *body).topRows(person.mesh.triangles.rows()), person.mesh.triangles);
+            EXPECT_NE(notes_on(*body).back().find("Ball"), std::string::npos);
+        }
+}
+
+TEST_F(Scenery, IsNotWhatLiesOnTheSkin)
+{
+    EXPECT_FALSE(find_body(write_with_ball(person.skeleton.tips[head_top], 0.08), Wears::keep)) << "a hat";
 }
 
 TEST_F(WornClothes, TakeTheirMaterialsWithThem)

@@ -37,6 +37,12 @@ class Mesh:
         """Names of the parts of the file that were left out as clothes."""
         return [] if self._left is None else self._left.stripped
 
+    @property
+    def scenery(self) -> List[str]:
+        """Names of the parts of the file that were left out as no joint moves them and they lie away from what joints
+        move."""
+        return [] if self._left is None else self._left.scenery
+
     def write(self, path: Union[str, "os.PathLike[str]"], positions: Optional[npt.ArrayLike] = None) -> None:
         """Writes the file that this mesh was read from with other positions. Vertices, order, UVs, groups and materials
         stay; normals are computed anew. A mesh that was made from arrays is written as PLY."""
@@ -63,9 +69,9 @@ def read_mesh(path: Union[str, "os.PathLike[str]"], *, reconstruct: bool = False
     triangles = file.triangles
     if reconstruct and len(triangles) == 0:
         triangles = _core.reconstruct_surface(file.positions)
-    left = _core.without_clothes(file, wears)
+    left = _core.find_body(file, wears)
     if left is not None:
-        triangles = _core.triangles_without_clothes(file, left)
+        triangles = _core.triangles_of_body(file, left)
     return Mesh(file.positions, triangles, name=path.name, file=file, left=left)
 
 

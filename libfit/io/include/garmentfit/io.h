@@ -19,6 +19,7 @@ namespace garmentfit {
 struct MeshPart {
     std::string material, mesh, node;
     Eigen::Index first_triangle = 0, triangles = 0;
+    bool is_skinned = false;  ///< has weights over joints
 };
 
 /// A mesh file that can be written again with other positions. Vertices, order, polygons, UVs, groups, materials,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Clothes that an avatar wears in its file already.
+// What an avatar's file shows besides its body: clothes that it wears already, and scenery.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,18 +21,21 @@ GARMENTFIT_API const std::vector<std::string_view>& wears_names();
 /// @throws InvalidInput naming both.
 GARMENTFIT_API Wears wears_called(std::string_view name);
 
-/// What is left of an avatar's body without its clothes.
+/// What of an avatar's file is its body.
 struct StrippedBody {
     std::vector<int> kept;  ///< rows of MeshFile::triangles(), ascending
-    std::vector<std::string> stripped;  ///< names of the parts that are left out
+    std::vector<std::string> stripped;  ///< names of the clothes that are left out
+    std::vector<std::string> scenery;  ///< names of the other parts that are left out
     std::vector<std::string> warnings;  ///< of what cannot be left out, in whole sentences
 };
 
-/// Leaves out the parts that are named as clothes (by material, mesh or node) and have skin under them: each bone that
-/// a part hangs on runs inside the skin that is left. Vertices stay, so that weights and files still fit. What has no
-/// skin under it stays, with a warning; so does everything where no part is named as clothes, or where joints are
-/// unknown, so that nothing tells where skin has to be.
-GARMENTFIT_API StrippedBody strip_clothes(const MeshFile& avatar);
+/// Leaves out scenery, which no joint moves and which lies away from what joints move (a desk, a floor, a stand), and
+/// clothes if `wears` says so: parts that are named as clothes (by material, mesh or node) and have skin under them,
+/// which is where each bone that a part hangs on runs inside the skin that is left. Vertices stay, so that weights and
+/// files still fit. Clothes that have no skin under them stay, with a warning; so do all where no part is named as
+/// clothes, or where joints are unknown, so that nothing tells where skin has to be. Nothing without scenery where
+/// clothes are kept.
+GARMENTFIT_API std::optional<StrippedBody> find_body(const MeshFile& avatar, Wears wears);
 
 /// Which parts were left out, and which could not be, in whole sentences for the user.
 GARMENTFIT_API std::vector<std::string> notes_on(const StrippedBody& body);

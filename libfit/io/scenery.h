@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What an avatar's file shows besides the avatar.
+
+#include <vector>
+
+#include "garmentfit/io.h"
+
+namespace garmentfit {
+
+/// Of each part whether it is scenery, such as a desk, a floor or a stand: no joint moves it, and most of it is far from
+/// what joints move. Hair and eyes without a joint are near. Nothing is where the file has no skin, or is mangled: who
+/// reads its joints says so.
+std::vector<char> find_scenery(const MeshFile& avatar, const std::vector<MeshPart>& parts);
+
+}  // namespace garmentfit
