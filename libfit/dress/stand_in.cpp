@@ -17,6 +17,7 @@
 #include "nearest.h"
 #include "outward_cloth.h"
 #include "parallel.h"
+#include "remeshed_cloth.h"
 #include "topology.h"
 #include "tuning.h"
 #include "untangle.h"
@@ -102,7 +103,7 @@ public:
     Motion(const GarmentMesh& stand_in, const Positions& worn) :
         rest_(stand_in), worn_(worn), topology_(stand_in.triangles, int(stand_in.positions.rows())),
         turns_(rotations(stand_in, worn)), sheet_({ stand_in.positions, stand_in.triangles }),
-        reach_(k_following_reach * mean_edge_length(stand_in.positions, topology_.edges()))
+        edge_(mean_edge_length(stand_in.positions, topology_.edges()))
     {
     }
 
@@ -110,23 +111,34 @@ public:
     {
         std::vector<Binding> bindings(garment.rows());
         parallel_for(garment.rows(), [&](Eigen::Index v) { bindings[v] = *sheet_.nearest_triangle(garment.row(v)); });
-        Places places = move(garment, bindings);
+        const double reach = reach_for(garment, bindings);
+        Places places = move(garment, bindings, reach);
         if (bind_as_neighbours(garment, topology, places.feet + places.offsets, bindings))
-            places = move(garment, bindings);
+            places = move(garment, bindings, reach);
         return places;
     }
 
 private:
     using Binding = TriangleTree::Nearest;  // where a vertex hangs on the stand-in
 
-    Places move(const Positions& garment, const std::vector<Binding>& bindings) const
+    /// How far from the nearest point of the stand-in the motions are blended, m. A garment that is the stand-in's own
+    /// surface keeps the stand-in's folds; sheets that lie beside it, and each other, have to move alike.
+    double reach_for(const Positions& garment, const std::vector<Binding>& bindings) const
+    {
+        double off = 0;
+        for (Eigen::Index v = 0; v < garment.rows(); ++v)
+            off += (bindings[v].point - garment.row(v).transpose()).norm() / double(garment.rows());
+        return (off < k_same_surface * edge_ ? k_own_reach : k_following_reach) * edge_;
+    }
+
+    Places move(const Positions& garment, const std::vector<Binding>& bindings, double reach) const
     {
         constexpr Eigen::Index k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
         Places places { Positions::Zero(garment.rows(), 3), Positions::Zero(garment.rows(), 3) };
         parallel_for((garment.rows() + k_grain - 1) / k_grain, [&](Eigen::Index piece) {
             Neighbourhood neighbourhood(rest_.positions, topology_);
             for (Eigen::Index v = piece * k_grain; v < std::min((piece + 1) * k_grain, garment.rows()); ++v) {
-                const auto [foot, target] = move(garment.row(v), bindings[v], neighbourhood);
+                const auto [foot, target] = move(garment.row(v), bindings[v], reach, neighbourhood);
                 places.feet.row(v) = foot;
                 places.offsets.row(v) = target - foot;
             }
@@ -136,7 +148,8 @@ private:
 
     /// Where the nearest point of the stand-in goes, and the place itself. What lies side by side is moved alike,
     /// whichever triangles are nearest to it: the motions of all vertices near by are blended.
-    std::pair<Vec3, Vec3> move(const Vec3& place, const Binding& binding, Neighbourhood& neighbourhood) const
+    std::pair<Vec3, Vec3> move(const Vec3& place, const Binding& binding, double reach,
+                               Neighbourhood& neighbourhood) const
     {
         constexpr double k_least = 1e-3;  // unit: a triangle larger than the reach has weights as well
         const auto& [nearest, triangle] = binding;
@@ -147,10 +160,10 @@ private:
         for (int k = 0; k < 3; ++k)
             foot += shares[k] * worn_.row(corners[k]).transpose();
         double weights = 0;
-        for (const int v : neighbourhood.around(nearest, corners, reach_)) {
+        for (const int v : neighbourhood.around(nearest, corners, reach)) {
             const Vec3 at_rest = rest_.positions.row(v);
             const double weight
-                = std::pow(std::max(1 - (at_rest - nearest).squaredNorm() / (reach_ * reach_), k_least), 3);
+                = std::pow(std::max(1 - (at_rest - nearest).squaredNorm() / (reach * reach), k_least), 3);
             sum += weight * (worn_.row(v).transpose() + turns_[v] * (place - at_rest));
             weights += weight;
         }
@@ -197,7 +210,7 @@ private:
     const MeshTopology topology_;
     const std::vector<Eigen::Matrix3d> turns_;
     const TriangleTree sheet_;
-    const double reach_;  // m
+    const double edge_;  // m, mean
 };
 
 /// The garment that follows. Only vertices at exactly the same place are one: parts that touch stay as they are.
@@ -422,11 +435,32 @@ Positions untangled(const Parts& cloth, const Positions& positions, const Surrou
                              moved_clear(cloth, positions, std::move(parted), around), around);
 }
 
+std::size_t count_self_crossings(const TriangleMesh& cloth)
+{
+    return find_self_crossings(cloth, edges_of(cloth.triangles), TriangleTree(cloth)).size();
+}
+
+/// The same cloth with fewer vertices. None where it has few, or where it, or the coarser one, crosses itself: what
+/// follows would cross at new places.
+std::optional<GarmentMesh> coarser(const GarmentMesh& garment)
+{
+    const GarmentMesh sewn = Weld(garment).gather(garment);
+    const TriangleMesh cloth { sewn.positions, sewn.triangles };
+    if (cloth.positions.rows() < k_fine || count_self_crossings(cloth) > 0)
+        return {};
+    const std::optional<TriangleMesh> coarse = remeshed_cloth(cloth, k_coarse);
+    if (!coarse || count_self_crossings(*coarse) > 0)
+        return {};
+    return GarmentMesh { coarse->positions, coarse->triangles };
+}
+
 }  // namespace
 
 std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment)
 {
-    return lining_of(garment, crowding(garment) < k_crowded ? Lined::clothes_in_parts : Lined::all);
+    if (auto lining = lining_of(garment, crowding(garment) < k_crowded ? Lined::clothes_in_parts : Lined::all))
+        return lining;
+    return coarser(garment);
 }
 
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,

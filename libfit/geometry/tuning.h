@@ -30,6 +30,14 @@ inline constexpr int k_largest_cubic_hole = 300;
 /// Vertices of a piece that are tried for whether the piece lies within the body. fitted: guess.
 inline constexpr int k_piece_samples = 9;
 
+// ---- remeshed_cloth.cpp ---------------------------------------------------------------------------------------------
+
+/// Rounds of splits, collapses, flips and smoothing. unit: three are usual; more change little
+inline constexpr int k_remeshing_rounds = 3;
+/// Dimensionless, area as a share of the squared side of the new triangles: smaller pieces have no shape in them.
+/// fitted: guess.
+inline constexpr double k_least_piece = 20;
+
 // ---- loose_vertices.cpp ---------------------------------------------------------------------------------------------
 
 /// Dimensionless, a share of the diagonal. A head, a hand or a foot that was cut off reaches this far from its stump.

@@ -9,6 +9,7 @@
 #include "crowding.h"
 #include "fixtures.h"
 #include "garmentfit/certificate.h"
+#include "nearest.h"
 #include "topology.h"
 
 namespace {
@@ -120,6 +121,47 @@ TEST(StandIn, OfClothWithDetailsOfTinyEdgesIsOneSheetToo)
     ASSERT_TRUE(stand_in);
     EXPECT_GT(crowding(make_garment(both.positions, both.triangles)), 10);
     EXPECT_LT(crowding(*stand_in), 0.5);
+}
+
+/// A tube of cloth with many vertices, and a button on it.
+TriangleMesh fine_tube()
+{
+    TriangleMesh button = strip(4e-3, 2e-3, 0, 6.28, 8);
+    button.positions.col(1).array() += 0.3;
+    button.positions.col(2).array() += 0.21;
+    return joined(strip(0.2, 0.6, 0, 6, 150), button);
+}
+
+TEST(StandIn, OfFineClothIsTheSameSurfaceWithFewerVertices)
+{
+    const TriangleMesh tube = fine_tube();
+    const auto stand_in = make_stand_in(make_garment(tube.positions, tube.triangles));
+    ASSERT_TRUE(stand_in);
+    EXPECT_LT(stand_in->positions.rows(), tube.positions.rows() * 6 / 10);
+    EXPECT_GT(stand_in->positions.rows(), tube.positions.rows() * 3 / 10);
+    const TriangleTree surface(tube);
+    for (Eigen::Index v = 0; v < stand_in->positions.rows(); v += 20)
+        ASSERT_LT(surface.distance(stand_in->positions.row(v)), 1e-3);
+    EXPECT_EQ(MeshTopology(stand_in->triangles, int(stand_in->positions.rows())).border_loops().size(), 1u)
+        << "that of the tube, which is open along its side: the button has no shape in these triangles";
+}
+
+TEST(StandIn, TakesFineClothAlongWithoutStrain)
+{
+    const TriangleMesh tube = fine_tube();
+    const GarmentMesh garment = make_garment(tube.positions, tube.triangles);
+    const auto stand_in = make_stand_in(garment);
+    ASSERT_TRUE(stand_in);
+    const Positions moved = follow(*stand_in, bent(stand_in->positions), garment, { k_far_body });
+    EXPECT_LT((moved - bent(garment.positions)).rowwise().norm().maxCoeff(), 1e-3);
+}
+
+TEST(StandIn, FineClothThatCrossesItselfHasNone)
+{
+    TriangleMesh across = strip(0.2, 0.6, 0, 6, 150);
+    across.positions.col(0).array() += 0.05;
+    const TriangleMesh both = joined(strip(0.2, 0.6, 0, 6, 150), across);
+    EXPECT_FALSE(make_stand_in(make_garment(both.positions, both.triangles)));
 }
 
 TEST(StandIn, TakesAlongASleeveThatHangsBesideTheTrunk)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One sheet of cloth that moves in the place of a garment in many parts, and takes it along.
+// One sheet of cloth that moves in the place of a garment in many parts or with many vertices, and takes it along.
 //
-// Method   The stand-in is the inner sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all parts. Each vertex of
-//          the garment goes with the blended motions of the stand-in's vertices near it (embedded deformation
+// Method   The stand-in is the inner sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all parts; or, of fine
+//          cloth, the cloth in larger triangles [botsch_kobbelt_2004_multiresolution]. Each vertex of the garment goes
+//          with the blended motions of the stand-in's vertices near it (embedded deformation
 //          [sumner_2007_embedded_deformation]). What then meets the body, or another side of a fold, is drawn in towards
 //          the stand-in, which meets nothing, and parts that meet each other are parted.
 // Units    metres.
@@ -20,8 +21,9 @@ namespace garmentfit {
 /// A stand-in, for clothes that cannot be read as one layer of cloth: panels that are closed slabs, sheets that lie on
 /// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md); and for clothes with details whose edges
 /// are far shorter than those of the cloth, cords, zips and stitches, where contact has hundreds of pairs for a vertex
-/// (docs/decisions/0033-stand-ins.md). None for all others.
-/// Cost: 4 to 8 s where there is one, whatever the size of the garment; else O(n log n).
+/// (docs/decisions/0033-stand-ins.md); and for cloth of 20,000 vertices and more that is a manifold and does not cross
+/// itself. None for all others.
+/// Cost: 4 to 8 s where there is a wrap, whatever the size of the garment; else O(n log n).
 /// @param garment  on a body of human size
 GARMENTFIT_API std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment);
 
