@@ -88,6 +88,8 @@ public:
 
     /// Corners whose normal does not exist.
     std::size_t missing_normals() const { return missing_normals_; }
+    /// Faces of one or two corners, as which some exporters write loose vertices and edges. They have no triangles.
+    std::size_t narrow() const { return narrow_; }
 
     void count_vertex() { ++vertices_; }
     void count_normal() { ++normals_; }
@@ -98,10 +100,7 @@ public:
         corners_.clear();
         while (!words.done() && content_.file.bytes[words.at()] != '#')
             add_corner(words.next());
-        if (corners_.size() < 6)
-            content_.file.fail_at_line_of(words.at(),
-                                          "the face has " + std::to_string(corners_.size() / 2)
-                                              + " corners; give it three or more, or remove it");
+        narrow_ += corners_.size() < 6;
         fans_.add(corners_);
     }
 
@@ -135,7 +134,7 @@ private:
 
     const TextContent& content_;
     Eigen::Index vertices_ = 0, normals_ = 0;  // so far in the file
-    std::size_t missing_normals_ = 0;
+    std::size_t missing_normals_ = 0, narrow_ = 0;
     std::vector<int> corners_;  // of one face: position, normal, position, normal, ...
     FanBuilder fans_ { 2 };
 };
@@ -156,6 +155,7 @@ void read_faces(TextContent& content)
     content.triangles = reader.fans().triangles(0);
     content.normal_corners = reader.fans().triangles(1);
     warn_of(content.warnings, reader.missing_normals(), " corners of faces name a normal that does not exist");
+    warn_of(content.warnings, reader.narrow(), " faces have fewer than three corners; they are left out");
     content.require_finite();
 }
 

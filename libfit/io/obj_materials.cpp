@@ -259,7 +259,7 @@ private:
         while (!words.done() && file.bytes[words.at()] != '#')
             corners_.push_back(uv_of(words.next_text()));
         fans_.add(corners_);
-        look_.material_of.insert(look_.material_of.end(), corners_.size() - 2, material_);
+        look_.material_of.insert(look_.material_of.end(), std::max<std::size_t>(corners_.size(), 2) - 2, material_);
     }
 
     /// The second number of position/texture/normal, 1-based or counted back.

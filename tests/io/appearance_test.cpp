@@ -77,6 +77,15 @@ TEST_F(Look, OfObjHasItsMaterialsUvsAndPictures)
     EXPECT_TRUE(mentions(look.warnings, "map_d"));
 }
 
+TEST_F(Look, OfObjHasNoMaterialForLooseEdges)
+{
+    write_cloth(folder);
+    write_text(folder / "cloth.obj", k_obj + "f 1/1 2/2\nf 3\nf 1/1 2/2 3/3\n");
+    const Appearance look = MeshFile::read(folder / "cloth.obj").appearance();
+    EXPECT_EQ(look.material_of, (std::vector<int> { 0, 0, 1, 1, 1 }));
+    EXPECT_EQ(look.uv_corners.rows(), 5);
+}
+
 TEST_F(Look, OfObjWithoutItsFilesIsAWarning)
 {
     write_text(folder / "cloth.obj", k_obj);

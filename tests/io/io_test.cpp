@@ -264,7 +264,7 @@ TEST_F(Io, SaysWhatIsWrongAndWhere)
                      "line 4: the face refers to vertex 4, but there are 3");
     expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n",
                      "line 4: the face refers to vertex 0, but there are 3");
-    expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: the face has 2 corners");
+    expect_complaint("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", "no faces");
     expect_complaint("a.obj", "v 0 0\nv 1 0 0\n", "line 1: ends too soon");
     expect_complaint("a.obj", "v 0 0 zero\n", "line 1: 'zero' is not a number");
     expect_complaint("a.ply", with(samples::ascii_ply(), "vertex 4", "vertex 2000000000"),
@@ -290,6 +290,15 @@ bool has_warning(const MeshFile& mesh, const std::string& words)
 {
     const auto says = [&](const std::string& warning) { return warning.find(words) != std::string::npos; };
     return std::any_of(mesh.warnings().begin(), mesh.warnings().end(), says);
+}
+
+TEST_F(Io, ObjFacesOfTwoCornersAreLeftOutWithAWarningAndStayInTheFile)
+{
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2\nf 1 2 3\nf 3\n";
+    const MeshFile mesh = read("loose.obj", text);
+    EXPECT_EQ(mesh.triangles(), rows({ { 0, 1, 2 } }));
+    EXPECT_TRUE(has_warning(mesh, "2 faces have fewer than three corners; they are left out"));
+    EXPECT_EQ(written(mesh, mesh.positions()), text);
 }
 
 TEST_F(Io, ObjNormalsThatAreMissingOrMangledAreAWarning)
