@@ -439,9 +439,12 @@ Rig rig_body(const BodyMesh& body, const RigOptions& options, const Progress& pr
     const BodyMesh at_origin = centre_at_origin(body, centre);
     RigOptions centred = options;
     centred.joints = translate(options.joints, -centre);
-    if (!options.joints.is_complete())
-        check_shape(at_origin.closed);
+    const bool is_searched = !options.joints.is_complete();
+    if (is_searched)
+        check_shape(at_origin.closed, options.humanlike);
     Rig rig = rig_at_origin(at_origin, centred, progress);
+    if (is_searched)
+        check_figure(at_origin.closed, rig);
     rig.skeleton = translate(rig.skeleton, centre);
     return rig;
 }

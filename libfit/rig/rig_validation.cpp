@@ -168,6 +168,21 @@ bool is_pelvis_far(const Skeleton& skeleton)
     return !((skeleton.root - between_hips).norm() < k_farthest_pelvis * (skeleton.tail(thorax) - between_hips).norm());
 }
 
+/// Isoperimetric quotient: 1 for a ball.
+double compactness(const TriangleMesh& closed)
+{
+    return 36 * std::numbers::pi * std::pow(volume(closed), 2) / std::pow(area(closed), 3);
+}
+
+/// @throws InvalidInput
+[[noreturn]] void refuse_compact(double quotient)
+{
+    throw InvalidInput(ErrorCode::not_human,
+                       "body: it is too compact for a human, with an isoperimetric quotient of "
+                           + fixed_text(quotient, 2) + " (a human's is at most " + fixed_text(k_most_compact, 2)
+                           + "); give a human body");
+}
+
 }  // namespace
 
 void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
@@ -200,15 +215,18 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
                    + " m outside of the body");
 }
 
-void check_shape(const TriangleMesh& closed)
+void check_shape(const TriangleMesh& closed, Humanlike humanlike)
 {
-    // derived: 1 for a ball
-    const double quotient = 36 * std::numbers::pi * std::pow(volume(closed), 2) / std::pow(area(closed), 3);
-    if (quotient > k_most_compact)
-        throw InvalidInput(ErrorCode::not_human,
-                           "body: it is too compact for a human, with an isoperimetric quotient of "
-                               + fixed_text(quotient, 2) + " (a human's is at most " + fixed_text(k_most_compact, 2)
-                               + "); give a human body");
+    const double quotient = compactness(closed);
+    if (quotient > (humanlike == Humanlike::strict ? k_most_compact : k_most_compact_figure))
+        refuse_compact(quotient);
+}
+
+void check_figure(const TriangleMesh& closed, const Rig& rig)
+{
+    const double quotient = compactness(closed);
+    if (quotient > k_most_compact && rig.human_probability < k_least_like_compact)
+        refuse_compact(quotient);
 }
 
 HumanLikeness human_likeness(const TriangleMesh& closed, const Skeleton& skeleton)

@@ -3,13 +3,19 @@
 
 #include <string>
 
+#include "garmentfit/rig_body.h"
 #include "garmentfit/skeleton.h"
 #include "garmentfit/types.h"
 
 namespace garmentfit {
 
-/// Refuses compact shapes such as blocks and balls, before expensive work. O(n). @throws InvalidInput with the number.
-void check_shape(const TriangleMesh& closed);
+/// Refuses compact shapes such as blocks and balls, before expensive work. Figures may be more compact than humans. O(n).
+/// @throws InvalidInput with the number.
+void check_shape(const TriangleMesh& closed, Humanlike humanlike);
+
+/// Refuses what is more compact than a human and has next to no likeness with one: not a doll with a large head, but a
+/// boat in which a figure was found. O(n). @throws InvalidInput as check_shape does
+void check_figure(const TriangleMesh& closed, const Rig& rig);
 
 /// Checks that a skeleton is human: bones inside the body, equal lengths left and right, usual proportions.
 /// O(samples * triangles). @throws InvalidInput that names the failed test, with numbers.

@@ -189,6 +189,9 @@ inline constexpr double k_inside_share = 0.85;
 /// fitted: on the bodies and on blocks. Isoperimetric quotient: 1 = ball, 0.52 = cube; humans have 0.04, fat ones who
 /// curl up 0.13.
 inline constexpr double k_most_compact = 0.3;
+/// The same for figures, and the least probability of being human that one has which is more compact than a human.
+/// fitted: guesses, on a doll with a head as tall as the rest of it (0.40, 4e-5) and a boat (0.41, 4e-11)
+inline constexpr double k_most_compact_figure = 0.48, k_least_like_compact = 1e-7;
 /// fitted: on the bodies. Relative difference between a left and a right length; correct rigs have less than 0.05.
 inline constexpr double k_side_tolerance = 0.2;
 

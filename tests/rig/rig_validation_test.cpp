@@ -16,7 +16,7 @@ using fixtures::Person;
 TEST(RigValidation, APersonPasses)
 {
     const Person person = capsule_person();
-    EXPECT_NO_THROW(check_shape(person.mesh));
+    EXPECT_NO_THROW(check_shape(person.mesh, Humanlike::strict));
     EXPECT_NO_THROW(check_rig(person.mesh, person.skeleton));
 }
 
@@ -62,7 +62,22 @@ TEST(RigValidation, ABallIsRefused)
 {
     const TriangleMesh ball = fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.5; }, Vec3::Constant(-0.7),
                                                    Vec3::Constant(0.7), 0.1);
-    expect_invalid([&] { check_shape(ball); }, "isoperimetric quotient");
+    expect_invalid([&] { check_shape(ball, Humanlike::any); }, "isoperimetric quotient");
+}
+
+TEST(RigValidation, ACompactFigureIsRefusedWhereItIsNotLikeAHuman)
+{
+    const auto out_of_box = [](const Vec3& p) { return (p.cwiseAbs() - Vec3(0.25, 0.75, 0.25)).maxCoeff(); };
+    const TriangleMesh box
+        = fixtures::polygonise(out_of_box, Vec3(-0.4, -0.9, -0.4), Vec3(0.4, 0.9, 0.4), 0.06);  // quotient 0.37
+    expect_invalid([&] { check_shape(box, Humanlike::strict); }, "isoperimetric quotient");
+    EXPECT_NO_THROW(check_shape(box, Humanlike::any));
+    Rig rig;
+    rig.human_probability = 1e-5;
+    EXPECT_NO_THROW(check_figure(box, rig));
+    rig.human_probability = 1e-9;
+    expect_invalid([&] { check_figure(box, rig); }, "isoperimetric quotient");
+    EXPECT_NO_THROW(check_figure(capsule_person().mesh, rig)) << "only where it is compact";
 }
 
 // A skeleton by another program
