@@ -11,6 +11,7 @@
 #include "held_back.h"
 #include "layers.h"
 #include "prepared_cloth.h"
+#include "sewn_body.h"
 #include "skin_weights.h"
 #include "sleeve_retraction.h"
 #include "tightness.h"
@@ -203,27 +204,8 @@ void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const Gr
     }
 }
 
-}  // namespace
-
-Material material_of(const ClothOptions& options, const WornGarment& worn)
-{
-    return material_of(options, worn.fabric.value_or(options.fabric));
-}
-
-bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
-{
-    bool clean = true;
-    std::vector<TriangleMesh> under;
-    for (WornGarment& garment : garments) {
-        garment.certificate = certify(body, garment.rest, garment.positions, under);
-        clean &= garment.certificate.clean();
-        under.push_back({ garment.positions, garment.rest.triangles });
-    }
-    return clean;
-}
-
-DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
-                          const DrapeOptions& options, const Progress& progress)
+DrapeResult drape_sewn(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
+                       const DrapeOptions& options, const Progress& progress)
 {
     require_wearable_size(rig, given);
     const auto [garment, closed_ends, left_out] = open_ends(given);
@@ -262,6 +244,34 @@ DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBod
     write_dressed_body(result, motion, inside, grading, { pieces, closed_ends, left_out }, wearer);
     if (result.scale_reached == 1)
         result.held_back = list_held_back_parts(result.body, inside.body_of(inside.full.positions), rig.weights);
+    return result;
+}
+
+}  // namespace
+
+Material material_of(const ClothOptions& options, const WornGarment& worn)
+{
+    return material_of(options, worn.fabric.value_or(options.fabric));
+}
+
+bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
+{
+    bool clean = true;
+    std::vector<TriangleMesh> under;
+    for (WornGarment& garment : garments) {
+        garment.certificate = certify(body, garment.rest, garment.positions, under);
+        clean &= garment.certificate.clean();
+        under.push_back({ garment.positions, garment.rest.triangles });
+    }
+    return clean;
+}
+
+DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
+                          const DrapeOptions& options, const Progress& progress)
+{
+    const SewnBody sewn(rig, body);
+    DrapeResult result = drape_sewn(sewn.rig(), sewn.body(), sewn.gather(dressed), given, options, progress);
+    result.body = sewn.spread(result.body);
     return result;
 }
 

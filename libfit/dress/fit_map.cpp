@@ -90,7 +90,9 @@ Overstretch overstretch(const SkinWeights& weights, const Positions& body, const
         const double before = (worn.rest.positions.row(i) - worn.rest.positions.row(j)).norm();
         if (before == 0)
             continue;
-        const double stretch = (worn.positions.row(i) - worn.positions.row(j)).norm() / before - 1;
+        const double longer = (worn.positions.row(i) - worn.positions.row(j)).norm() - before,
+                     stretch = longer / before;
+        result.longer = std::max(result.longer, longer);
         result.edges += stretch > limit;
         if (stretch > result.largest) {
             result.largest = stretch;

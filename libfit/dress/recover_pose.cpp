@@ -13,6 +13,7 @@
 #include "layers.h"
 #include "overlaps.h"
 #include "pose_path.h"
+#include "sewn_body.h"
 #include "skin_weights.h"
 #include "tightness.h"
 #include "topology.h"
@@ -369,15 +370,7 @@ RecoverResult recover_over(BridgeEnds ends, const Rig& rig, const BodyMesh& body
     return result;
 }
 
-}  // namespace
-
-const std::vector<std::string_view>& quality_names()
-{
-    static const std::vector<std::string_view> names { "standard", "draft" };
-    return names;
-}
-
-RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
+RecoverResult recover_sewn(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
                            const RecoverOptions& options, const Progress& progress)
 {
     DressedBody carried = carry_to_root(rig, dressed, target);
@@ -389,6 +382,25 @@ RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBo
     RecoverResult other = recover_over(BridgeEnds::nearest, rig, body, departure, target, options, progress);
     other.seconds += result.seconds;
     return other.pose_reached > result.pose_reached ? other : result;
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& quality_names()
+{
+    static const std::vector<std::string_view> names { "standard", "draft" };
+    return names;
+}
+
+RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
+                           const RecoverOptions& options, const Progress& progress)
+{
+    const SewnBody sewn(rig, body);
+    RecoverResult result = recover_sewn(sewn.rig(), sewn.body(), sewn.gather(dressed), target, options, progress);
+    result.body = sewn.spread(result.body);
+    for (RecoverFrame& frame : result.frames)
+        frame.body = sewn.spread(frame.body);
+    return result;
 }
 
 }  // namespace garmentfit

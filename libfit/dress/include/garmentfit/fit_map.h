@@ -50,6 +50,7 @@ struct Overstretch {
     double largest = 0;  ///< l / l0 - 1 of the edge that is stretched most
     std::string part;  ///< of the body, next to that edge, as in TooTight; empty where nothing is overstretched
     double limit = k_overstretched;  ///< l / l0 - 1 beyond which an edge counts
+    double longer = 0;  ///< m, the most by which an edge is longer than at rest
 };
 
 /// @param body   the vertices of the weights, in the pose in which the garment is worn. Cost O(n log n + m).
