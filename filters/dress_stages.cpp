@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "named_garment.h"
 #include "other_wearings.h"
 #include "stand_ins.h"
@@ -226,6 +227,8 @@ void recover(Scene& scene, const Parameters& p, const Progress& progress)
         draped.garments[k].fabric = scene.garments[worn[k]].fabric;
     Dressing recovered = move_to_pose(scene, draped, worn, Pose(), p.recover, Stage::recover, progress);
     measure(scene, recovered, p.recover.cloth);
+    for (const std::size_t i : recovered.worn())
+        recovered.certified &= !is_drawn_out(recovered, i);
     recovered.certified &= all_put_on(scene);
     scene.recovered = among_all(recovered, worn, scene.garments.size());
     write_given(scene, *scene.recovered, p.recover.cloth);

@@ -53,6 +53,15 @@ std::size_t garment_too_small(const Dressing& end)
     return end.too_tight.empty() ? end.outermost : std::size_t(end.too_tight.front().garment);
 }
 
+/// The one that is drawn out, or else may be too small.
+std::size_t garment_caught(const Dressing& end)
+{
+    for (std::size_t i = 0; i < end.garments.size(); ++i)
+        if (is_drawn_out(end, i))
+            return i;
+    return garment_too_small(end);
+}
+
 std::string why_spikes(const Dressing& end, const std::string& name)
 {
     std::string text = name + " could not be certified: ";
@@ -101,8 +110,8 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
     const auto crossing = std::find_if_not(end.garments.begin(), end.garments.end(),
                                            [](const WornGarment& g) { return g.certificate.clean(); });
     const bool clean = crossing == end.garments.end();
-    if (clean && !end.out_of_time && ends_in_spikes(end, garment_too_small(end)))
-        return why_spikes(end, names[garment_too_small(end)]);
+    if (const std::size_t caught = garment_caught(end); clean && !end.out_of_time && ends_in_spikes(end, caught))
+        return why_spikes(end, names[caught]);
     std::ostringstream text;
     text << names[clean ? end.outermost : crossing - end.garments.begin()] << " could not be certified: ";
     if (!clean) {

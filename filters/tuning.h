@@ -45,6 +45,10 @@ inline constexpr std::array<double, 5> k_end_likelihoods { 1, 0.3, 0.8, 0.2, 0 }
 /// wearing it may leave free. fitted: guess, on the wild clothes
 inline constexpr double k_torn = 2;
 
+/// m on a body of human size. Cloth with an edge that is longer than at rest by so much is drawn out into a strand.
+/// fitted: guess, on a T-shirt with an edge of 2 m; pinched edges are short
+inline constexpr double k_strand = 0.1;
+
 /// Share of the body's edges. Where more are drawn out, the body ends in spikes: something is caught, and no girth is
 /// missing. fitted: guess, twice the most (0.5 %) that six garments leave, of the house data, the wild clothes and the
 /// samples, which are plainly too small, by 20 % of girth and more

@@ -75,9 +75,15 @@ std::string_view name_of(Verdict verdict)
     return k_names[static_cast<std::size_t>(verdict)];
 }
 
+bool is_drawn_out(const Dressing& dressing, std::size_t garment)
+{
+    return garment < dressing.overstretches.size()
+        && dressing.overstretches[garment].longer * dressing.to_human_size > k_strand;
+}
+
 bool ends_in_spikes(const Dressing& dressing, std::size_t garment)
 {
-    return dressing.spiked_share > k_spiked_share
+    return dressing.spiked_share > k_spiked_share || is_drawn_out(dressing, garment)
         || (garment < dressing.garments.size() && dressing.garments[garment].certificate.strain.p95 > k_torn);
 }
 

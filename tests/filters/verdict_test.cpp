@@ -91,6 +91,11 @@ TEST(FitVerdict, OfSpikesIsNeverTooSmall)
     EXPECT_EQ(outcome_of(body), Outcome::not_certified);
     EXPECT_EQ(explain(body, { "top" }),
               "top could not be certified: it holds parts of the body far from where they belong, at left thigh");
+    Dressing strand = small;
+    strand.overstretches = { { 3, 200, "right forearm", 0.5, 0.3 } };
+    EXPECT_EQ(outcome_of(strand), Outcome::not_certified);
+    EXPECT_EQ(explain(strand, { "top" }),
+              "top could not be certified: its cloth is drawn out to several times its length, so it is caught");
     cloth.garments[0].certificate.strain.p95 = 2.5;
     EXPECT_EQ(outcome_of(cloth), Outcome::not_certified);
     EXPECT_FALSE(is_too_small(cloth, 0));
