@@ -87,6 +87,9 @@ void scale_measures(Dressing& dressing, double factor)
         part.distance *= factor;
     for (Overlap& overlap : dressing.overlaps)
         overlap.depth *= factor;
+    for (Overstretch& stretch : dressing.overstretches)
+        stretch.longer *= factor;
+    dressing.spikes.longer *= factor;
     for (FitMap& map : dressing.maps)
         map.ease *= factor;
     for (std::vector<PartLoad>& loads : dressing.loads)

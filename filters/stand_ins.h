@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Garments in many parts or with many vertices: their stand-ins are draped and return to the input pose, and they follow (stand_in.h,
-// docs/decisions/0033-stand-ins.md).
+// Garments in many parts or with many vertices: their stand-ins are draped and return to the input pose, and they follow
+// (stand_in.h, docs/decisions/0033-stand-ins.md).
 
 #include "garmentfit/filters/filters.h"
 

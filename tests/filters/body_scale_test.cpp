@@ -81,6 +81,8 @@ void expect_same_dressing(const Dressing& a, const Dressing& b, double size, con
     EXPECT_LT(largest_distance(a.garments[0].positions, b.garments[0].positions / size), tolerance.vertex);
     EXPECT_NEAR(a.garments[0].certificate.min_distance, b.garments[0].certificate.min_distance / size, tolerance.mean);
     EXPECT_LT((a.maps[0].ease - b.maps[0].ease / size).cwiseAbs().mean(), tolerance.mean);
+    ASSERT_GT(b.overstretches[0].longer, 0);
+    EXPECT_NEAR(a.overstretches[0].longer, b.overstretches[0].longer / size, tolerance.vertex);
     ASSERT_EQ(a.girths[0].size(), b.girths[0].size());
     for (std::size_t i = 0; i < a.girths[0].size(); ++i)
         EXPECT_NEAR(a.girths[0][i].body, b.girths[0][i].body / size, tolerance.mean) << a.girths[0][i].place;
