@@ -204,8 +204,8 @@ void write_dressed_body(DrapeResult& result, const ClothMotion& motion, const Gr
     }
 }
 
-DrapeResult drape_sewn(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
-                       const DrapeOptions& options, const Progress& progress)
+DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
+                     const DrapeOptions& options, const Progress& progress)
 {
     require_wearable_size(rig, given);
     const auto [garment, closed_ends, left_out] = open_ends(given);
@@ -269,10 +269,17 @@ bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
                           const DrapeOptions& options, const Progress& progress)
 {
-    const SewnBody sewn(rig, body);
-    DrapeResult result = drape_sewn(sewn.rig(), sewn.body(), sewn.gather(dressed), given, options, progress);
+    const SewnBody sewn(rig, body, dressed);
+    if (!sewn.is_other())
+        return drape_on(rig, body, dressed, given, options, progress);
+    DrapeResult result
+        = drape_on(sewn.rig(), sewn.body(), sewn.gather(dressed), given, options, progress.part(0, k_progress_of_sewn));
     result.body = sewn.spread(result.body);
-    return result;
+    if (result.certified || !result.too_tight.empty() || result.out_of_time)
+        return result;
+    // where cloth is pinched between two sheets of the body, torn skin may let it go
+    DrapeResult torn = drape_on(rig, body, dressed, given, options, progress.part(k_progress_of_sewn, 1));
+    return torn.certified ? torn : result;
 }
 
 }  // namespace garmentfit

@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sewn_body.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "used_vertices.h"
 
 namespace garmentfit {
+namespace {
 
-SewnBody::SewnBody(const Rig& rig, const BodyMesh& body) : rig_(rig), body_(body)
+/// Whether vertices that were at one place are apart.
+bool is_torn(const Positions& body, const Weld& weld, const std::vector<int>& vertices)
+{
+    const Positions one = weld.gather(body);
+    return std::any_of(vertices.begin(), vertices.end(),
+                       [&](int v) { return body.row(v) != one.row(weld.cloth_vertex(v)); });
+}
+
+}  // namespace
+
+SewnBody::SewnBody(const Rig& rig, const BodyMesh& body, const DressedBody& dressed) : rig_(rig), body_(body)
 {
     const GarmentMesh surface { body.surface.positions, body.surface.triangles };
     Weld weld(surface);
     GarmentMesh one = weld.gather(surface);
-    if (one.positions.rows() == Eigen::Index(used_vertices(surface.triangles).size()))
+    const std::vector<int> used = used_vertices(surface.triangles);
+    if (one.positions.rows() == Eigen::Index(used.size()))
+        return;
+    if (dressed.body.rows() > 0 && is_torn(dressed.body, weld, used))
         return;
     std::vector<int> rows;
     for (int v = 0; v < int(one.positions.rows()); ++v)
