@@ -269,17 +269,10 @@ bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
                           const DrapeOptions& options, const Progress& progress)
 {
-    const SewnBody sewn(rig, body, dressed);
-    if (!sewn.is_other())
-        return drape_on(rig, body, dressed, given, options, progress);
-    DrapeResult result
-        = drape_on(sewn.rig(), sewn.body(), sewn.gather(dressed), given, options, progress.part(0, k_progress_of_sewn));
-    result.body = sewn.spread(result.body);
-    if (result.certified || !result.too_tight.empty() || result.out_of_time)
-        return result;
-    // where cloth is pinched between two sheets of the body, torn skin may let it go
-    DrapeResult torn = drape_on(rig, body, dressed, given, options, progress.part(k_progress_of_sewn, 1));
-    return torn.certified ? torn : result;
+    return move_sewn(rig, body, dressed, progress,
+                     [&](const Rig& on, const BodyMesh& skin, const DressedBody& worn, const Progress& part) {
+                         return drape_on(on, skin, worn, given, options, part);
+                     });
 }
 
 }  // namespace garmentfit

@@ -395,18 +395,10 @@ const std::vector<std::string_view>& quality_names()
 RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
                            const RecoverOptions& options, const Progress& progress)
 {
-    const SewnBody sewn(rig, body, dressed);
-    if (!sewn.is_other())
-        return recover_on(rig, body, dressed, target, options, progress);
-    RecoverResult result = recover_on(sewn.rig(), sewn.body(), sewn.gather(dressed), target, options,
-                                      progress.part(0, k_progress_of_sewn));
-    result.body = sewn.spread(result.body);
-    for (RecoverFrame& frame : result.frames)
-        frame.body = sewn.spread(frame.body);
-    if (result.certified || !result.too_tight.empty() || result.out_of_time)
-        return result;
-    RecoverResult torn = recover_on(rig, body, dressed, target, options, progress.part(k_progress_of_sewn, 1));
-    return torn.certified ? torn : result;  // as in drape_garment
+    return move_sewn(rig, body, dressed, progress,
+                     [&](const Rig& on, const BodyMesh& skin, const DressedBody& worn, const Progress& part) {
+                         return recover_on(on, skin, worn, target, options, part);
+                     });
 }
 
 }  // namespace garmentfit

@@ -20,7 +20,7 @@ bool is_torn(const Positions& body, const Weld& weld, const std::vector<int>& ve
 
 }  // namespace
 
-SewnBody::SewnBody(const Rig& rig, const BodyMesh& body, const DressedBody& dressed) : rig_(rig), body_(body)
+SewnBody::SewnBody(const Rig& rig, const BodyMesh& body, const DressedBody& dressed) : given_(body.surface.positions)
 {
     const GarmentMesh surface { body.surface.positions, body.surface.triangles };
     Weld weld(surface);
@@ -43,16 +43,14 @@ SewnBody::SewnBody(const Rig& rig, const BodyMesh& body, const DressedBody& dres
 
 DressedBody SewnBody::gather(DressedBody dressed) const
 {
-    if (sewn_ && dressed.body.rows() > 0)
+    if (dressed.body.rows() > 0)
         dressed.body = sewn_->weld.gather(dressed.body);
     return dressed;
 }
 
 Positions SewnBody::spread(const Positions& sewn) const
 {
-    if (!sewn_)
-        return sewn;
-    return sewn == sewn_->body.surface.positions ? body_.surface.positions : sewn_->weld.place(sewn);
+    return sewn == sewn_->body.surface.positions ? given_ : sewn_->weld.place(sewn);
 }
 
 }  // namespace garmentfit

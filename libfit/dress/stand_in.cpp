@@ -444,6 +444,8 @@ std::size_t count_self_crossings(const TriangleMesh& cloth)
 /// follows would cross at new places.
 std::optional<GarmentMesh> coarser(const GarmentMesh& garment)
 {
+    if (garment.positions.rows() < k_fine)
+        return {};
     const GarmentMesh sewn = Weld(garment).gather(garment);
     const TriangleMesh cloth { sewn.positions, sewn.triangles };
     if (cloth.positions.rows() < k_fine || count_self_crossings(cloth) > 0)

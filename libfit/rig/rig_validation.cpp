@@ -224,8 +224,9 @@ void check_shape(const TriangleMesh& closed, Humanlike humanlike)
 
 void check_figure(const TriangleMesh& closed, const Rig& rig)
 {
-    const double quotient = compactness(closed);
-    if (quotient > k_most_compact && rig.human_probability < k_least_like_compact)
+    if (rig.human_probability >= k_least_like_compact)
+        return;
+    if (const double quotient = compactness(closed); quotient > k_most_compact)
         refuse_compact(quotient);
 }
 
