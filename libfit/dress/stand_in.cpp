@@ -2,22 +2,19 @@
 #include "garmentfit/stand_in.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include <Eigen/SVD>
-
-#include "barycentric.h"
 #include "crowding.h"
-#include "disjoint_sets.h"
+#include "embedded_motion.h"
 #include "exact_crossings.h"
 #include "given_crossings.h"
 #include "nearest.h"
 #include "outward_cloth.h"
 #include "parallel.h"
 #include "remeshed_cloth.h"
+#include "side_by_side.h"
 #include "topology.h"
 #include "tuning.h"
 #include "untangle.h"
@@ -29,201 +26,115 @@ namespace {
 
 constexpr double k_inside = 0.5;  // derived: around a closed surface winding numbers are 0 or 1
 
-/// The rotation that takes the triangles round each vertex from rest to where they are, by least squares.
-std::vector<Eigen::Matrix3d> rotations(const GarmentMesh& rest, const Positions& worn)
-{
-    std::vector<Eigen::Matrix3d> moved(rest.positions.rows(), Eigen::Matrix3d::Zero());
-    for (const auto& corners : rest.triangles.rowwise())
-        for (int k = 0; k < 3; ++k) {
-            const int a = corners[k], b = corners[(k + 1) % 3], c = corners[(k + 2) % 3];
-            const auto side = [a](const Positions& x, int to) { return Vec3(x.row(to) - x.row(a)); };
-            const Vec3 p = side(rest.positions, b), q = side(rest.positions, c), r = side(worn, b), s = side(worn, c);
-            moved[a] += r * p.transpose() + s * q.transpose() + r.cross(s).stableNormalized() * p.cross(q).transpose();
-        }
-    parallel_for(moved.size(), [&](std::size_t v) {
-        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moved[v], Eigen::ComputeFullU | Eigen::ComputeFullV);
-        Eigen::Matrix3d left = svd.matrixU();
-        if ((left * svd.matrixV().transpose()).determinant() < 0)
-            left.col(2) *= -1;
-        moved[v] = left * svd.matrixV().transpose();
-    });
-    return moved;
-}
-
-/// Where the vertices of a garment are, seen from its stand-in.
-struct Places {
-    Positions feet;  ///< on the stand-in
-    Positions offsets;  ///< from there
-};
-
-/// The vertices of a mesh from some of them on, over its edges, up to a distance from a place. The same object serves
-/// many searches.
-class Neighbourhood {
-public:
-    explicit Neighbourhood(const Positions& positions, const MeshTopology& topology) :
-        positions_(positions), topology_(topology), seen_(positions.rows(), 0)
-    {
-    }
-
-    const std::vector<int>& around(const Vec3& place, const Eigen::RowVector3i& first, double reach)
-    {
-        for (const int v : found_)
-            seen_[v] = 0;
-        found_.clear();
-        const auto add = [&](int v) {
-            if (!seen_[v])
-                found_.push_back(v);
-            seen_[v] = 1;
-        };
-        for (const int v : first)
-            add(v);
-        for (std::size_t next = 0; next < found_.size(); ++next)
-            for (const int n : topology_.neighbours(found_[next]))
-                if ((positions_.row(n) - place.transpose()).norm() < reach)
-                    add(n);
-        return found_;
-    }
-
-private:
-    const Positions& positions_;
-    const MeshTopology& topology_;
-    std::vector<char> seen_;
-    std::vector<int> found_;
-};
-
-/// Whether an edge between two vertices grows far longer than cloth does.
-bool is_torn(const Positions& rest, const Positions& worn, int a, int b)
-{
-    return (worn.row(a) - worn.row(b)).norm() > k_torn * (rest.row(a) - rest.row(b)).norm() + k_torn_gap;
-}
-
-/// Where a stand-in is, and how it takes along what is near it.
-class Motion {
-public:
-    Motion(const GarmentMesh& stand_in, const Positions& worn) :
-        rest_(stand_in), worn_(worn), topology_(stand_in.triangles, int(stand_in.positions.rows())),
-        turns_(rotations(stand_in, worn)), sheet_({ stand_in.positions, stand_in.triangles }),
-        edge_(mean_edge_length(stand_in.positions, topology_.edges()))
-    {
-    }
-
-    Places apply(const Positions& garment, const MeshTopology& topology) const
-    {
-        std::vector<Binding> bindings(garment.rows());
-        parallel_for(garment.rows(), [&](Eigen::Index v) { bindings[v] = *sheet_.nearest_triangle(garment.row(v)); });
-        const double reach = reach_for(garment, bindings);
-        Places places = move(garment, bindings, reach);
-        if (bind_as_neighbours(garment, topology, places.feet + places.offsets, bindings))
-            places = move(garment, bindings, reach);
-        return places;
-    }
-
-private:
-    using Binding = TriangleTree::Nearest;  // where a vertex hangs on the stand-in
-
-    /// How far from the nearest point of the stand-in the motions are blended, m. A garment that is the stand-in's own
-    /// surface keeps the stand-in's folds; sheets that lie beside it, and each other, have to move alike.
-    double reach_for(const Positions& garment, const std::vector<Binding>& bindings) const
-    {
-        double off = 0;
-        for (Eigen::Index v = 0; v < garment.rows(); ++v)
-            off += (bindings[v].point - garment.row(v).transpose()).norm() / double(garment.rows());
-        return (off < k_same_surface * edge_ ? k_own_reach : k_following_reach) * edge_;
-    }
-
-    Places move(const Positions& garment, const std::vector<Binding>& bindings, double reach) const
-    {
-        constexpr Eigen::Index k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
-        Places places { Positions::Zero(garment.rows(), 3), Positions::Zero(garment.rows(), 3) };
-        parallel_for((garment.rows() + k_grain - 1) / k_grain, [&](Eigen::Index piece) {
-            Neighbourhood neighbourhood(rest_.positions, topology_);
-            for (Eigen::Index v = piece * k_grain; v < std::min((piece + 1) * k_grain, garment.rows()); ++v) {
-                const auto [foot, target] = move(garment.row(v), bindings[v], reach, neighbourhood);
-                places.feet.row(v) = foot;
-                places.offsets.row(v) = target - foot;
-            }
-        });
-        return places;
-    }
-
-    /// Where the nearest point of the stand-in goes, and the place itself. What lies side by side is moved alike,
-    /// whichever triangles are nearest to it: the motions of all vertices near by are blended.
-    std::pair<Vec3, Vec3> move(const Vec3& place, const Binding& binding, double reach,
-                               Neighbourhood& neighbourhood) const
-    {
-        constexpr double k_least = 1e-3;  // unit: a triangle larger than the reach has weights as well
-        const auto& [nearest, triangle] = binding;
-        const Eigen::RowVector3i corners = rest_.triangles.row(triangle);
-        const auto corner = [&](int k) { return Vec3(rest_.positions.row(corners[k])); };
-        const std::array<double, 3> shares = barycentric(nearest, corner(0), corner(1), corner(2));
-        Vec3 foot = Vec3::Zero(), sum = Vec3::Zero();
-        for (int k = 0; k < 3; ++k)
-            foot += shares[k] * worn_.row(corners[k]).transpose();
-        double weights = 0;
-        for (const int v : neighbourhood.around(nearest, corners, reach)) {
-            const Vec3 at_rest = rest_.positions.row(v);
-            const double weight
-                = std::pow(std::max(1 - (at_rest - nearest).squaredNorm() / (reach * reach), k_least), 3);
-            sum += weight * (worn_.row(v).transpose() + turns_[v] * (place - at_rest));
-            weights += weight;
-        }
-        return { foot, sum / weights };
-    }
-
-    /// Where a sleeve hangs beside the trunk, some of its vertices are nearest to the stand-in's trunk and are torn off:
-    /// islands between edges that grow far longer. They go with their neighbours. @return whether there are any
-    static bool bind_as_neighbours(const Positions& rest, const MeshTopology& topology, const Positions& moved,
-                                   std::vector<Binding>& bindings)
-    {
-        const int count = int(rest.rows());
-        DisjointSets pieces(count), whole(count);
-        for (const auto& edge : topology.edges().rowwise()) {
-            pieces.join(edge[0], edge[1]);
-            if (!is_torn(rest, moved, edge[0], edge[1]))
-                whole.join(edge[0], edge[1]);
-        }
-        std::vector<int> size(count, 0), largest(count, -1);  // by the root: of what is whole; and of each piece
-        for (int v = 0; v < count; ++v)
-            ++size[whole.root(v)];
-        for (int v = 0; v < count; ++v)
-            if (int& best = largest[pieces.root(v)]; best < 0 || size[whole.root(v)] > size[best])
-                best = whole.root(v);
-        std::vector<char> is_bound(count);
-        std::vector<int> bound;
-        for (int v = 0; v < count; ++v) {
-            is_bound[v] = size[whole.root(v)] > k_largest_island * size[largest[pieces.root(v)]];
-            if (is_bound[v])
-                bound.push_back(v);
-        }
-        const bool has_islands = int(bound.size()) < count;
-        for (std::size_t next = 0; next < bound.size(); ++next)
-            for (const int n : topology.neighbours(bound[next]))
-                if (!std::exchange(is_bound[n], 1)) {
-                    bindings[n] = bindings[bound[next]];
-                    bound.push_back(n);
-                }
-        return has_islands;
-    }
-
-    const GarmentMesh& rest_;
-    const Positions& worn_;
-    const MeshTopology topology_;
-    const std::vector<Eigen::Matrix3d> turns_;
-    const TriangleTree sheet_;
-    const double edge_;  // m, mean
-};
-
 /// The garment that follows. Only vertices at exactly the same place are one: parts that touch stay as they are.
 struct Parts {
-    Weld weld;
-    GarmentMesh rest;
-    MeshTopology topology;
+    const Weld weld;
+    const TriangleMesh rest;
+    const MeshTopology topology;
+    const std::vector<Crossing> crossings;  ///< with itself, as given
+    const GivenCrossings given;
+    const SideBySide beside;
 
     explicit Parts(const GarmentMesh& garment) :
-        weld(garment), rest(weld.gather(garment)), topology(rest.triangles, int(rest.positions.rows()))
+        weld(garment), rest(sewn(weld.gather(garment))), topology(rest.triangles, int(rest.positions.rows())),
+        crossings(self_crossings(rest.positions)), given(rest, topology.edges(), crossings),
+        beside(rest.positions, topology)
     {
     }
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+
+    std::vector<Crossing> self_crossings(const Positions& positions) const
+    {
+        return find_self_crossings({ positions, rest.triangles }, topology.edges(),
+                                   TriangleTree({ positions, rest.triangles }));
+    }
+    /// Those that it was not given with.
+    std::vector<Crossing> fresh_crossings(const Positions& positions) const
+    {
+        return given.compare(positions, self_crossings(positions)).fresh;
+    }
+
+private:
+    static TriangleMesh sewn(const GarmentMesh& garment) { return { garment.positions, garment.triangles }; }
 };
+
+/// Marks what meets in a crossing of the cloth with itself.
+void mark(const Parts& cloth, const Crossing& crossing, std::vector<char>& marks)
+{
+    for (const int v : cloth.topology.edges().row(crossing.first))
+        marks[v] = 1;
+    for (const int v : cloth.rest.triangles.row(crossing.second))
+        marks[v] = 1;
+}
+
+// ---- cloth side by side moves alike --------------------------------------------------------------------------------
+
+/// The affine motions of all vertices, a row each.
+Eigen::MatrixXd affine_motions(const Parts& cloth, const LedPlaces& places)
+{
+    Eigen::MatrixXd motions(places.positions.rows(), 12);
+    for (Eigen::Index v = 0; v < motions.rows(); ++v) {
+        const Eigen::Matrix3d& turn = places.turns[v];
+        motions.row(v).head<9>() = Eigen::Map<const Eigen::RowVector<double, 9>>(turn.data());
+        motions.row(v).tail<3>() = places.positions.row(v) - cloth.rest.positions.row(v) * turn.transpose();
+    }
+    return motions;
+}
+
+Positions moved_by(const Eigen::MatrixXd& motions, const Positions& rest)
+{
+    Positions positions(rest.rows(), 3);
+    for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+        const Eigen::RowVector<double, 9> turn = motions.row(v).head<9>();
+        positions.row(v)
+            = rest.row(v) * Eigen::Map<const Eigen::Matrix3d>(turn.data()).transpose() + motions.row(v).tail<3>();
+    }
+    return positions;
+}
+
+/// Marks where cloth meets itself and did not as given, and where it is torn. @return how many such places there are
+std::size_t mark_faults(const Parts& cloth, const Positions& positions, std::vector<char>& marks)
+{
+    const std::vector<Crossing> fresh = cloth.fresh_crossings(positions);
+    for (const Crossing& crossing : fresh)
+        mark(cloth, crossing, marks);
+    std::size_t faults = fresh.size();
+    for (const auto& edge : cloth.topology.edges().rowwise())
+        if (is_torn(cloth.rest.positions, positions, edge[0], edge[1])) {
+            marks[edge[0]] = marks[edge[1]] = 1;
+            ++faults;
+        }
+    return faults;
+}
+
+/// Evens the motions round all places where parts that lay side by side went different ways: their vertices hang on
+/// different sides of the stand-in, or are further from it than its folds are wide. A wider circle in each round.
+Positions moved_alike(const Parts& cloth, const LedPlaces& places)
+{
+    const Eigen::MatrixXd led = affine_motions(cloth, places);
+    const Eigen::VectorXd hold = Eigen::VectorXd::Constant(led.rows(), k_evening_hold);
+    Positions positions = places.positions, best = positions;
+    std::vector<char> evened(led.rows(), 0);
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (int round = 1, futile = 0;; ++round) {
+        std::vector<char> marks(led.rows(), 0);
+        const std::size_t faults = mark_faults(cloth, positions, marks);
+        futile = faults < fewest ? 0 : futile + 1;
+        if (faults < fewest) {
+            fewest = faults;
+            best = positions;
+        }
+        if (faults == 0 || round > k_evening_rounds || futile == k_futile_evenings)
+            return best;
+        cloth.beside.spread(marks, round * k_evening_links);
+        for (std::size_t v = 0; v < marks.size(); ++v)
+            evened[v] |= marks[v];
+        positions = moved_by(cloth.beside.evened(led, evened, hold), cloth.rest.positions);
+    }
+}
+
+// ---- clear of the body ---------------------------------------------------------------------------------------------
 
 /// The marked vertices and their neighbours.
 std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector<char>& is_marked)
@@ -259,16 +170,54 @@ void mark_meeting(const Parts& cloth, const Positions& positions, const Surround
 /// whose sides are nearer to each other than the parts are thick.
 void mark_folds(const Parts& cloth, const Positions& positions, std::vector<char>& marks)
 {
-    const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
     const Edges& edges = cloth.topology.edges();
-    const double apart = k_lying_apart * mean_edge_length(rest.positions, edges);
-    for (const Crossing& crossing : find_self_crossings(moved, edges, TriangleTree(moved)))
-        if (offset_at_rest(rest, edges, positions, crossing).norm() > apart) {
-            for (const int v : edges.row(crossing.first))
-                marks[v] = 1;
-            for (const int v : moved.triangles.row(crossing.second))
-                marks[v] = 1;
-        }
+    const double apart = k_lying_apart * mean_edge_length(cloth.rest.positions, edges);
+    for (const Crossing& crossing : cloth.self_crossings(positions))
+        if (offset_at_rest(cloth.rest, edges, positions, crossing).norm() > apart)
+            mark(cloth, crossing, marks);
+}
+
+/// How far, and where to, vertices that meet the body have to go: beyond the skin, in turns with half of the way to the
+/// stand-in, which lies clear of it also where the skin of one limb faces that of another.
+Positions ways_out(const LedPlaces& places, const Positions& positions, const std::vector<char>& marks,
+                   const TriangleMesh& body, int round)
+{
+    const TriangleTree skin(body);
+    const WindingNumber winding(body);
+    Positions ways = Positions::Zero(positions.rows(), 3);
+    parallel_for(positions.rows(), [&](Eigen::Index v) {
+        if (!marks[v])
+            return;
+        const Vec3 place = positions.row(v), from_skin = place - skin.nearest(place);
+        const double beyond = (round + 1) * k_pushing_step, depth = from_skin.norm();
+        if (round % 2 == 1)
+            ways.row(v) = (places.feet.row(v) - positions.row(v)) / 2;
+        else if (winding(place) > k_inside)
+            ways.row(v) = -(depth + k_pushing_step) * from_skin.stableNormalized();
+        else if (depth < beyond)
+            ways.row(v) = (beyond - depth) * from_skin.stableNormalized();
+    });
+    return ways;
+}
+
+/// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order.
+/// @return whether nothing meets anything any more
+bool push_clear(const Parts& cloth, const LedPlaces& places, const Surroundings& around, Positions& positions)
+{
+    for (int round = 0;; ++round) {
+        std::vector<char> marks(positions.rows(), 0);
+        mark_meeting(cloth, positions, around, marks);
+        if (std::count(marks.begin(), marks.end(), 1) == 0)
+            return true;
+        if (round == k_pushing_rounds)
+            return false;
+        const Positions ways = ways_out(places, positions, marks, around.body, round);
+        const Eigen::VectorXd hold
+            = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
+                  .cast<double>();
+        cloth.beside.spread(marks, k_pushing_links);
+        positions += cloth.beside.evened(ways, marks, hold);
+    }
 }
 
 /// Cloth on its way in towards its stand-in.
@@ -278,19 +227,20 @@ struct Drawn {
 };
 
 /// Draws the marked vertices and their neighbours in by a half. @return whether there are any
-bool draw_half(const Parts& cloth, const Places& places, const std::vector<char>& marks, Drawn& now)
+bool draw_half(const Parts& cloth, const LedPlaces& places, const std::vector<char>& marks, Drawn& now)
 {
     const std::vector<int> drawn = with_neighbours(cloth.topology, marks);
     for (const int v : drawn)
-        now.positions.row(v) = places.feet.row(v) + (now.share[v] /= 2) * places.offsets.row(v);
+        now.positions.row(v)
+            = places.feet.row(v) + (now.share[v] /= 2) * (places.positions.row(v) - places.feet.row(v));
     return !drawn.empty();
 }
 
 /// Draws what meets something in towards the stand-in. Sides of a fold as well, as far as that leaves fewer of them:
 /// where a stand-in lies in many folds, what is drawn into one meets more of the others.
-Positions draw_in(const Parts& cloth, const Places& places, const Surroundings& around)
+Positions draw_in(const Parts& cloth, const LedPlaces& places, const Surroundings& around)
 {
-    Drawn now { places.feet + places.offsets, Eigen::VectorXd::Ones(places.feet.rows()) }, best = now;
+    Drawn now { places.positions, Eigen::VectorXd::Ones(places.feet.rows()) }, best = now;
     std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
     for (int round = 0;; ++round) {
         std::vector<char> marks(now.share.size(), 0);
@@ -364,7 +314,7 @@ Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, c
 Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& fresh, const Positions& positions,
                                double step)
 {
-    const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles };
+    const TriangleMesh& rest = cloth.rest;
     const Edges& edges = cloth.topology.edges();
     Positions motion = Positions::Zero(positions.rows(), 3);
     Eigen::VectorXd count = Eigen::VectorXd::Zero(positions.rows());
@@ -392,17 +342,14 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
 
 /// Gives what meets and did not as given, where that is little, the gaps that it had at rest. Where a fold has no room
 /// for them, sheets are pushed to and fro: then it begins again where the fewest met, with half the step.
-Positions with_gaps_of_rest(const Parts& cloth, const GivenCrossings& given, Positions positions,
-                            const Surroundings& around)
+Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Surroundings& around)
 {
-    const Edges& edges = cloth.topology.edges();
-    double step = k_gap_step * mean_edge_length(cloth.rest.positions, edges);
+    double step = k_gap_step * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
     Positions best = positions;
     std::size_t fewest = k_few_crossings + 1;
     int futile = 0;
     for (int round = 0; round < k_gap_rounds; ++round) {
-        const TriangleMesh moved { positions, cloth.rest.triangles };
-        const auto fresh = given.compare(positions, find_self_crossings(moved, edges, TriangleTree(moved))).fresh;
+        const std::vector<Crossing> fresh = cloth.fresh_crossings(positions);
         if (fresh.size() < fewest) {
             fewest = fresh.size();
             best = positions;
@@ -425,14 +372,12 @@ Positions with_gaps_of_rest(const Parts& cloth, const GivenCrossings& given, Pos
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
 Positions untangled(const Parts& cloth, const Positions& positions, const Surroundings& around)
 {
-    const TriangleMesh rest { cloth.rest.positions, cloth.rest.triangles }, moved { positions, cloth.rest.triangles };
-    const Edges& edges = cloth.topology.edges();
-    const std::vector<Crossing> given = find_self_crossings(rest, edges, TriangleTree(rest));
-    Positions parted = given.size() <= k_few_crossings
-        ? untangle(moved, edges).positions
-        : parted_to(moved, edges, std::size_t(k_fewer_crossings * double(given.size())));
-    return with_gaps_of_rest(cloth, GivenCrossings(rest, edges, given),
-                             moved_clear(cloth, positions, std::move(parted), around), around);
+    const TriangleMesh moved { positions, cloth.rest.triangles };
+    const std::size_t given = cloth.crossings.size();
+    Positions parted = given <= k_few_crossings
+        ? untangle(moved, cloth.topology.edges()).positions
+        : parted_to(moved, cloth.topology.edges(), std::size_t(k_fewer_crossings * double(given)));
+    return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), around), around);
 }
 
 std::size_t count_self_crossings(const TriangleMesh& cloth)
@@ -469,8 +414,13 @@ Positions follow(const GarmentMesh& stand_in, const Positions& worn, const Garme
                  const Surroundings& around)
 {
     const Parts cloth(garment);
-    const Positions drawn = draw_in(cloth, Motion(stand_in, worn).apply(cloth.rest.positions, cloth.topology), around);
-    return cloth.weld.place(untangled(cloth, drawn, around));
+    LedPlaces places = lead_along(stand_in, worn, cloth.rest.positions, cloth.topology);
+    Positions positions = moved_alike(cloth, places);
+    const bool is_clear = push_clear(cloth, places, around, positions);
+    places.positions = positions;
+    if (!is_clear || cloth.fresh_crossings(positions).size() > k_few_crossings)
+        positions = draw_in(cloth, places, around);
+    return cloth.weld.place(untangled(cloth, positions, around));
 }
 
 }  // namespace garmentfit

@@ -87,6 +87,15 @@ struct NearestPoint::Tree {
         index.findNeighbors(best, query.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, 0));
         return best.found();
     }
+    std::vector<int> within(const Vec3& query, double distance, int most) const
+    {
+        flann::KNNRadiusResultSet<double> found(distance * distance, std::size_t(most));
+        index.findNeighbors(found, query.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, 0));
+        std::vector<std::size_t> indices(found.size());
+        std::vector<double> squared(found.size());
+        found.copy(indices.data(), squared.data(), found.size());
+        return { indices.begin(), indices.end() };
+    }
     Positions points;
     flann::KDTreeSingleIndex<flann::L2_3D<double>> index;
 };
@@ -94,6 +103,10 @@ struct NearestPoint::Tree {
 NearestPoint::NearestPoint(const Positions& points) : tree_(std::make_shared<const Tree>(points)) { }
 double NearestPoint::distance(const Vec3& query) const { return tree_->nearest(query).second; }
 int NearestPoint::index(const Vec3& query, double known) const { return tree_->nearest(query, known).first; }
+std::vector<int> NearestPoint::within(const Vec3& query, double distance, int most) const
+{
+    return tree_->within(query, distance, most);
+}
 
 int PointScan::index(const Vec3& query) const
 {

@@ -22,6 +22,8 @@ public:
     double distance(const Vec3& query) const;
     /// @param known  m; one of the points is known to be this near, which shortens the search
     int index(const Vec3& query, double known = INFINITY) const;
+    /// Of the points within a distance, m, the nearest, `most` at most; a point at the query is one of them.
+    std::vector<int> within(const Vec3& query, double distance, int most) const;
 
 private:
     struct Tree;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "embedded_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/SVD>
+
+#include "barycentric.h"
+#include "disjoint_sets.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+/// The rotation that takes the triangles round each vertex from rest to where they are, by least squares.
+std::vector<Eigen::Matrix3d> rotations(const GarmentMesh& rest, const Positions& worn)
+{
+    std::vector<Eigen::Matrix3d> moved(rest.positions.rows(), Eigen::Matrix3d::Zero());
+    for (const auto& corners : rest.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) {
+            const int a = corners[k], b = corners[(k + 1) % 3], c = corners[(k + 2) % 3];
+            const auto side = [a](const Positions& x, int to) { return Vec3(x.row(to) - x.row(a)); };
+            const Vec3 p = side(rest.positions, b), q = side(rest.positions, c), r = side(worn, b), s = side(worn, c);
+            moved[a] += r * p.transpose() + s * q.transpose() + r.cross(s).stableNormalized() * p.cross(q).transpose();
+        }
+    parallel_for(moved.size(), [&](std::size_t v) {
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moved[v], Eigen::ComputeFullU | Eigen::ComputeFullV);
+        Eigen::Matrix3d left = svd.matrixU();
+        if ((left * svd.matrixV().transpose()).determinant() < 0)
+            left.col(2) *= -1;
+        moved[v] = left * svd.matrixV().transpose();
+    });
+    return moved;
+}
+
+/// The vertices of a mesh from some of them on, over its edges, up to a distance from a place. The same object serves
+/// many searches.
+class Neighbourhood {
+public:
+    explicit Neighbourhood(const Positions& positions, const MeshTopology& topology) :
+        positions_(positions), topology_(topology), seen_(positions.rows(), 0)
+    {
+    }
+
+    const std::vector<int>& around(const Vec3& place, const Eigen::RowVector3i& first, double reach)
+    {
+        for (const int v : found_)
+            seen_[v] = 0;
+        found_.clear();
+        const auto add = [&](int v) {
+            if (!seen_[v])
+                found_.push_back(v);
+            seen_[v] = 1;
+        };
+        for (const int v : first)
+            add(v);
+        for (std::size_t next = 0; next < found_.size(); ++next)
+            for (const int n : topology_.neighbours(found_[next]))
+                if ((positions_.row(n) - place.transpose()).norm() < reach)
+                    add(n);
+        return found_;
+    }
+
+private:
+    const Positions& positions_;
+    const MeshTopology& topology_;
+    std::vector<char> seen_;
+    std::vector<int> found_;
+};
+
+/// Where a stand-in is, and how it takes along what is near it.
+class Motion {
+public:
+    Motion(const GarmentMesh& stand_in, const Positions& worn) :
+        rest_(stand_in), worn_(worn), topology_(stand_in.triangles, int(stand_in.positions.rows())),
+        turns_(rotations(stand_in, worn)), sheet_({ stand_in.positions, stand_in.triangles }),
+        edge_(mean_edge_length(stand_in.positions, topology_.edges()))
+    {
+    }
+
+    LedPlaces apply(const Positions& garment, const MeshTopology& topology) const
+    {
+        std::vector<Binding> bindings(garment.rows());
+        parallel_for(garment.rows(), [&](Eigen::Index v) { bindings[v] = *sheet_.nearest_triangle(garment.row(v)); });
+        const double reach = reach_for(garment, bindings);
+        LedPlaces places = move(garment, bindings, reach);
+        if (bind_as_neighbours(garment, topology, places.positions, bindings))
+            places = move(garment, bindings, reach);
+        return places;
+    }
+
+private:
+    using Binding = TriangleTree::Nearest;  // where a vertex hangs on the stand-in
+
+    /// How far from the nearest point of the stand-in the motions are blended, m. A garment that is the stand-in's own
+    /// surface keeps the stand-in's folds; sheets that lie beside it, and each other, have to move alike.
+    double reach_for(const Positions& garment, const std::vector<Binding>& bindings) const
+    {
+        double off = 0;
+        for (Eigen::Index v = 0; v < garment.rows(); ++v)
+            off += (bindings[v].point - garment.row(v).transpose()).norm() / double(garment.rows());
+        return (off < k_same_surface * edge_ ? k_own_reach : k_following_reach) * edge_;
+    }
+
+    LedPlaces move(const Positions& garment, const std::vector<Binding>& bindings, double reach) const
+    {
+        constexpr Eigen::Index k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
+        LedPlaces places { Positions(garment.rows(), 3), Positions(garment.rows(), 3),
+                           std::vector<Eigen::Matrix3d>(garment.rows()) };
+        parallel_for((garment.rows() + k_grain - 1) / k_grain, [&](Eigen::Index piece) {
+            Neighbourhood neighbourhood(rest_.positions, topology_);
+            for (Eigen::Index v = piece * k_grain; v < std::min((piece + 1) * k_grain, garment.rows()); ++v) {
+                const Led led = move(garment.row(v), bindings[v], reach, neighbourhood);
+                places.feet.row(v) = led.foot;
+                places.positions.row(v) = led.position;
+                places.turns[v] = led.turn;
+            }
+        });
+        return places;
+    }
+
+    struct Led {
+        Vec3 foot, position;
+        Eigen::Matrix3d turn;
+    };
+
+    /// Where the nearest point of the stand-in goes, and the place itself. What lies side by side is moved alike,
+    /// whichever triangles are nearest to it: the motions of all vertices near by are blended.
+    Led move(const Vec3& place, const Binding& binding, double reach, Neighbourhood& neighbourhood) const
+    {
+        constexpr double k_least = 1e-3;  // unit: a triangle larger than the reach has weights as well
+        const auto& [nearest, triangle] = binding;
+        const Eigen::RowVector3i corners = rest_.triangles.row(triangle);
+        const auto corner = [&](int k) { return Vec3(rest_.positions.row(corners[k])); };
+        const std::array<double, 3> shares = barycentric(nearest, corner(0), corner(1), corner(2));
+        Vec3 foot = Vec3::Zero(), sum = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            foot += shares[k] * worn_.row(corners[k]).transpose();
+        Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+        double weights = 0;
+        for (const int v : neighbourhood.around(nearest, corners, reach)) {
+            const Vec3 at_rest = rest_.positions.row(v);
+            const double weight
+                = std::pow(std::max(1 - (at_rest - nearest).squaredNorm() / (reach * reach), k_least), 3);
+            sum += weight * (worn_.row(v).transpose() + turns_[v] * (place - at_rest));
+            turn += weight * turns_[v];
+            weights += weight;
+        }
+        return { foot, sum / weights, turn / weights };
+    }
+
+    /// Where a sleeve hangs beside the trunk, some of its vertices are nearest to the stand-in's trunk and are torn off:
+    /// islands between edges that grow far longer. They go with their neighbours. @return whether there are any
+    static bool bind_as_neighbours(const Positions& rest, const MeshTopology& topology, const Positions& moved,
+                                   std::vector<Binding>& bindings)
+    {
+        const int count = int(rest.rows());
+        DisjointSets pieces(count), whole(count);
+        for (const auto& edge : topology.edges().rowwise()) {
+            pieces.join(edge[0], edge[1]);
+            if (!is_torn(rest, moved, edge[0], edge[1]))
+                whole.join(edge[0], edge[1]);
+        }
+        std::vector<int> size(count, 0), largest(count, -1);  // by the root: of what is whole; and of each piece
+        for (int v = 0; v < count; ++v)
+            ++size[whole.root(v)];
+        for (int v = 0; v < count; ++v)
+            if (int& best = largest[pieces.root(v)]; best < 0 || size[whole.root(v)] > size[best])
+                best = whole.root(v);
+        std::vector<char> is_bound(count);
+        std::vector<int> bound;
+        for (int v = 0; v < count; ++v) {
+            is_bound[v] = size[whole.root(v)] > k_largest_island * size[largest[pieces.root(v)]];
+            if (is_bound[v])
+                bound.push_back(v);
+        }
+        const bool has_islands = int(bound.size()) < count;
+        for (std::size_t next = 0; next < bound.size(); ++next)
+            for (const int n : topology.neighbours(bound[next]))
+                if (!std::exchange(is_bound[n], 1)) {
+                    bindings[n] = bindings[bound[next]];
+                    bound.push_back(n);
+                }
+        return has_islands;
+    }
+
+    const GarmentMesh& rest_;
+    const Positions& worn_;
+    const MeshTopology topology_;
+    const std::vector<Eigen::Matrix3d> turns_;
+    const TriangleTree sheet_;
+    const double edge_;  // m, mean
+};
+
+}  // namespace
+
+/// Whether an edge between two vertices grows far longer than cloth does.
+bool is_torn(const Positions& rest, const Positions& worn, int a, int b)
+{
+    return (worn.row(a) - worn.row(b)).norm() > k_torn * (rest.row(a) - rest.row(b)).norm() + k_torn_gap;
+}
+
+LedPlaces lead_along(const GarmentMesh& stand_in, const Positions& worn, const Positions& garment,
+                     const MeshTopology& topology)
+{
+    return Motion(stand_in, worn).apply(garment, topology);
+}
+
+}  // namespace garmentfit
