@@ -166,17 +166,6 @@ void mark_meeting(const Parts& cloth, const Positions& positions, const Surround
     }
 }
 
-/// Marks vertices of parts of the cloth that meet each other though they lay apart at rest: in folds of the stand-in,
-/// whose sides are nearer to each other than the parts are thick.
-void mark_folds(const Parts& cloth, const Positions& positions, std::vector<char>& marks)
-{
-    const Edges& edges = cloth.topology.edges();
-    const double apart = k_lying_apart * mean_edge_length(cloth.rest.positions, edges);
-    for (const Crossing& crossing : cloth.self_crossings(positions))
-        if (offset_at_rest(cloth.rest, edges, positions, crossing).norm() > apart)
-            mark(cloth, crossing, marks);
-}
-
 /// How far, and where to, vertices that meet the body have to go: beyond the skin, in turns with half of the way to the
 /// stand-in, which lies clear of it also where the skin of one limb faces that of another.
 Positions ways_out(const LedPlaces& places, const Positions& positions, const std::vector<char>& marks,
@@ -200,17 +189,23 @@ Positions ways_out(const LedPlaces& places, const Positions& positions, const st
     return ways;
 }
 
-/// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order.
-/// @return whether nothing meets anything any more
-bool push_clear(const Parts& cloth, const LedPlaces& places, const Surroundings& around, Positions& positions)
+/// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order. Where
+/// something goes on to meet, it is where the least does.
+Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Surroundings& around)
 {
-    for (int round = 0;; ++round) {
+    Positions best = positions;
+    std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
+    for (int round = 0, futile = 0;; ++round) {
         std::vector<char> marks(positions.rows(), 0);
         mark_meeting(cloth, positions, around, marks);
-        if (std::count(marks.begin(), marks.end(), 1) == 0)
-            return true;
-        if (round == k_pushing_rounds)
-            return false;
+        const std::ptrdiff_t meeting = std::count(marks.begin(), marks.end(), 1);
+        futile = meeting < fewest ? 0 : futile + 1;
+        if (meeting < fewest) {
+            fewest = meeting;
+            best = positions;
+        }
+        if (meeting == 0 || round == k_pushing_rounds || futile == k_futile_pushes)
+            return best;
         const Positions ways = ways_out(places, positions, marks, around.body, round);
         const Eigen::VectorXd hold
             = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
@@ -218,50 +213,6 @@ bool push_clear(const Parts& cloth, const LedPlaces& places, const Surroundings&
         cloth.beside.spread(marks, k_pushing_links);
         positions += cloth.beside.evened(ways, marks, hold);
     }
-}
-
-/// Cloth on its way in towards its stand-in.
-struct Drawn {
-    Positions positions;
-    Eigen::VectorXd share;  ///< of the way out from the stand-in, by vertex
-};
-
-/// Draws the marked vertices and their neighbours in by a half. @return whether there are any
-bool draw_half(const Parts& cloth, const LedPlaces& places, const std::vector<char>& marks, Drawn& now)
-{
-    const std::vector<int> drawn = with_neighbours(cloth.topology, marks);
-    for (const int v : drawn)
-        now.positions.row(v)
-            = places.feet.row(v) + (now.share[v] /= 2) * (places.positions.row(v) - places.feet.row(v));
-    return !drawn.empty();
-}
-
-/// Draws what meets something in towards the stand-in. Sides of a fold as well, as far as that leaves fewer of them:
-/// where a stand-in lies in many folds, what is drawn into one meets more of the others.
-Positions draw_in(const Parts& cloth, const LedPlaces& places, const Surroundings& around)
-{
-    Drawn now { places.positions, Eigen::VectorXd::Ones(places.feet.rows()) }, best = now;
-    std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
-    for (int round = 0;; ++round) {
-        std::vector<char> marks(now.share.size(), 0);
-        mark_folds(cloth, now.positions, marks);
-        if (const auto in_folds = std::count(marks.begin(), marks.end(), 1); in_folds <= fewest) {
-            fewest = in_folds;
-            best = now;
-        }
-        if (round == k_drawing_rounds)
-            break;
-        mark_meeting(cloth, now.positions, around, marks);
-        if (!draw_half(cloth, places, marks, now))
-            return now.positions;
-    }
-    for (int round = 0; round < k_drawing_rounds; ++round) {
-        std::vector<char> marks(best.share.size(), 0);
-        mark_meeting(cloth, best.positions, around, marks);
-        if (!draw_half(cloth, places, marks, best))
-            break;
-    }
-    return best.positions;
 }
 
 /// Parts the cloth as far as needed for no more than `enough` crossings, in eighths, quarters and halves of the way to
@@ -298,7 +249,7 @@ Eigen::Matrix3d rotation_of(const Eigen::RowVector3i& corners, const Positions& 
 /// vertices stay.
 Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, const Surroundings& around)
 {
-    for (int round = 0; round < k_drawing_rounds; ++round) {
+    for (int round = 0; round < k_clearing_rounds; ++round) {
         std::vector<char> marks(from.rows(), 0);
         mark_meeting(cloth, to, around, marks);
         const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
@@ -414,13 +365,9 @@ Positions follow(const GarmentMesh& stand_in, const Positions& worn, const Garme
                  const Surroundings& around)
 {
     const Parts cloth(garment);
-    LedPlaces places = lead_along(stand_in, worn, cloth.rest.positions, cloth.topology);
-    Positions positions = moved_alike(cloth, places);
-    const bool is_clear = push_clear(cloth, places, around, positions);
-    places.positions = positions;
-    if (!is_clear || cloth.fresh_crossings(positions).size() > k_few_crossings)
-        positions = draw_in(cloth, places, around);
-    return cloth.weld.place(untangled(cloth, positions, around));
+    const LedPlaces places = lead_along(stand_in, worn, cloth.rest.positions, cloth.topology);
+    const Positions clear = pushed_clear(cloth, places, moved_alike(cloth, places), around);
+    return cloth.weld.place(untangled(cloth, clear, around));
 }
 
 }  // namespace garmentfit

@@ -174,20 +174,16 @@ inline constexpr int k_most_links = 8;
 /// places in the first round, and more in each; and how firmly they are held. fitted: guesses, on the same clothes
 inline constexpr int k_evening_rounds = 6, k_futile_evenings = 3, k_evening_links = 3;
 inline constexpr double k_evening_hold = 1e-3;
-/// How often what meets the body is pushed out of it, at most; how far round these places cloth goes along, in links; and
+/// How often what meets the body is pushed out of it, at most, and in vain; how far round these places cloth goes along, in links; and
 /// how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
-inline constexpr int k_pushing_rounds = 16, k_pushing_links = 8;
+inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8, k_pushing_links = 8;
 inline constexpr double k_pushing_step = 1e-3;
-/// In mean edges of the garment: parts that lie further apart at rest and meet all the same do so in a fold.
-/// fitted: guess
-inline constexpr double k_lying_apart = 1;
 /// Crossings that such a garment is given with, up to which all are untangled; of more, a few fewer than given are left.
 /// fitted: guess, between 20 of a polo shirt, which come apart, and 14,000 of doubled sheets, which do not
 inline constexpr std::size_t k_few_crossings = 1000;
 inline constexpr double k_fewer_crossings = 0.99, k_least_parting = 1. / 16;
-/// How often cloth that follows its stand-in is drawn in, where it meets something: up to 1/64 of its distance; and how
-/// often it is put back, where it was untangled. fitted: guess
-inline constexpr int k_drawing_rounds = 6;
+/// How often cloth that was untangled is put back where it meets something. fitted: guess
+inline constexpr int k_clearing_rounds = 6;
 /// Step in which what meets and did not as given is moved apart, in mean edges of the garment; how many of them at most,
 /// and how many in vain halve it. fitted: on five clothes of web shops (docs/decisions/0033)
 inline constexpr double k_gap_step = 0.1;

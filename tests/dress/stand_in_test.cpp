@@ -253,14 +253,15 @@ TEST(StandIn, DoesNotCrossItselfInFoldsThatHaveNoRoom)
     const Positions followed = follow({ flat.positions, flat.triangles }, pleated, garment, { k_far_body });
     EXPECT_EQ(certify(k_far_body, garment, followed).self_crossings, 0) << "3,584 where only what meets is drawn in";
     double longest = 0;
-    for (const auto& edge : edges_of(garment.triangles).rowwise()) {
+    const Edges edges = edges_of(garment.triangles);
+    for (const auto& edge : edges.rowwise()) {
         const auto length = [&](const Positions& x) { return (x.row(edge[0]) - x.row(edge[1])).norm(); };
         longest = std::max(longest, length(followed) / length(garment.positions));
     }
     EXPECT_LT(longest, 1.5) << "2.2 there";
 }
 
-TEST(StandIn, DrawsInWhatWouldMeetTheBody)
+TEST(StandIn, PushesOutWhatWouldMeetTheBody)
 {
     // the stand-in is wide enough for the ball, a sheet inside of it is not
     const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 60), inner = strip(0.18, 0.6, 0, 6, 60);
@@ -274,7 +275,7 @@ TEST(StandIn, DrawsInWhatWouldMeetTheBody)
 
 TEST(StandIn, GivesSheetsTheirGapsAgainBesideTheBody)
 {
-    // the sheet inside is drawn in through the two around it, which cross as given
+    // the sheet inside is pushed out through the two around it, which cross as given
     const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 60), inside = strip(0.193, 0.6, 0, 6, 60);
     const TriangleMesh doubled = doubled_sheets(0.197);
     const TriangleMesh all = joined(doubled, inside);

@@ -8,8 +8,8 @@
 //          with the blended motions of the stand-in's vertices near it (embedded deformation
 //          [sumner_2007_embedded_deformation]). Where parts that lay side by side then meet or are torn apart, the
 //          motions round them are evened: harmonic over the edges of the garment and over links between its sheets.
-//          What meets the body is pushed away from it, and what lies beside it goes along. Where that is not enough, it
-//          is drawn in towards the stand-in, which meets nothing, and parts that meet each other are parted.
+//          What meets the body is pushed away from it, and what lies beside it goes along; parts that meet each other
+//          are parted.
 // Units    metres.
 
 #include <optional>
