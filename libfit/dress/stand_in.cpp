@@ -136,52 +136,63 @@ Positions moved_alike(const Parts& cloth, const LedPlaces& places)
 
 // ---- clear of the body ---------------------------------------------------------------------------------------------
 
-/// The marked vertices and their neighbours.
-std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector<char>& is_marked)
-{
-    std::vector<int> result;
-    for (int v = 0; v < int(is_marked.size()); ++v) {
-        const auto& neighbours = topology.neighbours(v);
-        if (is_marked[v] || std::any_of(neighbours.begin(), neighbours.end(), [&](int n) { return is_marked[n]; }))
-            result.push_back(v);
+/// What a garment has to keep clear of, ready to be asked again and again.
+class Obstacles {
+public:
+    explicit Obstacles(const Surroundings& around) : winding_(around.body), skin_(around.body)
+    {
+        for (const TriangleMesh& other : around.clothes)
+            obstacles_.push_back({ other, edges_of(other.triangles), TriangleTree(other) });
+        obstacles_.push_back({ around.body, edges_of(around.body.triangles), skin_ });
     }
-    return result;
-}
 
-/// Marks vertices of the cloth that lie in the body, or whose edges or triangles meet something.
-void mark_meeting(const Parts& cloth, const Positions& positions, const Surroundings& around, std::vector<char>& marks)
-{
-    const TriangleMesh moved { positions, cloth.rest.triangles };
-    const WindingNumber winding(around.body);
-    parallel_for(positions.rows(), [&](Eigen::Index v) { marks[v] |= winding(positions.row(v)) > k_inside; });
-    std::vector<TriangleMesh> others = around.clothes;
-    others.push_back(around.body);
-    for (const TriangleMesh& other : others) {
-        for (const auto& [edge, triangle] : find_crossings(moved, cloth.topology.edges(), TriangleTree(other)))
-            for (const int v : cloth.topology.edges().row(edge))
-                marks[v] = 1;
-        for (const auto& [edge, triangle] : find_crossings(other, edges_of(other.triangles), TriangleTree(moved)))
-            for (const int v : moved.triangles.row(triangle))
-                marks[v] = 1;
+    bool is_in_body(const Vec3& place) const { return winding_(place) > k_inside; }
+    Vec3 nearest_skin(const Vec3& place) const { return skin_.nearest(place); }
+
+    /// Marks vertices of the cloth that lie in the body, or whose edges or triangles meet something.
+    /// @return how many there are
+    std::ptrdiff_t mark_meeting(const Parts& cloth, const Positions& positions, std::vector<char>& marks) const
+    {
+        const TriangleMesh moved { positions, cloth.rest.triangles };
+        const TriangleTree tree(moved);
+        parallel_for(positions.rows(), [&](Eigen::Index v) { marks[v] = is_in_body(positions.row(v)); });
+        for (const Obstacle& other : obstacles_) {
+            for (const auto& [edge, triangle] : find_crossings(moved, cloth.topology.edges(), other.tree))
+                for (const int v : cloth.topology.edges().row(edge))
+                    marks[v] = 1;
+            for (const auto& [edge, triangle] : find_crossings(other.mesh, other.edges, tree))
+                for (const int v : moved.triangles.row(triangle))
+                    marks[v] = 1;
+        }
+        return std::count(marks.begin(), marks.end(), 1);
     }
-}
+
+private:
+    struct Obstacle {
+        const TriangleMesh& mesh;
+        Edges edges;
+        TriangleTree tree;
+    };
+
+    WindingNumber winding_;
+    TriangleTree skin_;
+    std::vector<Obstacle> obstacles_;
+};
 
 /// How far, and where to, vertices that meet the body have to go: beyond the skin, in turns with half of the way to the
 /// stand-in, which lies clear of it also where the skin of one limb faces that of another.
 Positions ways_out(const LedPlaces& places, const Positions& positions, const std::vector<char>& marks,
-                   const TriangleMesh& body, int round)
+                   const Obstacles& obstacles, int round)
 {
-    const TriangleTree skin(body);
-    const WindingNumber winding(body);
     Positions ways = Positions::Zero(positions.rows(), 3);
     parallel_for(positions.rows(), [&](Eigen::Index v) {
         if (!marks[v])
             return;
-        const Vec3 place = positions.row(v), from_skin = place - skin.nearest(place);
+        const Vec3 place = positions.row(v), from_skin = place - obstacles.nearest_skin(place);
         const double beyond = (round + 1) * k_pushing_step, depth = from_skin.norm();
         if (round % 2 == 1)
             ways.row(v) = (places.feet.row(v) - positions.row(v)) / 2;
-        else if (winding(place) > k_inside)
+        else if (obstacles.is_in_body(place))
             ways.row(v) = -(depth + k_pushing_step) * from_skin.stableNormalized();
         else if (depth < beyond)
             ways.row(v) = (beyond - depth) * from_skin.stableNormalized();
@@ -191,14 +202,13 @@ Positions ways_out(const LedPlaces& places, const Positions& positions, const st
 
 /// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order. Where
 /// something goes on to meet, it is where the least does.
-Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Surroundings& around)
+Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Obstacles& obstacles)
 {
     Positions best = positions;
     std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
+    std::vector<char> marks(positions.rows());
     for (int round = 0, futile = 0;; ++round) {
-        std::vector<char> marks(positions.rows(), 0);
-        mark_meeting(cloth, positions, around, marks);
-        const std::ptrdiff_t meeting = std::count(marks.begin(), marks.end(), 1);
+        const std::ptrdiff_t meeting = obstacles.mark_meeting(cloth, positions, marks);
         futile = meeting < fewest ? 0 : futile + 1;
         if (meeting < fewest) {
             fewest = meeting;
@@ -206,7 +216,7 @@ Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions po
         }
         if (meeting == 0 || round == k_pushing_rounds || futile == k_futile_pushes)
             return best;
-        const Positions ways = ways_out(places, positions, marks, around.body, round);
+        const Positions ways = ways_out(places, positions, marks, obstacles, round);
         const Eigen::VectorXd hold
             = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
                   .cast<double>();
@@ -214,6 +224,8 @@ Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions po
         positions += cloth.beside.evened(ways, marks, hold);
     }
 }
+
+// ---- parts that meet each other ------------------------------------------------------------------------------------
 
 /// Parts the cloth as far as needed for no more than `enough` crossings, in eighths, quarters and halves of the way to
 /// where that many are left.
@@ -245,16 +257,27 @@ Eigen::Matrix3d rotation_of(const Eigen::RowVector3i& corners, const Positions& 
     return frame(positions) * frame(rest).transpose();
 }
 
+/// The marked vertices and their neighbours.
+std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector<char>& is_marked)
+{
+    std::vector<int> result;
+    for (int v = 0; v < int(is_marked.size()); ++v) {
+        const auto& neighbours = topology.neighbours(v);
+        if (is_marked[v] || std::any_of(neighbours.begin(), neighbours.end(), [&](int n) { return is_marked[n]; }))
+            result.push_back(v);
+    }
+    return result;
+}
+
 /// From one place of the cloth that meets nothing towards another, as far as it meets nothing there: where it would,
 /// vertices stay.
-Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, const Surroundings& around)
+Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, const Obstacles& obstacles)
 {
+    std::vector<char> marks(from.rows());
     for (int round = 0; round < k_clearing_rounds; ++round) {
-        std::vector<char> marks(from.rows(), 0);
-        mark_meeting(cloth, to, around, marks);
-        const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
-        if (meeting.empty())
+        if (obstacles.mark_meeting(cloth, to, marks) == 0)
             return to;
+        const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
         to(meeting, Eigen::all) = from(meeting, Eigen::all);
     }
     return from;
@@ -293,7 +316,7 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
 
 /// Gives what meets and did not as given, where that is little, the gaps that it had at rest. Where a fold has no room
 /// for them, sheets are pushed to and fro: then it begins again where the fewest met, with half the step.
-Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Surroundings& around)
+Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles& obstacles)
 {
     double step = k_gap_step * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
     Positions best = positions;
@@ -314,21 +337,21 @@ Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Surro
         if (fresh.empty() || fresh.size() > k_few_crossings)
             break;
         const Positions motion = towards_gaps_of_rest(cloth, fresh, positions, step);
-        positions = moved_clear(cloth, positions, positions + motion, around);
+        positions = moved_clear(cloth, positions, positions + motion, obstacles);
     }
     return best;
 }
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
-Positions untangled(const Parts& cloth, const Positions& positions, const Surroundings& around)
+Positions untangled(const Parts& cloth, const Positions& positions, const Obstacles& obstacles)
 {
     const TriangleMesh moved { positions, cloth.rest.triangles };
     const std::size_t given = cloth.crossings.size();
     Positions parted = given <= k_few_crossings
         ? untangle(moved, cloth.topology.edges()).positions
         : parted_to(moved, cloth.topology.edges(), std::size_t(k_fewer_crossings * double(given)));
-    return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), around), around);
+    return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), obstacles), obstacles);
 }
 
 std::size_t count_self_crossings(const TriangleMesh& cloth)
@@ -366,8 +389,9 @@ Positions follow(const GarmentMesh& stand_in, const Positions& worn, const Garme
 {
     const Parts cloth(garment);
     const LedPlaces places = lead_along(stand_in, worn, cloth.rest.positions, cloth.topology);
-    const Positions clear = pushed_clear(cloth, places, moved_alike(cloth, places), around);
-    return cloth.weld.place(untangled(cloth, clear, around));
+    const Obstacles obstacles(around);
+    const Positions clear = pushed_clear(cloth, places, moved_alike(cloth, places), obstacles);
+    return cloth.weld.place(untangled(cloth, clear, obstacles));
 }
 
 }  // namespace garmentfit
