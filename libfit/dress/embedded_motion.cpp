@@ -199,7 +199,6 @@ private:
 
 }  // namespace
 
-/// Whether an edge between two vertices grows far longer than cloth does.
 bool is_torn(const Positions& rest, const Positions& worn, int a, int b)
 {
     return (worn.row(a) - worn.row(b)).norm() > k_torn * (rest.row(a) - rest.row(b)).norm() + k_torn_gap;

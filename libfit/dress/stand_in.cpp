@@ -59,14 +59,23 @@ private:
     static TriangleMesh sewn(const GarmentMesh& garment) { return { garment.positions, garment.triangles }; }
 };
 
-/// Marks what meets in a crossing of the cloth with itself.
-void mark(const Parts& cloth, const Crossing& crossing, std::vector<char>& marks)
-{
-    for (const int v : cloth.topology.edges().row(crossing.first))
-        marks[v] = 1;
-    for (const int v : cloth.rest.triangles.row(crossing.second))
-        marks[v] = 1;
-}
+/// Where the least was wrong so far.
+struct Best {
+    Positions positions;
+    std::size_t faults = std::numeric_limits<std::size_t>::max();
+    int futile = 0;  ///< states since then
+
+    void offer(const Positions& now, std::size_t wrong)
+    {
+        if (wrong >= faults) {
+            ++futile;
+            return;
+        }
+        positions = now;
+        faults = wrong;
+        futile = 0;
+    }
+};
 
 // ---- cloth side by side moves alike --------------------------------------------------------------------------------
 
@@ -97,8 +106,12 @@ Positions moved_by(const Eigen::MatrixXd& motions, const Positions& rest)
 std::size_t mark_faults(const Parts& cloth, const Positions& positions, std::vector<char>& marks)
 {
     const std::vector<Crossing> fresh = cloth.fresh_crossings(positions);
-    for (const Crossing& crossing : fresh)
-        mark(cloth, crossing, marks);
+    for (const Crossing& crossing : fresh) {
+        for (const int v : cloth.topology.edges().row(crossing.first))
+            marks[v] = 1;
+        for (const int v : cloth.rest.triangles.row(crossing.second))
+            marks[v] = 1;
+    }
     std::size_t faults = fresh.size();
     for (const auto& edge : cloth.topology.edges().rowwise())
         if (is_torn(cloth.rest.positions, positions, edge[0], edge[1])) {
@@ -114,19 +127,14 @@ Positions moved_alike(const Parts& cloth, const LedPlaces& places)
 {
     const Eigen::MatrixXd led = affine_motions(cloth, places);
     const Eigen::VectorXd hold = Eigen::VectorXd::Constant(led.rows(), k_evening_hold);
-    Positions positions = places.positions, best = positions;
+    Positions positions = places.positions;
+    Best best { positions };
     std::vector<char> evened(led.rows(), 0);
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    for (int round = 1, futile = 0;; ++round) {
+    for (int round = 1;; ++round) {
         std::vector<char> marks(led.rows(), 0);
-        const std::size_t faults = mark_faults(cloth, positions, marks);
-        futile = faults < fewest ? 0 : futile + 1;
-        if (faults < fewest) {
-            fewest = faults;
-            best = positions;
-        }
-        if (faults == 0 || round > k_evening_rounds || futile == k_futile_evenings)
-            return best;
+        best.offer(positions, mark_faults(cloth, positions, marks));
+        if (best.faults == 0 || round > k_evening_rounds || best.futile == k_futile_evenings)
+            return best.positions;
         cloth.beside.spread(marks, round * k_evening_links);
         for (std::size_t v = 0; v < marks.size(); ++v)
             evened[v] |= marks[v];
@@ -151,7 +159,7 @@ public:
 
     /// Marks vertices of the cloth that lie in the body, or whose edges or triangles meet something.
     /// @return how many there are
-    std::ptrdiff_t mark_meeting(const Parts& cloth, const Positions& positions, std::vector<char>& marks) const
+    std::size_t mark_meeting(const Parts& cloth, const Positions& positions, std::vector<char>& marks) const
     {
         const TriangleMesh moved { positions, cloth.rest.triangles };
         const TriangleTree tree(moved);
@@ -164,7 +172,7 @@ public:
                 for (const int v : moved.triangles.row(triangle))
                     marks[v] = 1;
         }
-        return std::count(marks.begin(), marks.end(), 1);
+        return std::size_t(std::count(marks.begin(), marks.end(), 1));
     }
 
 private:
@@ -204,18 +212,12 @@ Positions ways_out(const LedPlaces& places, const Positions& positions, const st
 /// something goes on to meet, it is where the least does.
 Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Obstacles& obstacles)
 {
-    Positions best = positions;
-    std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
+    Best best { positions };
     std::vector<char> marks(positions.rows());
-    for (int round = 0, futile = 0;; ++round) {
-        const std::ptrdiff_t meeting = obstacles.mark_meeting(cloth, positions, marks);
-        futile = meeting < fewest ? 0 : futile + 1;
-        if (meeting < fewest) {
-            fewest = meeting;
-            best = positions;
-        }
-        if (meeting == 0 || round == k_pushing_rounds || futile == k_futile_pushes)
-            return best;
+    for (int round = 0;; ++round) {
+        best.offer(positions, obstacles.mark_meeting(cloth, positions, marks));
+        if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes)
+            return best.positions;
         const Positions ways = ways_out(places, positions, marks, obstacles, round);
         const Eigen::VectorXd hold
             = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
@@ -227,21 +229,18 @@ Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions po
 
 // ---- parts that meet each other ------------------------------------------------------------------------------------
 
-/// Parts the cloth as far as needed for no more than `enough` crossings, in eighths, quarters and halves of the way to
-/// where that many are left.
-Positions parted_to(const TriangleMesh& cloth, const Edges& edges, std::size_t enough)
+/// Parts the cloth as far as needed for no more than `enough` crossings, in sixteenths, eighths, quarters and halves of
+/// the way to where that many are left.
+Positions parted_to(const Parts& cloth, const Positions& positions, std::size_t enough)
 {
-    const auto count = [&](const Positions& positions) {
-        const TriangleMesh moved { positions, cloth.triangles };
-        return find_self_crossings(moved, edges, TriangleTree(moved)).size();
-    };
-    const Positions motion = reduce_crossings(cloth, edges, enough) - cloth.positions;
+    const Positions motion
+        = reduce_crossings({ positions, cloth.rest.triangles }, cloth.topology.edges(), enough) - positions;
     if (motion.isZero(0))
-        return cloth.positions;
+        return positions;
     for (double share = k_least_parting; share < 1; share *= 2)
-        if (Positions part = cloth.positions + share * motion; count(part) <= enough)
+        if (Positions part = positions + share * motion; cloth.self_crossings(part).size() <= enough)
             return part;
-    return cloth.positions + motion;
+    return positions + motion;
 }
 
 /// The rotation that takes a triangle from rest to where it is; an error of its strain.
@@ -319,19 +318,14 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
 Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles& obstacles)
 {
     double step = k_gap_step * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
-    Positions best = positions;
-    std::size_t fewest = k_few_crossings + 1;
-    int futile = 0;
+    Best best { positions, k_few_crossings + 1 };
     for (int round = 0; round < k_gap_rounds; ++round) {
         const std::vector<Crossing> fresh = cloth.fresh_crossings(positions);
-        if (fresh.size() < fewest) {
-            fewest = fresh.size();
-            best = positions;
-            futile = 0;
-        } else if (++futile == k_futile_gap_rounds) {
-            positions = best;
+        best.offer(positions, fresh.size());
+        if (best.futile == k_futile_gap_rounds) {
+            positions = best.positions;
             step /= 2;
-            futile = 0;
+            best.futile = 0;
             continue;
         }
         if (fresh.empty() || fresh.size() > k_few_crossings)
@@ -339,18 +333,17 @@ Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obsta
         const Positions motion = towards_gaps_of_rest(cloth, fresh, positions, step);
         positions = moved_clear(cloth, positions, positions + motion, obstacles);
     }
-    return best;
+    return best.positions;
 }
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
 Positions untangled(const Parts& cloth, const Positions& positions, const Obstacles& obstacles)
 {
-    const TriangleMesh moved { positions, cloth.rest.triangles };
     const std::size_t given = cloth.crossings.size();
     Positions parted = given <= k_few_crossings
-        ? untangle(moved, cloth.topology.edges()).positions
-        : parted_to(moved, cloth.topology.edges(), std::size_t(k_fewer_crossings * double(given)));
+        ? untangle({ positions, cloth.rest.triangles }, cloth.topology.edges()).positions
+        : parted_to(cloth, positions, std::size_t(k_fewer_crossings * double(given)));
     return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), obstacles), obstacles);
 }
 

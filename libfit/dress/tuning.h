@@ -174,8 +174,8 @@ inline constexpr int k_most_links = 8;
 /// places in the first round, and more in each; and how firmly they are held. fitted: guesses, on the same clothes
 inline constexpr int k_evening_rounds = 6, k_futile_evenings = 3, k_evening_links = 3;
 inline constexpr double k_evening_hold = 1e-3;
-/// How often what meets the body is pushed out of it, at most, and in vain; how far round these places cloth goes along, in links; and
-/// how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
+/// How often what meets the body is pushed out of it, at most, and in vain; how far round these places cloth goes along,
+/// in links; and how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
 inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8, k_pushing_links = 8;
 inline constexpr double k_pushing_step = 1e-3;
 /// Crossings that such a garment is given with, up to which all are untangled; of more, a few fewer than given are left.
