@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "fixtures.h"
 #include "garmentfit/fit_map.h"
@@ -91,6 +92,47 @@ TEST(Tightness, OfAKnitCountsEdgesThatAreStretchedAsFarAsItGives)
     const Tightness rib(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.5);
     EXPECT_EQ(rib.list_tight_parts_at_rest(worn).size(), 1u) << "two thirds are more than it gives";
     EXPECT_NEAR(rib.largest_stretch(worn), 2. / 3, 1e-6);
+}
+
+/// The tube with every ring scaled, from the head of the bone on.
+Positions with_rings_scaled(Positions tube, const Skeleton& skeleton, Bone bone, const std::vector<double>& factors)
+{
+    constexpr int k_round = 32;
+    for (int i = 0; i < tube.rows(); ++i) {
+        const Vec3 out = Vec3(tube.row(i)) - skeleton.head(bone), axis = skeleton.direction(bone),
+                   along = out.dot(axis) * axis;
+        tube.row(i) = skeleton.head(bone) + along + factors[i / k_round] * (out - along);
+    }
+    return tube;
+}
+
+TEST(Tightness, AtRestNamesATightRingOfAPartThatIsWideElsewhere)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const Positions rest = tube(skeleton, lfemur, 0.08),
+                    worn = with_rings_scaled(rest, skeleton, lfemur, { 1, 1, 1, 1, 1, 1.3, 1.3, 1, 1, 1 });
+    const Edges edges = edges_of(tube_triangles());
+    const Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15);
+    EXPECT_LT(tightness.largest_stretch(worn), 0.15) << "round the whole thigh";
+    const auto tight = tightness.list_tight_parts_at_rest(worn);
+    ASSERT_EQ(tight.size(), 1u);
+    EXPECT_NEAR(tight[0].enlargement, 0.3, 0.02);
+    EXPECT_NEAR(tight[0].missing_girth, 2 * M_PI * 0.08 * 0.3, 0.01);
+}
+
+TEST(Tightness, AtRestSingleLongEdgesAreNoLackOfGirth)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const Positions worn = tube(skeleton, lfemur, 0.1);
+    Positions rest = worn;
+    const Vec3 axis = skeleton.direction(lfemur);
+    for (int i = 0; i < rest.rows(); i += 2) {  // every other vertex is turned: edges are long and short in turns
+        const Vec3 out = Vec3(rest.row(i)) - skeleton.head(lfemur), along = out.dot(axis) * axis;
+        rest.row(i) = skeleton.head(lfemur) + along + Eigen::AngleAxisd(0.3 * 2 * M_PI / 32, axis) * (out - along);
+    }
+    const Edges edges = edges_of(tube_triangles());
+    const Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15);
+    EXPECT_TRUE(tightness.list_tight_parts_at_rest(worn).empty()) << "some edges are stretched by 40 %, no girth is";
 }
 
 TEST(Slack, IsHowMuchWiderAGarmentIsThanWhatItGoesRound)
