@@ -433,6 +433,7 @@ Wrap wrap_parts(const PlainReading& plain)
     return wrap;
 }
 
+/// Bridges what lies near to each other: sleeves and the trunk, legs.
 TriangleMesh outer_sheet_of(const Wrap& wrap) { return drop_inner_sheets(wrap.surface, wrap.patches, INFINITY); }
 
 /// The largest connected part of some faces.
@@ -460,7 +461,7 @@ std::vector<int> largest_part(const std::vector<int>& faces, const std::vector<i
 }
 
 /// The other sheet of the largest patch, facing outwards, without what is cut off from its largest part.
-GarmentMesh inner_sheet_of(const Wrap& wrap)
+TriangleMesh inner_sheet_of(const Wrap& wrap)
 {
     const Patch& patch = *std::max_element(wrap.patches.begin(), wrap.patches.end(),
                                            [](const Patch& a, const Patch& b) { return a.area < b.area; });
@@ -475,11 +476,27 @@ GarmentMesh inner_sheet_of(const Wrap& wrap)
     sheet.positions = wrap.surface.positions;
     sheet.triangles = wrap.surface.triangles(largest_part(inner, opposite), Eigen::all);
     sheet.triangles.col(1).swap(sheet.triangles.col(2));
-    TriangleMesh used = weld_vertices(sheet);
-    return { std::move(used.positions), std::move(used.triangles) };
+    return weld_vertices(sheet);
 }
 
 constexpr std::size_t k_fewest_openings = 2;  // derived: a body enters through one and comes out at another
+
+/// Both sheets of a wrap.
+struct Sheets {
+    TriangleMesh outer, inner;
+    std::size_t outer_openings = 0, inner_openings = 0;
+
+    /// Whether the inner one is open where the body comes out: holes beside bridges make no sleeve or leg of the outer one.
+    bool inner_goes_round() const { return inner_openings >= std::min(outer_openings, k_enough_openings); }
+};
+
+Sheets sheets_of(const Wrap& wrap)
+{
+    Sheets sheets { outer_sheet_of(wrap), inner_sheet_of(wrap) };
+    sheets.outer_openings = count_openings(sheets.outer);
+    sheets.inner_openings = count_openings(sheets.inner);
+    return sheets;
+}
 
 PlainReading read_plainly(const GarmentMesh& garment)
 {
@@ -500,8 +517,10 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     PlainReading plain = read_plainly(garment);
     if (plain.serves)
         return std::move(plain.outer);
-    TriangleMesh wrapped = outer_sheet_of(wrap_parts(plain));
-    return count_openings(wrapped) >= k_fewest_openings ? wrapped : std::move(plain.outer);
+    Sheets sheets = sheets_of(wrap_parts(plain));
+    if (sheets.outer_openings < k_fewest_openings)
+        return std::move(plain.outer);
+    return sheets.inner_goes_round() ? std::move(sheets.inner) : std::move(sheets.outer);
 }
 
 std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
@@ -509,10 +528,10 @@ std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
     const PlainReading plain = read_plainly(garment);
     if (plain.serves && lined == Lined::clothes_in_parts)
         return {};
-    const Wrap wrap = wrap_parts(plain);
-    if (count_openings(outer_sheet_of(wrap)) < k_fewest_openings)
+    Sheets sheets = sheets_of(wrap_parts(plain));
+    if (sheets.outer_openings < k_fewest_openings || !sheets.inner_goes_round())
         return {};
-    return inner_sheet_of(wrap);
+    return GarmentMesh { std::move(sheets.inner.positions), std::move(sheets.inner.triangles) };
 }
 
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)

@@ -10,16 +10,18 @@ namespace garmentfit {
 /// The garment prepared for analysis: equal vertices welded, equal faces dropped, inner sheets of thick cloth removed,
 /// and every patch oriented outwards, independent of the orientation of the input. Cost O(n log n).
 ///
-/// Where that leaves no garment, it is the outer sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all of it,
-/// which takes some seconds: of panels that are each closed by their thickness, of cloth with more border than openings
-/// have (sheets side by side or beside each other), and where only one opening is found.
+/// Where that leaves no garment, it is one sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all of it, which takes
+/// some seconds: of panels that are each closed by their thickness, of cloth with more border than openings have (sheets
+/// side by side or beside each other), and where only one opening is found. It is the inner sheet, which does not bridge
+/// the gaps between sleeves and trunk; the outer one where that has openings which the inner one lacks.
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
 /// Which clothes get a lining: those that outward_cloth wraps, or all.
 enum class Lined { clothes_in_parts, all };
 
 /// The inner sheet of such a wrap: one layer of cloth that goes round the body inside of all parts, facing outwards, in
-/// one piece. None for what gets no lining, in O(n log n), and where the wrap closes its openings. The cost of a wrap.
+/// one piece. None for what gets no lining, in O(n log n), and where it is closed where the wrap has openings. The cost of
+/// a wrap.
 std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined);
 
 /// About the origin.
