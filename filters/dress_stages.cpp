@@ -238,27 +238,31 @@ using RunStage = void(Scene&, const Parameters&, const Progress&);
 
 /// Runs a stage with stand-ins in the places of garments that need one.
 /// @param output  where it puts its dressing
-void run_with_stand_ins(RunStage& stage, std::optional<Dressing> Scene::*output, Scene& scene, const Parameters& p,
-                        const ClothOptions& cloth, const Progress& progress)
+void run_with_stand_ins(RunStage& run, Stage stage, std::optional<Dressing> Scene::*output, Scene& scene,
+                        const Parameters& p, const ClothOptions& cloth, const Progress& progress)
 {
     if (!find_stand_ins(scene))
-        return stage(scene, p, progress);
+        return run(scene, p, progress);
     Scene led = lead(scene);
-    stage(led, p, progress);
+    run(led, p, progress);
     const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*output));
-    scene.*output = follow_stand_ins({ scene, led, order }, *std::move(led.*output), cloth);
+    const bool led_well = (led.*output)->certified;
+    Dressing dressing = follow_stand_ins({ scene, led, order }, *std::move(led.*output), cloth, progress);
+    if (led_well && !dressing.certified && progress.is_late())
+        dressing.out_of_time = stage;
+    scene.*output = std::move(dressing);
 }
 
 }  // namespace
 
 void drape_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(drape_all, &Scene::draped, scene, p, p.drape.cloth, progress);
+    run_with_stand_ins(drape_all, Stage::drape, &Scene::draped, scene, p, p.drape.cloth, progress);
 }
 
 void recover_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(recover, &Scene::recovered, scene, p, p.recover.cloth, progress);
+    run_with_stand_ins(recover, Stage::recover, &Scene::recovered, scene, p, p.recover.cloth, progress);
 }
 
 }  // namespace garmentfit

@@ -162,8 +162,11 @@ bool all_clean(const std::vector<WornGarment>& garments)
 bool all_put_on(const Scene& scene)
 {
     const auto& draped = scene.draped;
+    const auto moves_on = [](const WornGarment& worn) {
+        return worn.certificate.clean() || (worn.stand_in && worn.stand_in->is_clean);
+    };
     return draped && draped->worn().size() == scene.garments.size() && draped->scale_reached == 1
-        && draped->pose_reached == 1 && all_clean(draped->garments);
+        && draped->pose_reached == 1 && std::all_of(draped->garments.begin(), draped->garments.end(), moves_on);
 }
 
 Outcome outcome_of(const Dressing& end)

@@ -62,13 +62,14 @@ private:
 };
 
 /// The garment in the place of its stand-in.
-WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Surroundings& around)
+WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Surroundings& around,
+                          const Progress& progress)
 {
     auto [rest, closed_ends, left_out] = open_ends(garment.mesh);
     WornGarment worn = led;
-    worn.stand_in = WornStandIn { led.rest, led.positions };
+    worn.stand_in = WornStandIn { led.rest, led.positions, led.certificate.clean() };
     worn.rest = enlarged(std::move(rest), led.size);
-    worn.positions = follow(led.rest, led.positions, worn.rest, around);
+    worn.positions = follow(led.rest, led.positions, worn.rest, around, progress);
     worn.closed_ends = closed_ends;
     worn.left_out = left_out;
     worn.pieces = count_pieces_held(worn.rest);
@@ -90,28 +91,30 @@ bool certify_worn(std::vector<WornGarment>& garments, const std::vector<std::siz
 }
 
 /// All garments that have stand-ins after these. @return whether all are clean
-bool follow_all(const Leading& leading, std::vector<WornGarment>& garments, const Positions& body)
+bool follow_all(const Leading& leading, std::vector<WornGarment>& garments, const Positions& body,
+                const Progress& progress)
 {
     const auto& [scene, led, order] = leading;
     const Triangles& triangles = scene.body->surface.triangles;
     Company company(body, triangles, garments);
     for (const std::size_t i : order)
         if (has_stand_in(led.garments[i])) {
-            garments[i] = garment_after(scene.garments[i], garments[i], company.around(i));
+            garments[i] = garment_after(scene.garments[i], garments[i], company.around(i), progress);
             company.replace(i, garments[i]);
         }
     return certify_worn(garments, order, { body, triangles });
 }
 
 /// @param led  the garments of the dressing as they were led
-void follow_in_frames(const Leading& leading, Dressing& dressing, const std::vector<WornGarment>& led)
+void follow_in_frames(const Leading& leading, Dressing& dressing, const std::vector<WornGarment>& led,
+                      const Progress& progress)
 {
     std::vector<RecoverFrame> clean;
     for (RecoverFrame& frame : dressing.frames) {
         std::vector<WornGarment> garments = led;
         for (const std::size_t i : leading.order)
             garments[i].positions = frame.garments[i];
-        if (!follow_all(leading, garments, frame.body))
+        if (!follow_all(leading, garments, frame.body, progress))
             continue;
         for (const std::size_t i : leading.order)
             frame.garments[i] = garments[i].positions;
@@ -151,12 +154,13 @@ Scene lead(Scene scene)
     return scene;
 }
 
-Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth)
+Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth,
+                          const Progress& progress)
 {
     const auto& [scene, led, order] = leading;
     const std::vector<WornGarment> led_garments = dressing.garments;
-    dressing.certified &= follow_all(leading, dressing.garments, dressing.body);
-    follow_in_frames(leading, dressing, led_garments);
+    dressing.certified &= follow_all(leading, dressing.garments, dressing.body, progress);
+    follow_in_frames(leading, dressing, led_garments, progress);
     const TriangleMesh body { dressing.body, scene.body->surface.triangles };
     for (const std::size_t i : order)
         if (has_stand_in(led.garments[i]))

@@ -22,7 +22,8 @@ struct Leading {
 };
 
 /// Takes the garments of a dressing of the led scene where their stand-ins went; each is certified. Frames in which one
-/// is not clean are left out.
-Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth);
+/// is not clean are left out. After the deadline, they follow without what makes them clean.
+Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth,
+                          const Progress& progress);
 
 }  // namespace garmentfit

@@ -18,6 +18,7 @@
 #include "topology.h"
 #include "tuning.h"
 #include "untangle.h"
+#include "used_vertices.h"
 #include "weld.h"
 #include "winding_number.h"
 
@@ -123,7 +124,7 @@ std::size_t mark_faults(const Parts& cloth, const Positions& positions, std::vec
 
 /// Evens the motions round all places where parts that lay side by side went different ways: their vertices hang on
 /// different sides of the stand-in, or are further from it than its folds are wide. A wider circle in each round.
-Positions moved_alike(const Parts& cloth, const LedPlaces& places)
+Positions moved_alike(const Parts& cloth, const LedPlaces& places, const Progress& progress)
 {
     const Eigen::MatrixXd led = affine_motions(cloth, places);
     const Eigen::VectorXd hold = Eigen::VectorXd::Constant(led.rows(), k_evening_hold);
@@ -133,7 +134,7 @@ Positions moved_alike(const Parts& cloth, const LedPlaces& places)
     for (int round = 1;; ++round) {
         std::vector<char> marks(led.rows(), 0);
         best.offer(positions, mark_faults(cloth, positions, marks));
-        if (best.faults == 0 || round > k_evening_rounds || best.futile == k_futile_evenings)
+        if (best.faults == 0 || round > k_evening_rounds || best.futile == k_futile_evenings || !progress.goes_on(1))
             return best.positions;
         cloth.beside.spread(marks, round * k_evening_links);
         for (std::size_t v = 0; v < marks.size(); ++v)
@@ -157,19 +158,18 @@ public:
     bool is_in_body(const Vec3& place) const { return winding_(place) > k_inside; }
     Vec3 nearest_skin(const Vec3& place) const { return skin_.nearest(place); }
 
-    /// Marks vertices of the cloth that lie in the body, or whose edges or triangles meet something.
+    /// Marks vertices of cloth that lie in the body, or whose edges or triangles meet something.
     /// @return how many there are
-    std::size_t mark_meeting(const Parts& cloth, const Positions& positions, std::vector<char>& marks) const
+    std::size_t mark_meeting(const TriangleMesh& cloth, const Edges& edges, std::vector<char>& marks) const
     {
-        const TriangleMesh moved { positions, cloth.rest.triangles };
-        const TriangleTree tree(moved);
-        parallel_for(positions.rows(), [&](Eigen::Index v) { marks[v] = is_in_body(positions.row(v)); });
+        const TriangleTree tree(cloth);
+        parallel_for(cloth.positions.rows(), [&](Eigen::Index v) { marks[v] = is_in_body(cloth.positions.row(v)); });
         for (const Obstacle& other : obstacles_) {
-            for (const auto& [edge, triangle] : find_crossings(moved, cloth.topology.edges(), other.tree))
-                for (const int v : cloth.topology.edges().row(edge))
+            for (const auto& [edge, triangle] : find_crossings(cloth, edges, other.tree))
+                for (const int v : edges.row(edge))
                     marks[v] = 1;
             for (const auto& [edge, triangle] : find_crossings(other.mesh, other.edges, tree))
-                for (const int v : moved.triangles.row(triangle))
+                for (const int v : cloth.triangles.row(triangle))
                     marks[v] = 1;
         }
         return std::size_t(std::count(marks.begin(), marks.end(), 1));
@@ -187,38 +187,83 @@ private:
     std::vector<Obstacle> obstacles_;
 };
 
-/// How far, and where to, vertices that meet the body have to go: beyond the skin, in turns with half of the way to the
-/// stand-in, which lies clear of it also where the skin of one limb faces that of another.
-Positions ways_out(const LedPlaces& places, const Positions& positions, const std::vector<char>& marks,
-                   const Obstacles& obstacles, int round)
+/// From a place in the body to a little beyond its skin.
+Vec3 way_out(const Vec3& place, const Obstacles& obstacles)
+{
+    const Vec3 to_skin = obstacles.nearest_skin(place) - place;
+    return (to_skin.norm() + k_pushing_step) * to_skin.stableNormalized();
+}
+
+/// How far, and where to, vertices that meet the body have to go: beyond the skin.
+Positions ways_beyond_skin(const Positions& positions, const std::vector<char>& marks, const Obstacles& obstacles,
+                           double beyond)
 {
     Positions ways = Positions::Zero(positions.rows(), 3);
     parallel_for(positions.rows(), [&](Eigen::Index v) {
         if (!marks[v])
             return;
         const Vec3 place = positions.row(v), from_skin = place - obstacles.nearest_skin(place);
-        const double beyond = (round + 1) * k_pushing_step, depth = from_skin.norm();
-        if (round % 2 == 1)
-            ways.row(v) = (places.feet.row(v) - positions.row(v)) / 2;
-        else if (obstacles.is_in_body(place))
-            ways.row(v) = -(depth + k_pushing_step) * from_skin.stableNormalized();
-        else if (depth < beyond)
-            ways.row(v) = (beyond - depth) * from_skin.stableNormalized();
+        if (obstacles.is_in_body(place))
+            ways.row(v) = way_out(place, obstacles);
+        else if (const double gap = from_skin.norm(); gap < beyond)
+            ways.row(v) = (beyond - gap) * from_skin.stableNormalized();
     });
+    return ways;
+}
+
+/// The same for vertices that are outside, of edges and triangles that pass through the body between them: they go as far
+/// as what is within.
+void lengthen_ways_between(const Parts& cloth, const Positions& positions, const std::vector<char>& marks,
+                           const Obstacles& obstacles, Positions& ways)
+{
+    const auto take_along = [&](const auto& corners, const Vec3& place) {
+        if (!obstacles.is_in_body(place))
+            return;
+        const Vec3 way = way_out(place, obstacles);
+        for (const int v : corners)
+            if (way.norm() > ways.row(v).norm())
+                ways.row(v) = way;
+    };
+    const auto is_marked = [&](int v) { return marks[v] != 0; };
+    for (const auto& ends : cloth.topology.edges().rowwise())
+        if (std::all_of(ends.begin(), ends.end(), is_marked))
+            for (const double share : k_places_between)
+                take_along(ends, (1 - share) * positions.row(ends[0]) + share * positions.row(ends[1]));
+    for (const auto& corners : cloth.rest.triangles.rowwise())
+        if (std::all_of(corners.begin(), corners.end(), is_marked))
+            take_along(corners, Vec3(positions(corners, Eigen::all).colwise().mean()));
+}
+
+/// Beyond the skin, in turns with half of the way to the stand-in, which lies clear of it also where the skin of one limb
+/// faces that of another.
+Positions ways_out(const Parts& cloth, const LedPlaces& places, const Positions& positions,
+                   const std::vector<char>& marks, const Obstacles& obstacles, int round)
+{
+    if (round % 2 == 1) {
+        Positions ways = Positions::Zero(positions.rows(), 3);
+        for (Eigen::Index v = 0; v < ways.rows(); ++v)
+            if (marks[v])
+                ways.row(v) = (places.feet.row(v) - positions.row(v)) / 2;
+        return ways;
+    }
+    Positions ways = ways_beyond_skin(positions, marks, obstacles, (round + 1) * k_pushing_step);
+    lengthen_ways_between(cloth, positions, marks, obstacles, ways);
     return ways;
 }
 
 /// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order. Where
 /// something goes on to meet, it is where the least does.
-Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Obstacles& obstacles)
+Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Obstacles& obstacles,
+                       const Progress& progress)
 {
     Best best { positions };
     std::vector<char> marks(positions.rows());
     for (int round = 0;; ++round) {
-        best.offer(positions, obstacles.mark_meeting(cloth, positions, marks));
-        if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes)
+        best.offer(positions,
+                   obstacles.mark_meeting({ positions, cloth.rest.triangles }, cloth.topology.edges(), marks));
+        if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes || !progress.goes_on(1))
             return best.positions;
-        const Positions ways = ways_out(places, positions, marks, obstacles, round);
+        const Positions ways = ways_out(cloth, places, positions, marks, obstacles, round);
         const Eigen::VectorXd hold
             = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
                   .cast<double>();
@@ -268,15 +313,41 @@ std::vector<int> with_neighbours(const MeshTopology& topology, const std::vector
     return result;
 }
 
+/// The triangles of a mesh that move from one place to another.
+struct MovedPart {
+    std::vector<int> vertices;  ///< those of the mesh
+    Triangles triangles;  ///< of `vertices`
+    Edges edges;
+
+    MovedPart(const Triangles& mesh, const Positions& from, const Positions& to)
+    {
+        std::vector<int> faces;
+        for (int f = 0; f < int(mesh.rows()); ++f)
+            if (std::any_of(mesh.row(f).begin(), mesh.row(f).end(), [&](int v) { return from.row(v) != to.row(v); }))
+                faces.push_back(f);
+        triangles = mesh(faces, Eigen::all);
+        vertices = used_vertices(triangles);
+        for (int& v : triangles.reshaped())
+            v = int(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
+        edges = edges_of(triangles);
+    }
+};
+
 /// From one place of the cloth that meets nothing towards another, as far as it meets nothing there: where it would,
 /// vertices stay.
 Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, const Obstacles& obstacles)
 {
-    std::vector<char> marks(from.rows());
+    const MovedPart part(cloth.rest.triangles, from, to);
+    if (part.vertices.empty())
+        return to;
+    std::vector<char> marks(part.vertices.size());
     for (int round = 0; round < k_clearing_rounds; ++round) {
-        if (obstacles.mark_meeting(cloth, to, marks) == 0)
+        if (obstacles.mark_meeting({ to(part.vertices, Eigen::all), part.triangles }, part.edges, marks) == 0)
             return to;
-        const std::vector<int> meeting = with_neighbours(cloth.topology, marks);
+        std::vector<char> meets(to.rows(), 0);
+        for (std::size_t i = 0; i < marks.size(); ++i)
+            meets[part.vertices[i]] = marks[i];
+        const std::vector<int> meeting = with_neighbours(cloth.topology, meets);
         to(meeting, Eigen::all) = from(meeting, Eigen::all);
     }
     return from;
@@ -315,7 +386,8 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
 
 /// Gives what meets and did not as given, where that is little, the gaps that it had at rest. Where a fold has no room
 /// for them, sheets are pushed to and fro: then it begins again where the fewest met, with half the step.
-Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles& obstacles)
+Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles& obstacles,
+                            const Progress& progress)
 {
     double step = k_gap_step * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
     Best best { positions, k_few_crossings + 1 };
@@ -328,7 +400,7 @@ Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obsta
             best.futile = 0;
             continue;
         }
-        if (fresh.empty() || fresh.size() > k_few_crossings)
+        if (fresh.empty() || fresh.size() > k_few_crossings || !progress.goes_on(1))
             break;
         const Positions motion = towards_gaps_of_rest(cloth, fresh, positions, step);
         positions = moved_clear(cloth, positions, positions + motion, obstacles);
@@ -338,13 +410,16 @@ Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obsta
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
-Positions untangled(const Parts& cloth, const Positions& positions, const Obstacles& obstacles)
+Positions untangled(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
+                    const Progress& progress)
 {
+    if (!progress.goes_on(1))
+        return positions;
     const std::size_t given = cloth.crossings.size();
     Positions parted = given <= k_few_crossings
         ? untangle({ positions, cloth.rest.triangles }, cloth.topology.edges()).positions
         : parted_to(cloth, positions, std::size_t(k_fewer_crossings * double(given)));
-    return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), obstacles), obstacles);
+    return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), obstacles), obstacles, progress);
 }
 
 std::size_t count_self_crossings(const TriangleMesh& cloth)
@@ -378,13 +453,13 @@ std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment)
 }
 
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
-                 const Surroundings& around)
+                 const Surroundings& around, const Progress& progress)
 {
     const Parts cloth(garment);
     const LedPlaces places = lead_along(stand_in, worn, cloth.rest.positions, cloth.topology);
     const Obstacles obstacles(around);
-    const Positions clear = pushed_clear(cloth, places, moved_alike(cloth, places), obstacles);
-    return cloth.weld.place(untangled(cloth, clear, obstacles));
+    const Positions clear = pushed_clear(cloth, places, moved_alike(cloth, places, progress), obstacles, progress);
+    return cloth.weld.place(untangled(cloth, clear, obstacles, progress));
 }
 
 }  // namespace garmentfit

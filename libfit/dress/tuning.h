@@ -181,6 +181,8 @@ inline constexpr double k_evening_hold = 1e-3;
 /// in links; and how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
 inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8, k_pushing_links = 8;
 inline constexpr double k_pushing_step = 1e-3;
+/// Where edges are looked at, in shares of them, that may pass through the body between two vertices outside. fitted: guess
+inline constexpr std::array<double, 3> k_places_between { 0.25, 0.5, 0.75 };
 /// Crossings that such a garment is given with, up to which all are untangled; of more, a few fewer than given are left.
 /// fitted: guess, between 20 of a polo shirt, which come apart, and 14,000 of doubled sheets, which do not
 inline constexpr std::size_t k_few_crossings = 1000;

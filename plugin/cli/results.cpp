@@ -249,7 +249,7 @@ void write_results(Session& session, std::string_view command, const fs::path& f
     }
     if (command == "dress" || command == "drape")
         write_rest_shapes(session, folder / "rest");
-    if (command == "dress" && scene.recovered) {
+    if (command == "dress" && scene.recovered && all_clean(scene.draped->garments)) {
         write_garments(session, *scene.draped, folder / "fitted");
         write_body(session, *scene.draped, folder / "fitted");
     }

@@ -27,7 +27,10 @@ public:
         switch (data) {
         case Data::rig: add_rig(); break;
         case Data::fits: add_fits(); break;
-        case Data::draped: add_dressing(*scene().draped, ", draped"); break;
+        case Data::draped:
+            if (all_clean(scene().draped->garments))
+                add_dressing(*scene().draped, ", draped");
+            break;
         case Data::recovered:
             add_dressing(*scene().recovered, "");
             add_frames(*scene().recovered);

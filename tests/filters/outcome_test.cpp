@@ -86,6 +86,19 @@ TEST(DressingOutcome, CountsCrossingsWhereCleanlinessWasLost)
               "coat could not be certified: 3 crossings with the b");
 }
 
+TEST(DressingOutcome, AGarmentWhoseStandInIsCleanGoesOn)
+{
+    Scene scene = draped_scene();
+    EXPECT_TRUE(all_put_on(scene));
+    WornGarment& worn = scene.draped->garments[0];
+    worn.certificate.self_crossings = 2;
+    EXPECT_FALSE(all_put_on(scene));
+    worn.stand_in = WornStandIn { worn.rest, worn.positions, true };
+    EXPECT_TRUE(all_put_on(scene)) << "it follows to the input pose, where it may be clean";
+    worn.stand_in->is_clean = false;
+    EXPECT_FALSE(all_put_on(scene));
+}
+
 TEST(DressingOutcome, ComesFromThePoseReachedLast)
 {
     Scene scene = draped_scene();

@@ -17,8 +17,8 @@ enum class Outcome { done = 0, too_small = 3, not_certified = 4 };
 /// The last dressing of a scene; null where no garment was put on.
 const Dressing* final_dressing(const Scene& scene);
 bool all_clean(const std::vector<WornGarment>& garments);
-/// All garments are draped over the full-sized body and nothing crosses. Cloth may still hold parts of the body back,
-/// such as fingers in a long sleeve: they may come free on the path to another pose.
+/// All garments are draped over the full-sized body, and nothing crosses what moves on: them, or their stand-ins. Cloth
+/// may still hold parts of the body back, such as fingers in a long sleeve: they may come free on the path to another pose.
 bool all_put_on(const Scene& scene);
 Outcome outcome_of(const Dressing& dressing);
 /// Flat caps at the ends of a garment, which are taken for openings; 0 before it is fitted or put on.

@@ -49,6 +49,7 @@ struct HeldBack {
 struct WornStandIn {
     GarmentMesh rest;  ///< as WornGarment::rest
     Positions positions;
+    bool is_clean = true;  ///< nothing crosses it there
 };
 
 /// A garment on a body.

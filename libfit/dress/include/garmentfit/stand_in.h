@@ -17,6 +17,7 @@
 
 #include "garmentfit/export.h"
 #include "garmentfit/mesh.h"
+#include "garmentfit/progress.h"
 
 namespace garmentfit {
 
@@ -40,7 +41,9 @@ struct Surroundings {
 /// @param stand_in  at rest
 /// @param worn      positions of the stand-in
 /// @param garment   at rest
+/// @param progress  after its deadline, nothing is evened, pushed out or parted any further
+/// @throws Cancelled
 GARMENTFIT_API Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
-                                const Surroundings& around);
+                                const Surroundings& around, const Progress& progress = {});
 
 }  // namespace garmentfit
