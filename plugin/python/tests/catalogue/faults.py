@@ -33,7 +33,8 @@ _COUNTER = """\
 log=$1
 shift
 for folder; do :; done
-case $folder in */result) echo "$(date +%s%N) $folder" >> "$log" ;; esac
+time=$(date +%s%N) || exit 1  # killed
+case $folder in */result) echo "$time $folder" >> "$log" ;; esac
 exec "$@"
 """
 
