@@ -488,6 +488,12 @@ struct Sheets {
 
     /// Whether the inner one is open where the body comes out: holes beside bridges make no sleeve or leg of the outer one.
     bool inner_goes_round() const { return inner_openings >= std::min(outer_openings, k_enough_openings); }
+    /// In deep pleats the sheets change places, and both are ragged.
+    bool inner_is_ragged() const
+    {
+        const MeshTopology topology(inner.triangles, int(inner.positions.rows()));
+        return border_length(inner.positions, topology) > k_longest_sheet_borders * diagonal(inner.positions);
+    }
 };
 
 Sheets sheets_of(const Wrap& wrap)
@@ -520,7 +526,8 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     Sheets sheets = sheets_of(wrap_parts(plain));
     if (sheets.outer_openings < k_fewest_openings)
         return std::move(plain.outer);
-    return sheets.inner_goes_round() ? std::move(sheets.inner) : std::move(sheets.outer);
+    const bool reads_inner = sheets.inner_goes_round() && !sheets.inner_is_ragged();
+    return reads_inner ? std::move(sheets.inner) : std::move(sheets.outer);
 }
 
 std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
