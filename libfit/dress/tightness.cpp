@@ -3,13 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "nearest.h"
-#include "quantile.h"
 #include "skin_weights.h"
-#include "stretch.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -32,59 +28,32 @@ std::vector<TooTight> sort_worst_first(std::vector<TooTight> parts)
     return parts;
 }
 
-/// An edge that runs round a bone.
-struct Span {
-    int bone;
-    double along;  // m, of its middle on the bone's line
-    double radius;  // m, from there
-    double now, rest;  // m, lengths
+struct EdgeStretch {
+    double stretch;
+    double rest;  // m, its length
 };
 
-/// What edges that run round a bone amount to.
-class Girdle {
-public:
-    void add(const Span& span) { add(span, 1); }
-    void remove(const Span& span) { add(span, -1); }
-
-    double stretch() const { return now_ / rest_ - 1; }
-    double girth() const { return 2 * M_PI * radii_ / count_; }  // m
-    double rounds() const { return count_ > 0 ? now_ / girth() : 0; }
-
-private:
-    void add(const Span& span, int sign)
-    {
-        now_ += sign * span.now;
-        rest_ += sign * span.rest;
-        radii_ += sign * span.radius;
-        count_ += sign;
-    }
-
-    double now_ = 0, rest_ = 0, radii_ = 0;
-    int count_ = 0;
-};
-
-/// The most stretched ring of the edges round a part: of those that are wide enough and hold enough rounds.
-Girdle tightest_ring(std::vector<Span> spans, const Girdle& all)
+/// The stretch that this fraction of the edges does not exceed, by their length at rest: where triangles are uneven, most
+/// edges are small details. O(n log n).
+double quantile_by_length(std::vector<EdgeStretch> edges, double fraction)
 {
-    std::sort(spans.begin(), spans.end(),
-              [](const Span& a, const Span& b) { return std::tie(a.bone, a.along) < std::tie(b.bone, b.along); });
-    Girdle tightest = all, ring;
-    auto first = spans.begin();
-    for (auto last = spans.begin(); last != spans.end(); ++last) {
-        if (last->bone != first->bone) {
-            ring = {};
-            first = last;
-        }
-        ring.add(*last);
-        const auto is_ring
-            = [&] { return last->along - first->along >= k_ring_width && ring.rounds() >= k_ring_rounds; };
-        if (!is_ring())
-            continue;
-        for (; is_ring(); ring.remove(*first++))
-            if (ring.stretch() > tightest.stretch())
-                tightest = ring;
-    }
-    return tightest;
+    std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.stretch < b.stretch; });
+    double left = 0;
+    for (const EdgeStretch& edge : edges)
+        left += fraction * edge.rest;
+    for (const EdgeStretch& edge : edges)
+        if ((left -= edge.rest) <= 0)
+            return edge.stretch;
+    return 0;
+}
+
+std::vector<EdgeStretch> edge_stretches(const Positions& rest, const Positions& positions, const Edges& edges)
+{
+    std::vector<EdgeStretch> result;
+    for (const auto& edge : edges.rowwise())
+        if (const double length = (rest.row(edge[0]) - rest.row(edge[1])).norm(); length > 0)
+            result.push_back({ (positions.row(edge[0]) - positions.row(edge[1])).norm() / length - 1, length });
+    return result;
 }
 
 }  // namespace
@@ -99,30 +68,31 @@ Tightness::Tightness(const Positions& rest, const Edges& edges, const SkinWeight
 
 std::vector<Tightness::PartStretch> Tightness::measure_parts(const Positions& positions) const
 {
-    std::array<Girdle, k_body_parts> whole;
-    std::array<std::vector<Span>, k_body_parts> spans;
+    struct Sums {
+        double now = 0, rest = 0, radius = 0;
+        std::vector<EdgeStretch> edges;
+    };
+    std::array<Sums, k_body_parts> sums;
     for (Eigen::Index e = 0; e < edges_.rows(); ++e) {
         const int i = edges_(e, 0), j = edges_(e, 1), part = part_of(bones_[i]);
         const Vec3 edge = positions.row(j) - positions.row(i);
         const int bone = encircled_bone(bones_[i]);
-        const Vec3 axis = skeleton_.direction(bone);
-        const double rest = (rest_.row(i) - rest_.row(j)).norm();
-        if (part < 0 || part != part_of(bones_[j]) || std::abs(edge.dot(axis)) > k_across_bone * edge.norm()
-            || rest == 0)
+        if (part < 0 || part != part_of(bones_[j])
+            || std::abs(edge.dot(skeleton_.direction(bone))) > k_across_bone * edge.norm())
             continue;
-        const Vec3 middle = (positions.row(i) + positions.row(j)) / 2;
-        const Span span { bone, (middle - skeleton_.head(bone)).dot(axis),
-                          distance_to_line(positions.row(i), skeleton_, bone),
-                          std::min(edge.norm(), (1 + caught_) * rest), rest };
-        whole[part].add(span);
-        spans[part].push_back(span);
+        Sums& s = sums[part];
+        const double rest = (rest_.row(i) - rest_.row(j)).norm();
+        s.now += std::min(edge.norm(), (1 + caught_) * rest);
+        s.rest += rest;
+        s.radius += distance_to_line(positions.row(i), skeleton_, bone);
+        s.edges.push_back({ rest > 0 ? edge.norm() / rest - 1 : 0, rest });
     }
     std::vector<PartStretch> result;
-    for (std::size_t p = 0; p < whole.size(); ++p)
-        if (whole[p].rounds() > k_fewest_rounds) {
-            const Girdle ring = tightest_ring(std::move(spans[p]), whole[p]);
-            result.push_back({ int(p), whole[p].stretch(), whole[p].girth(), ring.stretch(), ring.girth() });
-        }
+    for (std::size_t p = 0; p < sums.size(); ++p)
+        if (const Sums& s = sums[p]; s.rest > 0)
+            if (const double girth = 2 * M_PI * s.radius / double(s.edges.size()); s.now > k_fewest_rounds * girth)
+                result.push_back(
+                    { int(p), s.now / s.rest - 1, quantile_by_length(s.edges, k_stretch_quantile), girth });
     return result;
 }
 
@@ -134,10 +104,10 @@ double Tightness::largest_stretch(const Positions& positions) const
     return largest;
 }
 
-TooTight Tightness::missing_girth(int part, double girth, double stretch, double growth) const
+TooTight Tightness::missing_girth(const PartStretch& part, double stretch, double growth) const
 {
-    const double needed = girth * (1 + growth), unstretched = girth / (1 + stretch);
-    return { index_, part_name(part), needed - unstretched, needed / unstretched - 1 };
+    const double needed = part.girth * (1 + growth), unstretched = part.girth / (1 + stretch);
+    return { index_, part_name(part.part), needed - unstretched, needed / unstretched - 1 };
 }
 
 std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, double share, const PerPart& growth) const
@@ -145,18 +115,18 @@ std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, do
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
         if (part.mean > share * allowed_)
-            result.push_back(missing_girth(part.part, part.girth, part.mean, growth[part.part]));
+            result.push_back(missing_girth(part, part.mean, growth[part.part]));
     return sort_worst_first(result);
 }
 
 std::vector<TooTight> Tightness::list_tight_parts_at_rest(const Positions& positions) const
 {
-    if (quantile(stretches(rest_, positions, edges_), k_stretch_quantile) < allowed_)
+    if (quantile_by_length(edge_stretches(rest_, positions, edges_), k_stretch_quantile) < allowed_)
         return list_tight_parts(positions, 1, {});
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
         if (part.tightest > allowed_)
-            result.push_back(missing_girth(part.part, part.tightest_girth, part.tightest, 0));
+            result.push_back(missing_girth(part, std::min(part.tightest, caught_), 0));
     return sort_worst_first(result);
 }
 

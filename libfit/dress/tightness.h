@@ -37,22 +37,21 @@ public:
     /// @param growth  by how much its girth under the cloth still has to grow, from growth_left
     std::vector<TooTight> list_tight_parts(const Positions& positions, double share, const PerPart& growth) const;
 
-    /// The same for cloth at rest on a body of full size. When more than a twentieth of all edges is stretched beyond
-    /// what is allowed, a part also counts if its tightest ring is.
+    /// The same for cloth at rest on a body of full size. When more than a twentieth of all edges, by their length, is
+    /// stretched beyond what is allowed, a part also counts if a twentieth of the edges round it is.
     std::vector<TooTight> list_tight_parts_at_rest(const Positions& positions) const;
 
     struct PartStretch {
         int part;
         double mean;  ///< over the edges that run round the part
+        double tightest;  ///< a twentieth of these edges, by their length, is stretched more than this
         double girth;  ///< m, of the cloth as it is now
-        double tightest;  ///< the largest mean over a ring of edges, some rounds wide
-        double tightest_girth;  ///< m, of that ring
     };
     /// The parts that the cloth goes round.
     std::vector<PartStretch> measure_parts(const Positions& positions) const;
 
 private:
-    TooTight missing_girth(int part, double girth, double stretch, double growth) const;
+    TooTight missing_girth(const PartStretch& part, double stretch, double growth) const;
 
     Positions rest_;
     const Edges& edges_;

@@ -95,11 +95,8 @@ inline constexpr double k_across_bone = 0.5;
 /// A part is judged when its edges would go round it this often: a hem that just reaches it does not stretch as a
 /// whole. Fitted: guess, on the house pairs.
 inline constexpr double k_fewest_rounds = 6;
-/// Quantile of the stretch that counts for cloth at rest: single edges stretch for many reasons. Fitted: guess.
+/// Quantile, by length, of the stretch that counts for cloth at rest: single edges stretch for many reasons. Fitted: guess.
 inline constexpr double k_stretch_quantile = 0.95;
-/// What is judged of cloth at rest then: rings with as many rounds of edges, so wide (m) at least. Fitted: guesses, on
-/// nine garments that single edges called too small; half or twice of either were not tried.
-inline constexpr double k_ring_rounds = 2, k_ring_width = 0.03;
 /// An edge stretched by more is caught (a cuff on a thumb) and no measure of girth; it counts as stretched by this.
 /// Fitted: guess; without it, garments were called too small by up to 137 %.
 inline constexpr double k_caught_stretch = 0.5;
