@@ -273,6 +273,28 @@ TEST(StandIn, PushesOutWhatWouldMeetTheBody)
     EXPECT_LT((followed - garment.positions).rowwise().norm().minCoeff(), 1e-6) << "what is clear stays";
 }
 
+TEST(StandIn, PushesOutEdgesThatPassThroughTheBodyBetweenVerticesOutside)
+{
+    // with twelve vertices round it, the garment is nearer to its axis between them
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 60), coarse = strip(0.2, 0.6, 0, 6, 12);
+    const GarmentMesh stand_in { tube.positions, tube.triangles }, garment { coarse.positions, coarse.triangles };
+    const Surroundings around { ball(0.197, Vec3(0, 0.3, 0)) };
+    ASSERT_GT((garment.positions.rowwise() - Eigen::RowVector3d(0, 0.3, 0)).rowwise().norm().minCoeff(), 0.2);
+    ASSERT_GT(crossing_count({ garment.positions, garment.triangles }, around.body), 0);
+    const Positions followed = follow(stand_in, stand_in.positions, garment, around);
+    EXPECT_TRUE(certify(around.body, garment, followed).clean());
+    EXPECT_LT((followed - garment.positions).rowwise().norm().maxCoeff(), 0.04) << "no further than it has to";
+}
+
+TEST(StandIn, AfterTheDeadlineGarmentsGoAlongOnly)
+{
+    const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 60), inner = strip(0.18, 0.6, 0, 6, 60);
+    const GarmentMesh stand_in { tube.positions, tube.triangles }, garment { inner.positions, inner.triangles };
+    const Surroundings around { ball(0.19, Vec3(0, 0.3, 0)) };
+    const Positions late = follow(stand_in, stand_in.positions, garment, around, Progress().until(Deadline::in(1e-9)));
+    EXPECT_LT((late - garment.positions).rowwise().norm().maxCoeff(), 1e-9);
+}
+
 TEST(StandIn, GivesSheetsTheirGapsAgainBesideTheBody)
 {
     // the sheet inside is pushed out through the two around it, which cross as given
