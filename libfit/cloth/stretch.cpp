@@ -3,20 +3,23 @@
 
 namespace garmentfit {
 
-std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions)
+std::vector<EdgeStretch> edge_stretches(const Positions& rest, const Positions& positions, const Edges& edges)
 {
-    return stretches(rest.positions, positions, edges_of(rest.triangles));
-}
-
-std::vector<double> stretches(const Positions& rest, const Positions& positions, const Edges& edges)
-{
-    std::vector<double> result;
+    std::vector<EdgeStretch> result;
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const double l0 = (rest.row(edges(e, 0)) - rest.row(edges(e, 1))).norm();
         const double l = (positions.row(edges(e, 0)) - positions.row(edges(e, 1))).norm();
         if (l0 > 0)
-            result.push_back(l / l0 - 1);
+            result.push_back({ l / l0 - 1, l0 });
     }
+    return result;
+}
+
+std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions)
+{
+    std::vector<double> result;
+    for (const EdgeStretch& edge : edge_stretches(rest.positions, positions, edges_of(rest.triangles)))
+        result.push_back(edge.stretch);
     return result;
 }
 

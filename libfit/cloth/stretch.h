@@ -10,9 +10,15 @@
 
 namespace garmentfit {
 
-/// l / l0 - 1 of every edge of the garment that has a length at rest. O(n).
+struct EdgeStretch {
+    double stretch;  ///< l / l0 - 1
+    double rest;  ///< l0, m
+};
+
+/// Of every edge that has a length at rest. O(n).
+std::vector<EdgeStretch> edge_stretches(const Positions& rest, const Positions& positions, const Edges& edges);
+
+/// The stretches alone, of all edges of the garment.
 std::vector<double> stretches(const GarmentMesh& rest, const Positions& positions);
-/// The same for edges that the caller has listed.
-std::vector<double> stretches(const Positions& rest, const Positions& positions, const Edges& edges);
 
 }  // namespace garmentfit

@@ -325,10 +325,9 @@ struct MovedPart {
         for (int f = 0; f < int(mesh.rows()); ++f)
             if (std::any_of(mesh.row(f).begin(), mesh.row(f).end(), [&](int v) { return from.row(v) != to.row(v); }))
                 faces.push_back(f);
-        triangles = mesh(faces, Eigen::all);
-        vertices = used_vertices(triangles);
-        for (int& v : triangles.reshaped())
-            v = int(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
+        const Triangles moved = mesh(faces, Eigen::all);
+        vertices = used_vertices(moved);
+        triangles = numbered_among(vertices, moved);
         edges = edges_of(triangles);
     }
 };

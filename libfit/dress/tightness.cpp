@@ -6,6 +6,7 @@
 
 #include "nearest.h"
 #include "skin_weights.h"
+#include "stretch.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -28,11 +29,6 @@ std::vector<TooTight> sort_worst_first(std::vector<TooTight> parts)
     return parts;
 }
 
-struct EdgeStretch {
-    double stretch;
-    double rest;  // m, its length
-};
-
 /// The stretch that this fraction of the edges does not exceed, by their length at rest: where triangles are uneven, most
 /// edges are small details. O(n log n).
 double quantile_by_length(std::vector<EdgeStretch> edges, double fraction)
@@ -45,15 +41,6 @@ double quantile_by_length(std::vector<EdgeStretch> edges, double fraction)
         if ((left -= edge.rest) <= 0)
             return edge.stretch;
     return 0;
-}
-
-std::vector<EdgeStretch> edge_stretches(const Positions& rest, const Positions& positions, const Edges& edges)
-{
-    std::vector<EdgeStretch> result;
-    for (const auto& edge : edges.rowwise())
-        if (const double length = (rest.row(edge[0]) - rest.row(edge[1])).norm(); length > 0)
-            result.push_back({ (positions.row(edge[0]) - positions.row(edge[1])).norm() / length - 1, length });
-    return result;
 }
 
 }  // namespace

@@ -481,7 +481,7 @@ TriangleMesh inner_sheet_of(const Wrap& wrap)
 
 constexpr std::size_t k_fewest_openings = 2;  // derived: a body enters through one and comes out at another
 
-/// Both sheets of a wrap.
+/// Both sheets of a wrap that a body can pass through.
 struct Sheets {
     TriangleMesh outer, inner;
     std::size_t outer_openings = 0, inner_openings = 0;
@@ -496,11 +496,14 @@ struct Sheets {
     }
 };
 
-Sheets sheets_of(const Wrap& wrap)
+/// None where the wrap closes the openings.
+std::optional<Sheets> sheets_of(const Wrap& wrap)
 {
     Sheets sheets { outer_sheet_of(wrap), inner_sheet_of(wrap) };
     sheets.outer_openings = count_openings(sheets.outer);
     sheets.inner_openings = count_openings(sheets.inner);
+    if (sheets.outer_openings < k_fewest_openings)
+        return {};
     return sheets;
 }
 
@@ -523,11 +526,11 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     PlainReading plain = read_plainly(garment);
     if (plain.serves)
         return std::move(plain.outer);
-    Sheets sheets = sheets_of(wrap_parts(plain));
-    if (sheets.outer_openings < k_fewest_openings)
+    std::optional<Sheets> sheets = sheets_of(wrap_parts(plain));
+    if (!sheets)
         return std::move(plain.outer);
-    const bool reads_inner = sheets.inner_goes_round() && !sheets.inner_is_ragged();
-    return reads_inner ? std::move(sheets.inner) : std::move(sheets.outer);
+    const bool reads_inner = sheets->inner_goes_round() && !sheets->inner_is_ragged();
+    return reads_inner ? std::move(sheets->inner) : std::move(sheets->outer);
 }
 
 std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
@@ -535,10 +538,10 @@ std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
     const PlainReading plain = read_plainly(garment);
     if (plain.serves && lined == Lined::clothes_in_parts)
         return {};
-    Sheets sheets = sheets_of(wrap_parts(plain));
-    if (sheets.outer_openings < k_fewest_openings || !sheets.inner_goes_round())
+    std::optional<Sheets> sheets = sheets_of(wrap_parts(plain));
+    if (!sheets || !sheets->inner_goes_round())
         return {};
-    return GarmentMesh { std::move(sheets.inner.positions), std::move(sheets.inner.triangles) };
+    return GarmentMesh { std::move(sheets->inner.positions), std::move(sheets->inner.triangles) };
 }
 
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)

@@ -86,13 +86,7 @@ TriangleMesh drop_unused(const TriangleMesh& surface)
     const std::vector<int> used = used_vertices(surface.triangles);
     if (Eigen::Index(used.size()) == surface.positions.rows())
         return surface;
-    std::vector<int> row_of(std::size_t(surface.positions.rows()), -1);
-    for (std::size_t row = 0; row < used.size(); ++row)
-        row_of[std::size_t(used[row])] = int(row);
-    TriangleMesh result { surface.positions(used, Eigen::all), surface.triangles };
-    for (Eigen::Index i = 0; i < result.triangles.size(); ++i)
-        result.triangles.data()[i] = row_of[std::size_t(result.triangles.data()[i])];
-    return result;
+    return { surface.positions(used, Eigen::all), numbered_among(used, surface.triangles) };
 }
 
 /// Merges vertices within a distance. Drops triangles that lose a corner, and all but the first on the same corners.

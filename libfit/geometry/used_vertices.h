@@ -17,4 +17,12 @@ inline std::vector<int> used_vertices(const Triangles& triangles)
     return result;
 }
 
+/// The same triangles in the numbers that their vertices have in `used`.
+inline Triangles numbered_among(const std::vector<int>& used, Triangles triangles)
+{
+    for (int& v : triangles.reshaped())
+        v = int(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+    return triangles;
+}
+
 }  // namespace garmentfit
