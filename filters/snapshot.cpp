@@ -96,11 +96,11 @@ Dressing dressing_from(const Scene& scene, const Pose& pose, const Positions& le
     dressing.outermost = scene.fits.size() == worn.size() ? outermost(scene.fits) : worn.size() - 1;
     dressing.body = keep_left(skinned(scene, pose), left);
     for (std::size_t i = 0; i < worn.size(); ++i) {
-        const auto [rest, closed_ends, left_out] = open_ends(scene.garments[i].mesh);
-        require_same_count(rest.positions, worn[i], names[i]);
-        dressing.garments.push_back({ rest, worn[i], {} });
-        dressing.garments.back().closed_ends = closed_ends;
-        dressing.garments.back().left_out = left_out;
+        const OpenedGarment opened = open_ends(scene.garments[i].mesh);
+        require_same_count(opened.garment.positions, worn[i], names[i]);
+        dressing.garments.push_back({ opened.garment, worn[i], {} });
+        dressing.garments.back().closed_ends = opened.closed_ends;
+        dressing.garments.back().left_out = opened.left_out;
     }
     dressing.certified = certify_all(dressing.garments, { dressing.body, scene.body->surface.triangles });
     return dressing;

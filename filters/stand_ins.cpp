@@ -65,13 +65,13 @@ private:
 WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Surroundings& around,
                           const Progress& progress)
 {
-    auto [rest, closed_ends, left_out] = open_ends(garment.mesh);
+    OpenedGarment opened = open_ends(garment.mesh);
     WornGarment worn = led;
     worn.stand_in = WornStandIn { led.rest, led.positions, led.certificate.clean() };
-    worn.rest = enlarged(std::move(rest), led.size);
+    worn.rest = enlarged(std::move(opened.garment), led.size);
     worn.positions = follow(led.rest, led.positions, worn.rest, around, progress);
-    worn.closed_ends = closed_ends;
-    worn.left_out = left_out;
+    worn.closed_ends = opened.closed_ends;
+    worn.left_out = opened.left_out;
     worn.pieces = count_pieces_held(worn.rest);
     worn.pieces.held += std::exchange(worn.pieces.free, 0);  // the stand-in takes all of them along
     worn.piece_shift = longest_piece_shift(worn.rest, worn.positions);

@@ -77,10 +77,9 @@ void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, c
 void warn_of_closed_ends(std::vector<std::string>& warnings, const std::string& name, int closed_ends)
 {
     if (closed_ends > 0)
-        warnings.push_back(
-            name + " has " + std::to_string(closed_ends)
-            + (closed_ends == 1 ? " end that is closed by a flat cap" : " ends that are closed by flat caps")
-            + "; taken as openings, and not kept clear of the body");
+        warnings.push_back(name + " has " + std::to_string(closed_ends)
+                           + (closed_ends == 1 ? " end that is closed" : " ends that are closed")
+                           + "; taken as openings, and not kept clear of the body");
 }
 
 std::string count_text(int count, const std::string& noun)

@@ -208,7 +208,8 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
                      const DrapeOptions& options, const Progress& progress)
 {
     require_wearable_size(rig, given);
-    const auto [garment, closed_ends, left_out] = open_ends(given);
+    const OpenedGarment opened = open_ends(given);
+    const GarmentMesh& garment = opened.garment;
     const Wearer wearer { rig, body, dressed, HandStretch(rig, body.surface.positions),
                           pose_skeleton(rig.skeleton, dressed.pose) };
     DrapeStart start = choose_start(wearer, garment);
@@ -241,7 +242,7 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
         motion.advect_obstacle(inside.shrink(inside.full.positions, growth.scale));
     }
     result.seconds = motion.seconds();
-    write_dressed_body(result, motion, inside, grading, { pieces, closed_ends, left_out }, wearer);
+    write_dressed_body(result, motion, inside, grading, { pieces, opened.closed_ends, opened.left_out }, wearer);
     if (result.scale_reached == 1)
         result.held_back = list_held_back_parts(result.body, inside.body_of(inside.full.positions), rig.weights);
     return result;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "caps.h"
+#include "hollow_ends.h"
 #include "lids_and_fillings.h"
 #include "thick_cloth.h"
 #include "tuning.h"
@@ -23,6 +25,15 @@ void leave_out(const Parts& parts, std::vector<char>& is_kept)
     for (const std::vector<int>& part : parts)
         for (const int f : part)
             is_kept[f] = 0;
+}
+
+std::vector<int> marked(const std::vector<char>& marks)
+{
+    std::vector<int> result;
+    for (int f = 0; f < int(marks.size()); ++f)
+        if (marks[f])
+            result.push_back(f);
+    return result;
 }
 
 /// How many caps each patch has.
@@ -77,9 +88,7 @@ Findings find_what_is_no_cloth(const GarmentMesh& garment)
     leave_out(caps, is_kept);
     result.lids = find_lids(mesh, found.topology(), patches, is_kept);
     leave_out(result.lids, is_kept);
-    for (int f = 0; f < int(is_kept.size()); ++f)
-        if (is_kept[f])
-            result.kept.push_back(f);
+    result.kept = marked(is_kept);
     return result;
 }
 
@@ -125,9 +134,8 @@ private:
     std::vector<char> is_cloth_;
 };
 
-}  // namespace
-
-OpenedGarment open_ends(const GarmentMesh& garment)
+/// Without caps, lids and fillings.
+OpenedGarment leave_out_caps(const GarmentMesh& garment)
 {
     const Findings found = find_what_is_no_cloth(garment);
     OpenedGarment result { { garment.positions, garment.triangles(found.kept, Eigen::all) },
@@ -136,6 +144,22 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     Gatherer gatherer(result.garment.positions, result.garment.triangles);
     result.left_out.solids = gatherer.gather(garment.triangles, found.solids, result.left_out.faces);
     result.left_out.lids = gatherer.gather(garment.triangles, found.lids, result.left_out.faces);
+    return result;
+}
+
+}  // namespace
+
+OpenedGarment open_ends(const GarmentMesh& garment)
+{
+    OpenedGarment result = leave_out_caps(garment);
+    HollowEnds ends = find_hollow_ends(result.garment);
+    if (ends.faces.empty())
+        return result;
+    std::vector<char> is_kept(std::size_t(result.garment.triangles.rows()), 1);
+    leave_out(ends.faces, is_kept);
+    result.garment.triangles = result.garment.triangles(marked(is_kept), Eigen::all).eval();
+    result.closed_ends += int(ends.faces.size());
+    result.outside = std::move(ends.outside);
     return result;
 }
 

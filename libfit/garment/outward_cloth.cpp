@@ -11,7 +11,10 @@ namespace garmentfit {
 
 TriangleMesh outward_cloth(const GarmentMesh& garment)
 {
-    PlainReading plain = read_plainly(open_ends(garment).garment);
+    OpenedGarment opened = open_ends(garment);
+    if (opened.outside.triangles.rows() > 0)
+        return std::move(opened.outside);
+    PlainReading plain = read_plainly(std::move(opened.garment));
     if (plain.serves)
         return std::move(plain.outer);
     std::optional<WrapSheets> sheets = sheets_of(wrap_parts(plain));
@@ -23,7 +26,10 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
 
 std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
 {
-    const PlainReading plain = read_plainly(open_ends(garment).garment);
+    OpenedGarment opened = open_ends(garment);
+    if (opened.outside.triangles.rows() > 0)
+        return GarmentMesh { std::move(opened.outside.positions), std::move(opened.outside.triangles) };
+    const PlainReading plain = read_plainly(std::move(opened.garment));
     if (plain.serves && lined == Lined::clothes_in_parts)
         return {};
     std::optional<WrapSheets> sheets = sheets_of(wrap_parts(plain));

@@ -63,7 +63,7 @@ struct WornGarment {
     double slipped = 0;
     PieceCounts pieces = {};  ///< how it was held together
     double piece_shift = 0;  ///< m; longest_piece_shift()
-    int closed_ends = 0;  ///< flat caps at its ends, whose faces `rest` leaves out: a hand, foot or head passes there
+    int closed_ends = 0;  ///< ends whose closing faces `rest` leaves out: a hand, foot or head passes there
     LeftOut left_out = {};  ///< pieces whose faces `rest` leaves out, each drawn into one place of the cloth
     std::optional<Fabric> fabric = {};  ///< what it is made of, where not of the fabric of ClothOptions
     std::optional<WornStandIn> stand_in = {};  ///< that it followed

@@ -65,7 +65,7 @@ struct FitResult {
     std::optional<Vec3> front_given = {};  ///< FitOptions::front: the front is known, not found
     std::vector<Rejected> rejected;  ///< what was more probable at first
     std::vector<Bone> covered;
-    int closed_ends = 0;  ///< of the garment: flat caps that the fit takes for openings
+    int closed_ends = 0;  ///< of the garment: what the fit takes for openings
     LeftOut left_out = {};  ///< of the garment: pieces that are no cloth
     int layer = 0;  ///< of several garments worn together: 0 for the innermost
     /// E_B of equation (1) by the method's own metric, m, at the start and at the end; 0 for uncovered bones.

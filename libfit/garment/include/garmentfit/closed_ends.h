@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Garments whose cuffs, ankles, neck or hem are closed by flat caps, and what lies in them that is no cloth.
+// Garments whose cuffs, ankles, neck or hem are closed, by flat caps or by cloth that is modelled all the way round, and
+// what lies in them that is no cloth.
 
 #include "garmentfit/export.h"
 #include "garmentfit/mesh.h"
@@ -19,14 +20,20 @@ struct OpenedGarment {
     /// All vertices in their order, and the faces of the cloth in theirs. The vertices of each piece of `left_out` lie
     /// in one place, that of the vertex of the cloth nearest to its middle: they go where the cloth goes.
     GarmentMesh garment;
-    int closed_ends = 0;  ///< caps and lids
+    int closed_ends = 0;  ///< caps, lids and floors of hollows
     LeftOut left_out = {};
+    /// Of what is modelled as a solid, with hollows for openings: its outside without them, one layer of cloth in even
+    /// triangles. No faces for others.
+    TriangleMesh outside = {};
 };
 
 /// Leaves out the caps: flat discs with steep cloth all around them, and flat fans around a vertex; and lids and solids
 /// that hide the inside of the garment. A surface that is closed everywhere keeps its caps unless they are three or
 /// more: a sphere, a block or a pillow is no garment.
-/// Any size: lengths are judged by the garment's own. Cost O(n log n).
+/// Where no body passes after that, the floors of its hollows are left out, too: of cuffs, ankles, hems and
+/// necks that end in bowls, domes or funnels, and of solids.
+/// Any size: lengths are judged by the garment's own. Cost O(n log n); with hollows, and for clothes in parts, the seconds
+/// of a wrap, once for a garment that was asked for lately.
 GARMENTFIT_API OpenedGarment open_ends(const GarmentMesh& garment);
 
 }  // namespace garmentfit

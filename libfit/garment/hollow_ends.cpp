@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hollow_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+
+#include "garment_openings.h"
+#include "garment_wrap.h"
+#include "hollows.h"
+#include "kept_results.h"
+#include "nearest.h"
+#include "outer_sheet.h"
+#include "parallel.h"
+#include "plain_reading.h"
+#include "surface_measures.h"
+#include "topology.h"
+#include "tuning.h"
+#include "weld.h"
+
+namespace garmentfit {
+namespace {
+
+using namespace garment_tuning;
+
+/// Whether most of the cloth is one patch that has openings for a body: a quick answer for most garments.
+bool is_surely_open(const GarmentMesh& garment)
+{
+    TriangleMesh cloth = weld_vertices(garment);
+    double area = 0;
+    const std::vector<Patch> patches = collect_patches(cloth);
+    for (const Patch& patch : patches)
+        area += patch.area;
+    for (const Patch& patch : patches)
+        if (2 * patch.area > area) {
+            const Triangles faces = cloth.triangles(patch.faces, Eigen::all);
+            const MeshTopology topology(faces, int(cloth.positions.rows()));
+            std::size_t openings = 0;
+            for (const std::vector<int>& loop : topology.border_loops()) {
+                double girth = 0;
+                for (std::size_t i = 0; i < loop.size(); ++i)
+                    girth += (cloth.positions.row(loop[i]) - cloth.positions.row(loop[(i + 1) % loop.size()])).norm();
+                openings += girth > k_cap_girth * diagonal(cloth.positions);
+            }
+            return openings >= k_fewest_openings;
+        }
+    return false;
+}
+
+/// Whether it encloses more than its own thickness.
+bool is_solid(const GarmentWrap& wrap)
+{
+    const Patch& patch = largest_patch(wrap);
+    return thickness_of(patch) > k_thickest * std::sqrt(patch.area);
+}
+
+/// The faces of a wrap that are seen from outside: of cloth that goes in at an opening the outer sheet.
+std::vector<int> outside_of(const GarmentWrap& wrap)
+{
+    const Patch& patch = largest_patch(wrap);
+    return is_solid(wrap)
+        ? patch.faces
+        : outer_sheet(wrap.surface, patch.faces,
+                      opposite_edges(wrap.surface.triangles, int(wrap.surface.positions.rows())), thickness_of(patch));
+}
+
+TriangleMesh without_hollows(const TriangleMesh& solid, const std::vector<Hollow>& hollows)
+{
+    std::vector<char> is_left_out(std::size_t(solid.triangles.rows()));
+    for (const Hollow& hollow : hollows)
+        for (const auto* faces : { &hollow.floor, &hollow.walls })
+            for (const int f : *faces)
+                is_left_out[f] = 1;
+    std::vector<int> kept;
+    for (int f = 0; f < int(is_left_out.size()); ++f)
+        if (!is_left_out[f])
+            kept.push_back(f);
+    return weld_vertices({ solid.positions, solid.triangles(kept, Eigen::all) });
+}
+
+/// For each face of a garment the number of the hollow of its wrap on whose faces a third of it lies, or -1.
+std::vector<int> hollow_of_faces(const GarmentMesh& garment, const TriangleMesh& wrap,
+                                 const std::vector<Hollow>& hollows)
+{
+    std::vector<int> hollow_of(std::size_t(wrap.triangles.rows()), -1);
+    for (std::size_t i = 0; i < hollows.size(); ++i)
+        for (const int f : hollows[i].floor)
+            hollow_of[f] = int(i);
+    const TriangleTree tree(wrap);
+    const double reach = (k_garment_wrap + k_garment_wrap_offset) * diagonal(wrap.positions);
+    std::vector<int> result(std::size_t(garment.triangles.rows()), -1);
+    parallel_for<int>(
+        int(result.size()),
+        [&](int f) {
+            const Eigen::Matrix3d corners = garment.positions(garment.triangles.row(f), Eigen::all);
+            int inside = 0, found = -1;
+            for (int i = 0; i < 6; ++i) {
+                Eigen::RowVector3d share = Eigen::RowVector3d::Constant(1.0 / 6);
+                share[i % 3] += i < 3 ? 1.0 / 2 : -1.0 / 6;
+                share += Eigen::RowVector3d::Constant((1 - share.sum()) / 3);
+                const Vec3 place = share * corners;
+                const auto nearest = tree.nearest_triangle(place);
+                if (const int hollow = hollow_of[nearest->triangle];
+                    hollow >= 0 && (nearest->point - place).norm() < reach) {
+                    ++inside;
+                    found = hollow;
+                }
+            }
+            if (inside >= 2)
+                result[f] = found;
+        },
+        256);  // unit: grain of the parallel loop
+    return result;
+}
+
+/// Adds what has no more than one neighbour outside of a hollow: teeth at its rim, and rests of a fan.
+void fill_up(std::vector<int>& hollow_of, const MeshTopology& topology)
+{
+    for (bool changes = true; changes;) {
+        changes = false;
+        for (int f = 0; f < int(hollow_of.size()); ++f) {
+            if (hollow_of[f] >= 0)
+                continue;
+            int next_to = 0, hollow = -1;
+            for (int side = 3 * f; side < 3 * f + 3; ++side)
+                if (const int other = topology.opposite(side); other >= 0 && hollow_of[other / 3] >= 0) {
+                    ++next_to;
+                    hollow = hollow_of[other / 3];
+                }
+            if (next_to >= 2) {
+                hollow_of[f] = hollow;
+                changes = true;
+            }
+        }
+    }
+}
+
+HollowEnds search(const GarmentMesh& opened)
+{
+    const PlainReading plain = read_plainly(opened);
+    if (plain.serves && !plain.is_sealed)
+        return {};
+    GarmentWrap wrap = wrap_parts(plain);
+    const bool was_solid = is_solid(wrap);
+    if (!was_solid) {
+        if (sheets_of(wrap))
+            return {};
+        wrap = wrap_closed(plain);
+    }
+    const std::vector<Hollow> hollows = find_hollows(wrap.surface, outside_of(wrap));
+    if (hollows.size() + !was_solid < k_fewest_openings)
+        return {};
+    std::vector<int> hollow_of = hollow_of_faces(opened, wrap.surface, hollows);
+    const Weld weld(opened);
+    fill_up(hollow_of,
+            { opened.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }),
+              int(weld.gather(opened.positions).rows()) });
+    HollowEnds ends { std::vector<std::vector<int>>(hollows.size()),
+                      was_solid ? without_hollows(wrap.surface, hollows) : TriangleMesh() };
+    for (int f = 0; f < int(hollow_of.size()); ++f)
+        if (hollow_of[f] >= 0)
+            ends.faces[hollow_of[f]].push_back(f);
+    std::erase_if(ends.faces, [](const std::vector<int>& faces) { return faces.empty(); });
+    return ends;
+}
+
+}  // namespace
+
+void transform(HollowEnds& ends, const Eigen::Matrix4d& motion) { transform(ends.outside, motion); }
+
+HollowEnds find_hollow_ends(const GarmentMesh& opened)
+{
+    static KeptResults<HollowEnds> kept;
+    if (opened.triangles.rows() == 0 || is_surely_open(opened))
+        return {};
+    return kept.of(opened, [&] { return search(opened); });
+}
+
+}  // namespace garmentfit

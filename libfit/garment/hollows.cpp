@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hollows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "cloth_patches.h"
+#include "disjoint_sets.h"
+#include "nearest.h"
+#include "parallel.h"
+#include "quantile.h"
+#include "surface_measures.h"
+#include "topology.h"
+#include "tuning.h"
+
+namespace garmentfit {
+namespace {
+
+using namespace garment_tuning;
+
+constexpr int k_rays = 24;  // unit: directions across an axis
+constexpr double k_off = 1e-4;  // unit: share of the diagonal, so that a ray does not start on its own face
+
+/// Evenly round an axis, across it.
+std::array<Vec3, k_rays> directions_across(const Vec3& axis)
+{
+    const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+    std::array<Vec3, k_rays> result;
+    for (int i = 0; i < k_rays; ++i) {
+        const double angle = 2 * std::numbers::pi * i / k_rays;
+        result[i] = std::cos(angle) * u + std::sin(angle) * v;
+    }
+    return result;
+}
+
+/// A part of the solid's surface.
+struct Part {
+    std::vector<int> faces;
+    double area = 0;  // m^2
+    Vec3 middle = Vec3::Zero();
+    Vec3 axis = Vec3::Zero();  // unit, out of the hollow
+};
+
+class Solid {
+public:
+    Solid(const TriangleMesh& mesh, const std::vector<int>& outside) :
+        tree_(mesh), outer_(fill_openings({ mesh.positions, mesh.triangles(outside, Eigen::all) })),
+        topology_(mesh.triangles, int(mesh.positions.rows())), diagonal_(diagonal(mesh.positions)), outside_(outside),
+        is_outside_(std::size_t(mesh.triangles.rows()))
+    {
+        for (const int f : outside)
+            is_outside_[f] = 1;
+        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+            areas_.push_back(area_vector(mesh.positions, mesh.triangles, f));
+            middles_.push_back(mesh.positions(mesh.triangles.row(f), Eigen::all).colwise().mean());
+        }
+        collect_directions();
+    }
+
+    std::vector<Hollow> hollows() const
+    {
+        std::vector<Hollow> result;
+        for (const Part& floor : floors()) {
+            const Tube tube = tube_behind(floor);
+            if (tube.length < k_hollow_length * tube.width)
+                continue;
+            const std::vector<int> faces = up_to_rim(floor);
+            if (!is_end_of(tube, faces))
+                continue;
+            Hollow hollow = without_sheets(floor, faces);
+            if (!hollow.floor.empty())
+                result.push_back(std::move(hollow));
+        }
+        return result;
+    }
+
+private:
+    /// Area vectors blurred over the surface: of a floor with a fan, or of a funnel, the axis.
+    void collect_directions()
+    {
+        double whole = 0;  // m^2
+        for (const Vec3& area : areas_)
+            whole += area.norm();
+        // derived: a step of equal weights spreads by about the distance between the middles of neighbours, 2/3 of the
+        // square root of a face's area; spreads add up as squares
+        const double step = whole / double(areas_.size()) / 2;
+        const int steps = int(std::ceil(std::pow(k_hollow_blur * diagonal_, 2) / step));
+        directions_ = areas_;
+        for (int i = 0; i < steps; ++i) {
+            std::vector<Vec3> next = directions_;
+            for (int side = 0; side < 3 * int(areas_.size()); ++side)
+                if (const int other = topology_.opposite(side); other >= 0)
+                    next[side / 3] += directions_[other / 3];
+            for (std::size_t f = 0; f < next.size(); ++f)
+                directions_[f] = next[f] / 4;
+        }
+        for (Vec3& direction : directions_)
+            direction.stableNormalize();
+    }
+
+    bool leaves(const Vec3& from, const Vec3& direction) const
+    {
+        return !tree_.is_met(from, from + diagonal_ * direction);
+    }
+
+    /// Whether no more than `most` of the rays across an axis go out, all of them on one side: between legs some go out in
+    /// front and some behind.
+    bool is_enclosed(const Vec3& from, const Vec3& axis, int most) const
+    {
+        std::array<char, k_rays> is_out {};
+        int out = 0, sides = 0;
+        const auto directions = directions_across(axis);
+        for (int i = 0; i < k_rays; ++i)
+            if ((is_out[i] = leaves(from, directions[i])) && ++out > most)
+                return false;
+        for (int i = 0; i < k_rays; ++i)
+            sides += is_out[i] && !is_out[(i + 1) % k_rays];
+        return sides <= 1;
+    }
+
+    /// Whether no more than `most` of the rays from above a face go out.
+    bool is_floor(int f, int most) const
+    {
+        return directions_[f].dot(areas_[f].stableNormalized()) > k_hollow_floor
+            && std::any_of(k_hollow_heights.begin(), k_hollow_heights.end(), [&](double height) {
+                   return is_enclosed(middles_[f] + height * diagonal_ * directions_[f], directions_[f], most);
+               });
+    }
+
+    Part part_of(std::vector<int> faces) const
+    {
+        Part part { std::move(faces) };
+        Vec3 axis = Vec3::Zero();
+        for (const int f : part.faces) {
+            const double area = areas_[f].norm();
+            part.area += area;
+            part.middle += area * middles_[f];
+            axis += area * directions_[f];
+        }
+        part.middle /= part.area;
+        part.axis = axis.stableNormalized();
+        return part;
+    }
+
+    /// Connected faces among those marked, in the order of their first ones.
+    std::vector<std::vector<int>> connected(const std::vector<char>& is_marked) const
+    {
+        DisjointSets joined(int(is_marked.size()));
+        for (int side = 0; side < 3 * int(is_marked.size()); ++side)
+            if (const int other = topology_.opposite(side); other >= 0 && is_marked[side / 3] && is_marked[other / 3])
+                joined.join(side / 3, other / 3);
+        std::map<int, int> number;  // by root
+        std::vector<std::vector<int>> result;
+        for (int f = 0; f < int(is_marked.size()); ++f) {
+            if (!is_marked[f])
+                continue;
+            const auto [place, is_new] = number.emplace(joined.root(f), int(result.size()));
+            if (is_new)
+                result.emplace_back();
+            result[place->second].push_back(f);
+        }
+        return result;
+    }
+
+    /// Somewhere in a floor (next to) no ray goes out; elsewhere it may be open on one side, as a neck is in front.
+    std::vector<Part> floors() const
+    {
+        std::vector<char> is_marked(areas_.size()), is_deep(areas_.size());
+        parallel_for<std::size_t>(
+            outside_.size(),
+            [&](std::size_t i) {
+                const int f = outside_[i];
+                is_marked[f] = is_floor(f, k_rays_out_of_floor);
+                is_deep[f] = is_marked[f] && is_floor(f, k_rays_out_of_deep_floor);
+            },
+            64);  // unit: grain of the parallel loop
+        std::vector<Part> result;
+        for (std::vector<int>& faces : connected(is_marked)) {
+            const bool has_deep = std::any_of(faces.begin(), faces.end(), [&](int f) { return is_deep[f]; });
+            Part part = part_of(std::move(faces));
+            if (has_deep && part.area > k_least_floor * diagonal_ * diagonal_)
+                result.push_back(std::move(part));
+        }
+        return result;
+    }
+
+    /// m, through the solid, or through the inside of a garment that is open elsewhere
+    double chord(const Vec3& from, const Vec3& direction) const
+    {
+        const auto hit = outer_.first_hit(from, direction);
+        return hit ? hit->distance : 0;
+    }
+
+    /// Whether the other side of the cloth, which faces away, is close behind.
+    bool is_sheet(int f) const
+    {
+        const Vec3 inwards = -areas_[f].stableNormalized();
+        const auto hit = outer_.first_hit(middles_[f] + k_off * diagonal_ * inwards, inwards);
+        return hit && hit->distance < k_hollow_backing * diagonal_ && hit->cosine > k_hollow_back_cosine;
+    }
+
+    /// How far the solid goes on behind a floor, and how wide it is there; m.
+    struct Tube {
+        double length = 0, width = 0;
+    };
+
+    Tube tube_behind(const Part& floor) const
+    {
+        std::vector<int> samples;
+        for (const int f : floor.faces)
+            if (areas_[f].stableNormalized().dot(floor.axis) > k_hollow_facing)
+                samples.push_back(f);
+        if (samples.empty())
+            return {};
+        const std::size_t step = 1 + samples.size() / k_hollow_samples;
+        const auto across = directions_across(floor.axis);
+        const auto median_chord = [&](const Vec3& direction, double depth) {
+            std::vector<double> chords;
+            for (std::size_t i = 0; i < samples.size(); i += step)
+                chords.push_back(chord(middles_[samples[i]] - depth * floor.axis, direction));
+            return quantile(chords, 0.5);
+        };
+        double length = median_chord(-floor.axis, k_off * diagonal_);
+        const double depth = std::min(k_hollow_depth * diagonal_, length / 2);
+        double width = 0;
+        for (const Vec3& direction : across)
+            width += 2.0 / k_rays * median_chord(direction, depth);
+        for (const Vec3& direction : across)
+            length = std::max(length,
+                              median_chord(std::sin(k_hollow_tilt) * direction - std::cos(k_hollow_tilt) * floor.axis,
+                                           k_off * diagonal_));
+        return { length, width };
+    }
+
+    /// Whether some faces are as round as an end, and fill it: behind a fold the solid is far wider.
+    bool is_end_of(const Tube& tube, const std::vector<int>& faces) const
+    {
+        Vec3 sum = Vec3::Zero();
+        double area = 0;  // m^2
+        Positions places(Eigen::Index(faces.size()), 3);
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            sum += areas_[faces[i]];
+            area += areas_[faces[i]].norm();
+            places.row(Eigen::Index(i)) = middles_[faces[i]];
+        }
+        const Vec3 axis = sum.stableNormalized();
+        places.rowwise() -= places.colwise().mean().eval();
+        places -= (places * axis * axis.transpose()).eval();
+        const Vec3 spreads = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(places.transpose() * places).eigenvalues();
+        return spreads[1] > k_hollow_roundness * k_hollow_roundness * spreads[2]
+            && area > k_least_hollow * diagonal_ * diagonal_
+            && area > k_hollow_share * std::numbers::pi / 4 * tube.width * tube.width;
+    }
+
+    /// Of the connected faces among those marked the part with most of a floor's faces; none without any.
+    std::vector<int> part_at(const Part& floor, const std::vector<char>& is_marked) const
+    {
+        std::vector<char> is_of_floor(areas_.size());
+        for (const int f : floor.faces)
+            is_of_floor[f] = 1;
+        const auto count = [&](const std::vector<int>& faces) {
+            return std::count_if(faces.begin(), faces.end(), [&](int f) { return is_of_floor[f]; });
+        };
+        std::vector<std::vector<int>> parts = connected(is_marked);
+        const auto most = std::max_element(
+            parts.begin(), parts.end(), [&](const auto& one, const auto& other) { return count(one) < count(other); });
+        return most == parts.end() || count(*most) == 0 ? std::vector<int>() : std::move(*most);
+    }
+
+    /// Whether a face looks out of the hollow or at its axis, below the rim.
+    bool is_in_hollow(int f, const Part& floor) const
+    {
+        const double reach = 3 * std::sqrt(floor.area / std::numbers::pi) + k_hollow_reach * diagonal_;
+        const Vec3 away = middles_[f] - floor.middle, normal = areas_[f].stableNormalized();
+        if (!is_outside_[f] || away.norm() > reach)
+            return false;
+        const Vec3 outwards = (away - away.dot(floor.axis) * floor.axis).stableNormalized();
+        return normal.dot(floor.axis) > normal.dot(outwards)
+            && is_enclosed(middles_[f] + k_hollow_heights[0] / 2 * diagonal_ * normal, floor.axis,
+                           k_rays_out_of_hollow);
+    }
+
+    std::vector<int> up_to_rim(const Part& floor) const
+    {
+        std::vector<char> is_marked(areas_.size());
+        for (const int f : floor.faces)
+            is_marked[f] = 1;
+        parallel_for<int>(
+            int(areas_.size()), [&](int f) { is_marked[f] |= is_in_hollow(f, floor); },
+            64);  // unit: grain of the parallel loop
+        return part_at(floor, is_marked);
+    }
+
+    Hollow without_sheets(const Part& floor, const std::vector<int>& faces) const
+    {
+        std::vector<char> is_marked(areas_.size());
+        for (const int f : faces)
+            is_marked[f] = !is_sheet(f);
+        Hollow hollow { part_at(floor, is_marked), {} };
+        std::set_difference(faces.begin(), faces.end(), hollow.floor.begin(), hollow.floor.end(),
+                            std::back_inserter(hollow.walls));
+        return hollow;
+    }
+
+    TriangleTree tree_, outer_;
+    MeshTopology topology_;
+    double diagonal_;  // m
+    const std::vector<int>& outside_;
+    std::vector<char> is_outside_;
+    std::vector<Vec3> areas_, middles_, directions_;  // by face
+};
+
+}  // namespace
+
+std::vector<Hollow> find_hollows(const TriangleMesh& solid, const std::vector<int>& outside)
+{
+    return Solid(solid, outside).hollows();
+}
+
+}  // namespace garmentfit
