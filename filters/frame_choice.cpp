@@ -74,15 +74,6 @@ void set_height(FrameGuess& guess, const Positions& positions, double height)
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
 }
 
-/// Of the faces' corners: files hold vertices that no face uses.
-Vec3 extents_of(const Positions& positions, const Triangles& triangles)
-{
-    if (triangles.rows() == 0)
-        return Vec3::Zero();
-    const Positions corners = positions(triangles.reshaped(), Eigen::all);
-    return (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).transpose();
-}
-
 /// Factor that makes a garment of any size as large as a shirt or a pair of trousers: openings are found among those of
 /// people's clothes. None where it has no size.
 std::optional<double> to_usual_size(const Positions& positions, const Triangles& triangles)
@@ -151,8 +142,8 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
     if (wearers.empty())
         return;
     const double length = extents_of(metres, triangles).y();
-    const ScaleGuess scale
-        = guess_scale(wearers, length, stature, guess.frame.metres_per_unit, in_named_unit(body).metres_per_unit);
+    const ScaleGuess scale = guess_scale(wearers, length, stature, guess.frame.metres_per_unit,
+                                         in_named_unit(body).metres_per_unit, is_normalised(positions, triangles));
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;
     if (scale.factor == 1)

@@ -105,7 +105,7 @@ double usualness(const UsualUnit& unit, double body_unit)
 }
 
 /// One for each unit, made for people as large as the body or not.
-std::vector<Hypothesis> in_units(const Wearer& wearer, double metres_per_unit, double body_unit)
+std::vector<Hypothesis> in_units(const Wearer& wearer, double prior, double metres_per_unit, double body_unit)
 {
     double all = 0;
     for (const UsualUnit& unit : k_usual_units)
@@ -113,20 +113,19 @@ std::vector<Hypothesis> in_units(const Wearer& wearer, double metres_per_unit, d
     std::vector<Hypothesis> hypotheses;
     for (const UsualUnit& unit : k_usual_units) {
         const double factor = metres_per(unit.name) / metres_per_unit;
-        hypotheses.push_back({ factor,
-                               (1 - k_without_unit) * usualness(unit, body_unit) / all
-                                   * wearer.likelihood_of_others(std::log(factor)) });
+        hypotheses.push_back(
+            { factor, prior * usualness(unit, body_unit) / all * wearer.likelihood_of_others(std::log(factor)) });
     }
     return hypotheses;
 }
 
 /// Any size may be the right one, made for the body.
-std::vector<Hypothesis> without_unit(const Wearer& wearer)
+std::vector<Hypothesis> without_unit(const Wearer& wearer, double prior)
 {
     std::vector<Hypothesis> hypotheses;
     for (const double log_factor : wearer.log_factors())
         hypotheses.push_back(
-            { std::exp(log_factor), k_without_unit * k_without_unit_density * k_step * wearer.likelihood(log_factor) });
+            { std::exp(log_factor), prior * k_without_unit_density * k_step * wearer.likelihood(log_factor) });
     return hypotheses;
 }
 
@@ -157,13 +156,30 @@ double weight_near(const std::vector<Hypothesis>& hypotheses, double factor)
 
 }  // namespace
 
+Vec3 extents_of(const Positions& positions, const Triangles& triangles)
+{
+    if (triangles.rows() == 0)
+        return Vec3::Zero();
+    const Positions corners = positions(triangles.reshaped(), Eigen::all);
+    return (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).transpose();
+}
+
+bool is_normalised(const Positions& positions, const Triangles& triangles)
+{
+    const double longest = extents_of(positions, triangles).maxCoeff();
+    return std::abs(longest - 1) < k_normalised || std::abs(longest / 2 - 1) < k_normalised;
+}
+
 ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, double height, double metres_per_unit,
-                       double body_unit)
+                       double body_unit, bool normalised)
 {
     if (wearers.empty() || !(height > 0) || !(length > 0))
         return {};
     const Wearer wearer(wearers, length, height);
-    const std::vector<Hypothesis> units = in_units(wearer, metres_per_unit, body_unit), any = without_unit(wearer);
+    const double odds = k_without_unit / (1 - k_without_unit) * (normalised ? k_normalised_odds : 1);
+    const double prior = odds / (1 + odds);  // that there is no unit
+    const std::vector<Hypothesis> units = in_units(wearer, 1 - prior, metres_per_unit, body_unit),
+                                  any = without_unit(wearer, prior);
     const Hypothesis unit = *std::max_element(units.begin(), units.end(),
                                               [](const auto& a, const auto& b) { return a.weight < b.weight; });
     const double sum = sum_of(units) + sum_of(any);

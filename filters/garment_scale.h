@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "garmentfit/garment_size.h"
+#include "garmentfit/types.h"
 
 namespace garmentfit {
 
@@ -14,12 +15,20 @@ struct ScaleGuess {
     double probability = 1;  ///< that the factor is right, or as good as right (k_same_size)
 };
 
+/// Of the faces' corners: files hold vertices that no face uses.
+Vec3 extents_of(const Positions& positions, const Triangles& triangles);
+
+/// Whether the longest side of a mesh is one or two units long, as programs make it that scale models of any size
+/// alike.
+bool is_normalised(const Positions& positions, const Triangles& triangles);
+
 /// @param wearers  of the garment in the unit guessed (wearer_heights)
 /// @param length  of the garment as it hangs, from its highest to its lowest point, in the unit guessed, m
 /// @param height  of the body, m
 /// @param metres_per_unit  as guessed
 /// @param body_unit  m, of the body's file
+/// @param normalised  is_normalised: the file has hardly a unit
 ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, double height, double metres_per_unit,
-                       double body_unit);
+                       double body_unit, bool normalised = false);
 
 }  // namespace garmentfit

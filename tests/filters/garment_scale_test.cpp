@@ -52,6 +52,18 @@ TEST(GarmentScale, AGarmentWithAUnitKeepsItsSize)
     }
 }
 
+// Two metres from cuff to cuff are too wide for most shirts, and usual for models that were scaled to two units.
+TEST(GarmentScale, AGarmentOfExactlyTwoUnitsHasHardlyAUnit)
+{
+    const double longest = extents_of(shirt().positions, shirt().triangles).maxCoeff();
+    const FrameGuess near = guess_of(2.02 / longest), exact = guess_of(2 / longest);
+    EXPECT_NEAR(exact.frame.metres_per_unit, longest / 2, 0.15 * longest / 2) << exact.why;
+    EXPECT_GT(exact.scale_probability, 1.2 * near.scale_probability);
+    GarmentChoice in_metres;
+    in_metres.unit = "m";
+    EXPECT_EQ(guess_of(2 / longest, in_metres).frame.metres_per_unit, 1);
+}
+
 // A body in decimetres, a garment in metres: read in decimetres, no opening is as large as a body's.
 TEST(GarmentScale, AGarmentOfAnotherUnitThanTheBodyIsRead)
 {
