@@ -40,10 +40,13 @@ std::string whose_parts(double share)
     return "its shoulders, sleeves, trunk and legs are those of people of " + times(share) + " this body's height; ";
 }
 
+/// @param share  as in whose_parts
+std::string scaling(double share) { return "scale it by " + rounded_text(1 / share, 2) + " (garment_scale)"; }
+
 std::optional<std::string> unit_text(const Hypothesis& best, const std::optional<double>& share)
 {
     if (share && (*share < k_wrong_unit_small || *share > k_wrong_unit_large))
-        return whose_parts(*share) + "check its unit (garment_unit), or give garment_scale";
+        return whose_parts(*share) + "check its unit (garment_unit), or " + scaling(*share);
     const ClearanceField& cloth = best.attempt->energy().metric().cloth();
     const double length = (cloth.high() - cloth.low()).maxCoeff() / standing_height(best.attempt->rig().skeleton);
     if (length > k_longest_garment || length < k_shortest_garment)
@@ -95,8 +98,8 @@ InvalidInput refusal_of(const Hypothesis& best, const FitOptions& options)
     if (const auto given = given_text(options))
         return { ErrorCode::no_fit, "garment: this body does not fit into it " + *given };
     if (share && *share < k_plainly_small)
-        return because(whose_parts(*share)
-                       + "it is too small to be put on. Choose a larger size, or give garment_scale");
+        return because(whose_parts(*share) + "it is too small to be put on. Choose a larger size, or "
+                       + scaling(*share));
     return because(bones_text(best));
 }
 
