@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Patches of a garment: what is connected through edges of exactly two faces. What they enclose tells which side is out,
-// and which are cloth with thickness.
+// Patches of a garment: what is connected through edges of exactly two faces. What they enclose tells which side is
+// out, and which are cloth with thickness.
 
 #include <utility>
 #include <vector>

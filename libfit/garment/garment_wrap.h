@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// An alpha wrap round a garment [portaneri_2022_alpha_wrap], whatever its pieces are, and the two sheets of it that a body
-// passes through.
+// An alpha wrap round a garment [portaneri_2022_alpha_wrap], whatever its pieces are, and the two sheets of it that a
+// body passes through.
 
 #include <optional>
 #include <vector>
@@ -32,7 +32,8 @@ struct WrapSheets {
     TriangleMesh inner;  ///< facing outwards, in one piece
     std::size_t outer_openings = 0, inner_openings = 0;
 
-    /// Whether the inner one is open where the body comes out: holes beside bridges make no sleeve or leg of the outer one.
+    /// Whether the inner one is open where the body comes out: holes beside bridges make no sleeve or leg of the outer
+    /// one.
     bool inner_goes_round() const;
     /// In deep pleats the sheets change places, and both are ragged.
     bool inner_is_ragged() const;

@@ -25,28 +25,28 @@ namespace {
 
 using namespace garment_tuning;
 
-/// Whether most of the cloth is one patch that has openings for a body: a quick answer for most garments.
-bool is_surely_open(const GarmentMesh& garment)
+/// How many openings for a body a patch has that is most of the cloth, before seams are closed; 0 without such a patch.
+/// A quick answer for most garments.
+std::size_t count_plain_openings(const GarmentMesh& garment)
 {
     TriangleMesh cloth = weld_vertices(garment);
     double area = 0;
     const std::vector<Patch> patches = collect_patches(cloth);
     for (const Patch& patch : patches)
         area += patch.area;
-    for (const Patch& patch : patches)
-        if (2 * patch.area > area) {
-            const Triangles faces = cloth.triangles(patch.faces, Eigen::all);
-            const MeshTopology topology(faces, int(cloth.positions.rows()));
-            std::size_t openings = 0;
-            for (const std::vector<int>& loop : topology.border_loops()) {
-                double girth = 0;
-                for (std::size_t i = 0; i < loop.size(); ++i)
-                    girth += (cloth.positions.row(loop[i]) - cloth.positions.row(loop[(i + 1) % loop.size()])).norm();
-                openings += girth > k_cap_girth * diagonal(cloth.positions);
-            }
-            return openings >= k_fewest_openings;
-        }
-    return false;
+    const auto main
+        = std::find_if(patches.begin(), patches.end(), [&](const Patch& patch) { return 2 * patch.area > area; });
+    if (main == patches.end())
+        return 0;
+    const MeshTopology topology(cloth.triangles(main->faces, Eigen::all), int(cloth.positions.rows()));
+    std::size_t openings = 0;
+    for (const std::vector<int>& loop : topology.border_loops()) {
+        double girth = 0;
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            girth += (cloth.positions.row(loop[i]) - cloth.positions.row(loop[(i + 1) % loop.size()])).norm();
+        openings += girth > k_cap_girth * diagonal(cloth.positions);
+    }
+    return openings;
 }
 
 /// Whether it encloses more than its own thickness.
@@ -137,11 +137,26 @@ void fill_up(std::vector<int>& hollow_of, const MeshTopology& topology)
     }
 }
 
-HollowEnds search(const GarmentMesh& opened)
+/// The garment's faces on each hollow of a surface that lies round it.
+std::vector<std::vector<int>> faces_on(const std::vector<Hollow>& hollows, const TriangleMesh& surface,
+                                       const GarmentMesh& garment)
 {
-    const PlainReading plain = read_plainly(opened);
-    if (plain.serves && !plain.is_sealed)
-        return {};
+    std::vector<int> hollow_of = hollow_of_faces(garment, surface, hollows);
+    const Weld weld(garment);
+    fill_up(hollow_of,
+            { garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }),
+              int(weld.gather(garment.positions).rows()) });
+    std::vector<std::vector<int>> faces(hollows.size());
+    for (int f = 0; f < int(hollow_of.size()); ++f)
+        if (hollow_of[f] >= 0)
+            faces[hollow_of[f]].push_back(f);
+    std::erase_if(faces, [](const std::vector<int>& end) { return end.empty(); });
+    return faces;
+}
+
+/// Of a garment through which no body passes.
+HollowEnds search_shut(const GarmentMesh& opened, const PlainReading& plain)
+{
     GarmentWrap wrap = wrap_parts(plain);
     const bool was_solid = is_solid(wrap);
     if (!was_solid) {
@@ -152,18 +167,65 @@ HollowEnds search(const GarmentMesh& opened)
     const std::vector<Hollow> hollows = find_hollows(wrap.surface, outside_of(wrap));
     if (hollows.size() + !was_solid < k_fewest_openings)
         return {};
-    std::vector<int> hollow_of = hollow_of_faces(opened, wrap.surface, hollows);
-    const Weld weld(opened);
-    fill_up(hollow_of,
-            { opened.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }),
-              int(weld.gather(opened.positions).rows()) });
-    HollowEnds ends { std::vector<std::vector<int>>(hollows.size()),
-                      was_solid ? without_hollows(wrap.surface, hollows) : TriangleMesh() };
-    for (int f = 0; f < int(hollow_of.size()); ++f)
-        if (hollow_of[f] >= 0)
-            ends.faces[hollow_of[f]].push_back(f);
-    std::erase_if(ends.faces, [](const std::vector<int>& faces) { return faces.empty(); });
-    return ends;
+    return { faces_on(hollows, wrap.surface, opened),
+             was_solid ? without_hollows(wrap.surface, hollows) : TriangleMesh() };
+}
+
+/// Where a hollow is, and where it opens.
+struct Place {
+    Vec3 middle = Vec3::Zero(), axis = Vec3::Zero();  // m, unit
+    double area = 0;  // m^2
+};
+
+Place place_of(const Hollow& hollow, const TriangleMesh& surface)
+{
+    Place place;
+    for (const auto* faces : { &hollow.floor, &hollow.walls })
+        for (const int f : *faces) {
+            const Vec3 area = area_vector(surface.positions, surface.triangles, f);
+            place.area += area.norm();
+            place.axis += area;
+            place.middle
+                += area.norm() * Vec3(surface.positions(surface.triangles.row(f), Eigen::all).colwise().mean());
+        }
+    place.middle /= place.area;
+    place.axis = place.axis.stableNormalized();
+    return place;
+}
+
+/// Whether two hollows are alike, like mirror images, and outermost in the direction from one to the other, as both
+/// cuffs of a shirt are. Folds of a skirt are not.
+bool are_pair(const Place& a, const Place& b, const TriangleMesh& surface)
+{
+    const Vec3 across = (b.middle - a.middle).stableNormalized();
+    const Vec3 mirrored = a.axis - 2 * a.axis.dot(across) * across;
+    const Eigen::VectorXd along = (surface.positions.rowwise() - a.middle.transpose()) * across;
+    const double length = (b.middle - a.middle).norm();
+    return std::max(a.area, b.area) < k_pair_areas * std::min(a.area, b.area) && mirrored.dot(b.axis) > k_pair_mirrored
+        && b.axis.dot(across) > k_pair_outwards
+        && std::max(along.maxCoeff() - length, -along.minCoeff()) < k_pair_beyond * length;
+}
+
+/// Of a garment with two openings, hem and neck: both sleeves may be closed.
+HollowEnds search_sleeves(const GarmentMesh& opened, const PlainReading& plain)
+{
+    if (count_openings(plain.outer) != 2)
+        return {};
+    const TriangleMesh closed = fill_openings(plain.outer);
+    std::vector<int> cloth(std::size_t(plain.outer.triangles.rows()));
+    std::iota(cloth.begin(), cloth.end(), 0);
+    const std::vector<Hollow> hollows = find_hollows(closed, cloth);
+    for (std::size_t i = 0; i < hollows.size(); ++i)
+        for (std::size_t j = i + 1; j < hollows.size(); ++j)
+            if (are_pair(place_of(hollows[i], closed), place_of(hollows[j], closed), closed))
+                return { faces_on({ hollows[i], hollows[j] }, closed, opened), {} };
+    return {};
+}
+
+HollowEnds search(const GarmentMesh& opened)
+{
+    const PlainReading plain = read_plainly(opened);
+    return plain.serves && !plain.is_sealed ? search_sleeves(opened, plain) : search_shut(opened, plain);
 }
 
 }  // namespace
@@ -173,7 +235,7 @@ void transform(HollowEnds& ends, const Eigen::Matrix4d& motion) { transform(ends
 HollowEnds find_hollow_ends(const GarmentMesh& opened)
 {
     static KeptResults<HollowEnds> kept;
-    if (opened.triangles.rows() == 0 || is_surely_open(opened))
+    if (opened.triangles.rows() == 0 || count_plain_openings(opened) > 2)  // derived: trousers have three
         return {};
     return kept.of(opened, [&] { return search(opened); });
 }

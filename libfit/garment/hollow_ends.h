@@ -17,7 +17,7 @@ struct HollowEnds {
 void transform(HollowEnds& ends, const Eigen::Matrix4d& motion);
 
 /// Those of a garment through which no body passes: it has no opening or one, also where its parts are
-/// wrapped. Two ends are opened at least, those that are open included; of others none.
+/// wrapped. Two ends are opened at least, those that are open included. And both sleeves of one with two openings.
 /// @param opened  without caps. Cost: O(n log n) for open garments, seconds for a wrap of those in parts or closed;
 /// what was found last is kept.
 HollowEnds find_hollow_ends(const GarmentMesh& opened);

@@ -111,8 +111,8 @@ private:
         return !tree_.is_met(from, from + diagonal_ * direction);
     }
 
-    /// Whether no more than `most` of the rays across an axis go out, all of them on one side: between legs some go out in
-    /// front and some behind.
+    /// Whether no more than `most` of the rays across an axis go out, all of them on one side: between legs some go out
+    /// in front and some behind.
     bool is_enclosed(const Vec3& from, const Vec3& axis, int most) const
     {
         std::array<char, k_rays> is_out {};

@@ -27,11 +27,11 @@ inline constexpr double k_sewn_on = 0.2;
 /// house, the catalogue and the wild data, the narrowest ones without a tube have 0.26 (necks, armholes); twelve holes
 /// in eight clothes of web shops have 0.07 to 0.17.
 inline constexpr double k_widest_hole = 0.2;
-/// fitted: likewise, or below this width as a share of the length. The openings have 0.36; a slit between pleats and two
-/// of pockets have 0.14, 0.12 and 0.11.
+/// fitted: likewise, or below this width as a share of the length. The openings have 0.36; a slit between pleats and
+/// two of pockets have 0.14, 0.12 and 0.11.
 inline constexpr double k_slit_roundness = 0.25;
-/// fitted: likewise. Slices of the tube, below which there is none: cuffs that narrow have 11, the holes 1 to 5, for the
-/// cloth around them widens.
+/// fitted: likewise. Slices of the tube, below which there is none: cuffs that narrow have 11, the holes 1 to 5, for
+/// the cloth around them widens.
 inline constexpr double k_shortest_cuff = 7;
 /// fitted: guess. Width of a tube's slices as a share of the garment's diagonal: two or three edges.
 inline constexpr double k_slice = 0.02;
@@ -62,8 +62,8 @@ inline constexpr double k_steep_sine = 0.77, k_cap_outline = 0.9;
 inline constexpr double k_cap_roundness = 0.2;
 /// fitted: likewise. Depth of a cap, and of a fan, as a share of the root of its area: hems are not flat.
 inline constexpr double k_cap_depth = 0.05, k_fan_depth = 0.35;
-/// fitted: guess. Faces that close a hole among others, at least, as a fan or from rim to rim: vertices of cloth have up
-/// to 12.
+/// fitted: guess. Faces that close a hole among others, at least, as a fan or from rim to rim: vertices of cloth have
+/// up to 12.
 inline constexpr std::size_t k_fan_faces = 16;
 /// fitted: guess. Cosine between each face of a fan and the whole. A corner of a cap has faces of the tube, too.
 inline constexpr double k_fan_cosine = 0.5;
@@ -75,21 +75,21 @@ inline constexpr double k_fill_edge = 4, k_ear_edge = 1.3;
 /// fitted: guess, on the openings of six generated tops. Depth of a filled hole of a garment without any opening, as a
 /// share of the root of its area: crumpled cuffs have up to 0.6.
 inline constexpr double k_fill_depth = 0.7;
-/// fitted: guess, between 0.67, the most of regions of that kind in the cloth of 57 clothes of web shops and 152 others,
-/// and 0.85, the least of four filled necks and hems. Area of a filled hole of cloth with other openings, as a share of a
-/// disc of the same girth; it has at least as many faces as a fan.
+/// fitted: guess, between 0.67, the most of regions of that kind in the cloth of 57 clothes of web shops and 152
+/// others, and 0.85, the least of four filled necks and hems. Area of a filled hole of cloth with other openings, as a
+/// share of a disc of the same girth; it has at least as many faces as a fan.
 inline constexpr double k_fill_roundness = 0.75;
-/// fitted: guess. Caps of one patch, above which they are none: a jumpsuit has six, neck and hem included; coarse clothes
-/// of web shops have 22 and more flat facets.
+/// fitted: guess. Caps of one patch, above which they are none: a jumpsuit has six, neck and hem included; coarse
+/// clothes of web shops have 22 and more flat facets.
 inline constexpr std::size_t k_most_ends = 8;
 /// derived: caps of a closed surface from which on it is opened: a cylinder and a pillow have two, a skirt as well.
 inline constexpr std::size_t k_least_ends = 3;
 
 // ---- hollows in which tubes end (hollows.cpp) ---------------------------------------------------------------------
 
-// fitted: guesses, on six clothes of web shops that are closed by cloth modelled all the way round, with 21 such ends, and
-// on 41 garments of the catalogue, closed by bowls of .08 and .25 of the girth of each opening: of 296 ends 207 are found,
-// and 33 false ones; of 292 of the 41 other garments 205, and 71 false ones. Lengths are shares of the garment's
+// fitted: guesses, on six clothes of web shops that are closed by cloth modelled all the way round, with 21 such ends,
+// and on 41 garments of the catalogue, closed by bowls of .08 and .25 of the girth of each opening: of 296 ends 207 are
+// found, and 33 false ones; of 292 of the 41 other garments 205, and 71 false ones. Lengths are shares of the garment's
 // diagonal, areas of its square.
 
 /// Spread of the mean direction: half a cuff. Cosine between it and a face of a floor, at least.
@@ -108,14 +108,20 @@ inline constexpr double k_hollow_reach = 0.05;
 /// Length of the solid behind a floor over its width: ends have 1 to 10, folds of a jacket's front 0.3 to 0.4 and 1.1
 /// between its lapels, a crotch up to 1.2.
 inline constexpr double k_hollow_length = 1.3;
-/// Smallest spread of a hollow over its largest, and its area over that of a disc as wide as the solid behind it. A tenth
-/// of the ends have less, and half of what is none.
+/// Smallest spread of a hollow over its largest, and its area over that of a disc as wide as the solid behind it. A
+/// tenth of the ends have less, and half of what is none.
 inline constexpr double k_hollow_roundness = 0.35, k_hollow_share = 0.2;
 /// rad: directions tried behind a floor that is not level. Depth at which the width is measured.
 inline constexpr double k_hollow_tilt = 0.7, k_hollow_depth = 0.05;
 /// Cosine between the axis and places from which is measured, and how many these are.
 inline constexpr double k_hollow_facing = 0.7;
 inline constexpr std::size_t k_hollow_samples = 40;
+
+/// Two hollows that are a pair of cuffs (hollow_ends.cpp): ratio of their areas, cosine between one's axis and the
+/// mirror image of the other's, and between it and the line across, and how far the cloth goes on beyond them, as a
+/// share of that line. fitted: guess, between two shirts of web shops and 24 skirts and strapless dresses of the
+/// catalogue.
+inline constexpr double k_pair_areas = 1.25, k_pair_mirrored = 0.9, k_pair_outwards = 0.5, k_pair_beyond = 0.1;
 
 // ---- lids and fillings (lids_and_fillings.cpp) --------------------------------------------------------------------
 
@@ -130,7 +136,8 @@ inline constexpr double k_lid_roundness = 0.3, k_lid_depth = 0.3, k_lid_cover = 
 /// fitted: likewise. The rim is nearer to the cloth than this, for this share of its vertices; the middle is farther,
 /// in half widths. Share of the cloth near the rim, by its area, that is as steep as at a cap: a neck has 0.67.
 inline constexpr double k_lid_reach = 0.15, k_lid_outline = 0.9, k_lid_middle = 0.5, k_lid_steep = 0.5;
-/// fitted: guess, on two crumpled cuffs of a web shop, 0.3 and 0.45. Largest depth of a lid of many triangles from rim to rim.
+/// fitted: guess, on two crumpled cuffs of a web shop, 0.3 and 0.45. Largest depth of a lid of many triangles from rim
+/// to rim.
 inline constexpr double k_filled_lid_depth = 0.6;
 
 // ---- outward orientation (outward_cloth.cpp) ----------------------------------------------------------------------
@@ -157,11 +164,11 @@ inline constexpr double k_longest_borders = 10;
 /// diagonal: the wrap spans what is narrower than about twice the first, and keeps the second off the cloth.
 inline constexpr double k_garment_wrap = 0.0115, k_garment_wrap_offset = 0.0025;
 /// Openings with which the inner sheet of a wrap has all that count, as many as trousers. fitted: of 64 clothes of web
-/// shops, the inner sheet has the three of trousers or the four of a top in 47, the outer one in 39; in four the inner one
-/// is closed, at cuffs for example, where the outer one is open.
+/// shops, the inner sheet has the three of trousers or the four of a top in 47, the outer one in 39; in four the inner
+/// one is closed, at cuffs for example, where the outer one is open.
 inline constexpr std::size_t k_enough_openings = 3;
-/// Diagonals of border beyond which an inner sheet is ragged. fitted: a guess between 3.7, the most of 50 of the same wraps
-/// that are clean, and 4.2 to 9.7, of ten with pleats and frills.
+/// Diagonals of border beyond which an inner sheet is ragged. fitted: a guess between 3.7, the most of 50 of the same
+/// wraps that are clean, and 4.2 to 9.7, of ten with pleats and frills.
 inline constexpr double k_longest_sheet_borders = 4;
 
 // ---- outer sheet (outer_sheet.cpp) --------------------------------------------------------------------------------
@@ -260,8 +267,8 @@ struct UsualExtents {
 };
 inline constexpr UsualExtents k_usual_with_legs { { 0.29, 0.13 }, { 0.47, 0.1 } },
     k_usual_with_arms { { 0.335, 0.19 }, { 0.75, 0.37 } }, k_usual_without { { 0.39, 0.28 }, { 0.555, 0.28 } };
-/// Share of the stature that the longest trousers have, from waist to hem. fitted: guess; of the two catalogues' trousers
-/// the longest have 0.6
+/// Share of the stature that the longest trousers have, from waist to hem. fitted: guess; of the two catalogues'
+/// trousers the longest have 0.6
 inline constexpr Usual k_longest_trousers { 0.62, 0.05 };
 
 // ---- upright or not (type_guess.cpp) ------------------------------------------------------------------------------

@@ -120,23 +120,56 @@ TEST(HollowEnds, OfASolidLeaveOneLayerOfClothWithItsOpenings)
     EXPECT_EQ(lining->triangles, opened.outside.triangles);
 }
 
-/// Without its faces above a height.
-TriangleMesh cut_off(const TriangleMesh& mesh, double height)
+/// Its faces between two heights, m.
+TriangleMesh between(double low, double high, const TriangleMesh& mesh)
 {
     std::vector<int> kept;
-    for (int f = 0; f < int(mesh.triangles.rows()); ++f)
-        if (mesh.positions(mesh.triangles.row(f), 1).maxCoeff() < height)
+    for (int f = 0; f < int(mesh.triangles.rows()); ++f) {
+        const Eigen::VectorXd heights = mesh.positions(mesh.triangles.row(f), 1);
+        if (heights.minCoeff() > low && heights.maxCoeff() < high)
             kept.push_back(f);
+    }
     return weld_vertices({ mesh.positions, mesh.triangles(kept, Eigen::all) });
 }
 
 TEST(HollowEnds, OfClothThatIsOpenElsewhereAreLeftOut)
 {
-    const TriangleMesh cloth = cut_off(trousers(0.03), 0.75);
+    const TriangleMesh cloth = between(-1, 0.75, trousers(0.03));
     const OpenedGarment opened = open_ends(garment_of(cloth));
     EXPECT_EQ(opened.closed_ends, 2);
     EXPECT_EQ(opened.outside.triangles.rows(), 0);
     EXPECT_EQ(count_openings(outward_cloth(garment_of(cloth))), 3u);
+}
+
+/// A shirt 0.56 m long, open at hem and neck, whose sleeves end in cones.
+TriangleMesh shirt_with_closed_sleeves()
+{
+    const auto solid = [](const Vec3& p) {
+        const Vec3 along_sleeves(p.z(), p.x(), p.y() - 0.5);
+        const double shirt
+            = std::min(cylinder(p, 0, 0, 0.6, 0.2, 0.12), cylinder(along_sleeves, 0, -0.4, 0.4, 0.07, 0.07));
+        return std::max(shirt, std::abs(p.x()) - 0.36 - std::hypot(p.y() - 0.5, p.z()));
+    };
+    return between(0.02, 0.58, fixtures::polygonise(solid, Vec3(-0.46, -0.06, -0.18), Vec3(0.46, 0.66, 0.18), 0.015));
+}
+
+TEST(HollowEnds, OfBothSleevesAreLeftOutWhereHemAndNeckAreOpen)
+{
+    const TriangleMesh shirt = shirt_with_closed_sleeves();
+    ASSERT_EQ(count_openings(shirt), 2u);
+    EXPECT_EQ(open_ends(garment_of(shirt)).closed_ends, 2);
+    EXPECT_EQ(count_openings(outward_cloth(garment_of(shirt))), 4u);
+}
+
+TEST(HollowEnds, AreNotFoldsOfASkirt)
+{
+    const TriangleMesh skirt
+        = between(0.03, 0.87, meshed([](const Vec3& p) {
+                      const double fold = 0.025 * std::cos(8 * std::atan2(p.z(), p.x()));
+                      return std::max({ std::hypot(p.x(), p.z()) - 0.12 - fold, -p.y(), p.y() - 0.9 });
+                  }));
+    ASSERT_EQ(count_openings(skirt), 2u);
+    EXPECT_EQ(open_ends(garment_of(skirt)).closed_ends, 0);
 }
 
 TEST(HollowEnds, AreNoneOfASolidWithoutHollows)

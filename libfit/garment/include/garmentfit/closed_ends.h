@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Garments whose cuffs, ankles, neck or hem are closed, by flat caps or by cloth that is modelled all the way round, and
-// what lies in them that is no cloth.
+// Garments whose cuffs, ankles, neck or hem are closed, by flat caps or by cloth that is modelled all the way round,
+// and what lies in them that is no cloth.
 
 #include "garmentfit/export.h"
 #include "garmentfit/mesh.h"
@@ -31,9 +31,9 @@ struct OpenedGarment {
 /// that hide the inside of the garment. A surface that is closed everywhere keeps its caps unless they are three or
 /// more: a sphere, a block or a pillow is no garment.
 /// Where no body passes after that, the floors of its hollows are left out, too: of cuffs, ankles, hems and
-/// necks that end in bowls, domes or funnels, and of solids.
-/// Any size: lengths are judged by the garment's own. Cost O(n log n); with hollows, and for clothes in parts, the seconds
-/// of a wrap, once for a garment that was asked for lately.
+/// necks that end in bowls, domes or funnels, and of solids; and those of both sleeves where hem and neck are open.
+/// Any size: lengths are judged by the garment's own. Cost O(n log n); with hollows, and for clothes in parts, the
+/// seconds of a wrap, once for a garment that was asked for lately.
 GARMENTFIT_API OpenedGarment open_ends(const GarmentMesh& garment);
 
 }  // namespace garmentfit
