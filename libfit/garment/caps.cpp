@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "cloth_patches.h"
 #include "disjoint_sets.h"
 #include "lids_and_fillings.h"
 #include "quantile.h"
@@ -178,11 +179,8 @@ void Caps::mark_closed_faces()
     is_closed_.assign(std::size_t(faces_.rows()), is_closed());
     std::vector<char> is_at_opening(std::size_t(faces_.rows()), 0);
     for (const std::vector<int>& loop : topology_.border_loops()) {
-        double girth = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            girth += (positions_.row(loop[i]) - positions_.row(loop[(i + 1) % loop.size()])).norm();
         const int side = topology_.sides_at(topology_.edge_between(loop[0], loop[1 % loop.size()]))[0];
-        is_at_opening[side / 3] = girth > smallest_girth_;
+        is_at_opening[side / 3] = girth_of(positions_, loop) > smallest_girth_;
     }
     double whole = 0;  // m^2
     for (const Vec3& area : areas_)

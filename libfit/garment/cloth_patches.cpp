@@ -294,6 +294,14 @@ TriangleMesh fill_openings(TriangleMesh cloth)
     return cloth;
 }
 
+double girth_of(const Positions& positions, const std::vector<int>& loop)
+{
+    double girth = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        girth += (positions.row(loop[i]) - positions.row(loop[(i + 1) % loop.size()])).norm();
+    return girth;
+}
+
 double border_length(const Positions& positions, const MeshTopology& topology)
 {
     double length = 0;

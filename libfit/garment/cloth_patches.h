@@ -49,6 +49,9 @@ TriangleMesh weld_vertices(const GarmentMesh& garment);
 /// Closes each opening with a fan around its middle.
 TriangleMesh fill_openings(TriangleMesh cloth);
 
+/// m, round a border that passes these vertices in turn.
+double girth_of(const Positions& positions, const std::vector<int>& loop);
+
 /// m, of all borders.
 double border_length(const Positions& positions, const MeshTopology& topology);
 

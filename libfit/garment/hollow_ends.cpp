@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <optional>
 
 #include "garment_openings.h"
 #include "garment_wrap.h"
@@ -39,14 +38,10 @@ std::size_t count_plain_openings(const GarmentMesh& garment)
     if (main == patches.end())
         return 0;
     const MeshTopology topology(cloth.triangles(main->faces, Eigen::all), int(cloth.positions.rows()));
-    std::size_t openings = 0;
-    for (const std::vector<int>& loop : topology.border_loops()) {
-        double girth = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            girth += (cloth.positions.row(loop[i]) - cloth.positions.row(loop[(i + 1) % loop.size()])).norm();
-        openings += girth > k_cap_girth * diagonal(cloth.positions);
-    }
-    return openings;
+    const std::vector<std::vector<int>> loops = topology.border_loops();
+    return std::size_t(std::count_if(loops.begin(), loops.end(), [&](const std::vector<int>& loop) {
+        return girth_of(cloth.positions, loop) > k_cap_girth * diagonal(cloth.positions);
+    }));
 }
 
 /// Whether it encloses more than its own thickness.

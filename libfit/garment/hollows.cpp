@@ -27,6 +27,7 @@ namespace {
 using namespace garment_tuning;
 
 constexpr int k_rays = 24;  // unit: directions across an axis
+constexpr double k_most_steps = 500;  // unit: of blurring; bounds the work on what has hardly an area
 constexpr double k_off = 1e-4;  // unit: share of the diagonal, so that a ray does not start on its own face
 
 /// Evenly round an axis, across it.
@@ -92,7 +93,7 @@ private:
         // derived: a step of equal weights spreads by about the distance between the middles of neighbours, 2/3 of the
         // square root of a face's area; spreads add up as squares
         const double step = whole / double(areas_.size()) / 2;
-        const int steps = int(std::ceil(std::pow(k_hollow_blur * diagonal_, 2) / step));
+        const int steps = int(std::min(std::ceil(std::pow(k_hollow_blur * diagonal_, 2) / step), k_most_steps));
         directions_ = areas_;
         for (int i = 0; i < steps; ++i) {
             std::vector<Vec3> next = directions_;
