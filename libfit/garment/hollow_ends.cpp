@@ -201,20 +201,29 @@ bool are_pair(const Place& a, const Place& b, const TriangleMesh& surface)
         && std::max(along.maxCoeff() - length, -along.minCoeff()) < k_pair_beyond * length;
 }
 
-/// Of a garment with two openings, hem and neck: both sleeves may be closed.
+/// Whether a hollow lies in an opening: hems are folded inwards.
+bool lies_in(const Place& hollow, const Opening& opening)
+{
+    return (hollow.middle - opening.centre).norm() < k_in_opening * opening.girth;
+}
+
+/// Of a garment with two openings, hem and neck: both sleeves may be closed. Where there are other hollows, all are folds.
 HollowEnds search_sleeves(const GarmentMesh& opened, const PlainReading& plain)
 {
-    if (count_openings(plain.outer) != 2)
+    const std::vector<Opening> openings = openings_of(plain.outer);
+    if (openings.size() != 2)
         return {};
     const TriangleMesh closed = fill_openings(plain.outer);
     std::vector<int> cloth(std::size_t(plain.outer.triangles.rows()));
     std::iota(cloth.begin(), cloth.end(), 0);
-    const std::vector<Hollow> hollows = find_hollows(closed, cloth);
-    for (std::size_t i = 0; i < hollows.size(); ++i)
-        for (std::size_t j = i + 1; j < hollows.size(); ++j)
-            if (are_pair(place_of(hollows[i], closed), place_of(hollows[j], closed), closed))
-                return { faces_on({ hollows[i], hollows[j] }, closed, opened), {} };
-    return {};
+    std::vector<Hollow> hollows = find_hollows(closed, cloth);
+    std::erase_if(hollows, [&](const Hollow& hollow) {
+        const Place place = place_of(hollow, closed);
+        return lies_in(place, openings[0]) || lies_in(place, openings[1]);
+    });
+    if (hollows.size() != 2 || !are_pair(place_of(hollows[0], closed), place_of(hollows[1], closed), closed))
+        return {};
+    return { faces_on(hollows, closed, opened), {} };
 }
 
 HollowEnds search(const GarmentMesh& opened)

@@ -112,9 +112,8 @@ private:
         return !tree_.is_met(from, from + diagonal_ * direction);
     }
 
-    /// Whether no more than `most` of the rays across an axis go out, all of them on one side: between legs some go out
-    /// in front and some behind.
-    bool is_enclosed(const Vec3& from, const Vec3& axis, int most) const
+    /// Whether no more than `most` of the rays across an axis go out, and on no more than so many sides.
+    bool is_enclosed(const Vec3& from, const Vec3& axis, int most, int most_sides) const
     {
         std::array<char, k_rays> is_out {};
         int out = 0, sides = 0;
@@ -124,15 +123,16 @@ private:
                 return false;
         for (int i = 0; i < k_rays; ++i)
             sides += is_out[i] && !is_out[(i + 1) % k_rays];
-        return sides <= 1;
+        return sides <= most_sides;
     }
 
-    /// Whether no more than `most` of the rays from above a face go out.
+    /// Whether no more than `most` of the rays from above a face go out, all of them on one side: between legs some go
+    /// out in front and some behind.
     bool is_floor(int f, int most) const
     {
         return directions_[f].dot(areas_[f].stableNormalized()) > k_hollow_floor
             && std::any_of(k_hollow_heights.begin(), k_hollow_heights.end(), [&](double height) {
-                   return is_enclosed(middles_[f] + height * diagonal_ * directions_[f], directions_[f], most);
+                   return is_enclosed(middles_[f] + height * diagonal_ * directions_[f], directions_[f], most, 1);
                });
     }
 
@@ -285,8 +285,8 @@ private:
             return false;
         const Vec3 outwards = (away - away.dot(floor.axis) * floor.axis).stableNormalized();
         return normal.dot(floor.axis) > normal.dot(outwards)
-            && is_enclosed(middles_[f] + k_hollow_heights[0] / 2 * diagonal_ * normal, floor.axis,
-                           k_rays_out_of_hollow);
+            && is_enclosed(middles_[f] + k_hollow_heights[0] / 2 * diagonal_ * normal, floor.axis, k_rays_out_of_hollow,
+                           k_rays);
     }
 
     std::vector<int> up_to_rim(const Part& floor) const
