@@ -9,6 +9,7 @@
 #include "caps.h"
 #include "hollow_ends.h"
 #include "lids_and_fillings.h"
+#include "nearest.h"
 #include "thick_cloth.h"
 #include "tuning.h"
 #include "used_vertices.h"
@@ -147,6 +148,16 @@ OpenedGarment leave_out_caps(const GarmentMesh& garment)
     return result;
 }
 
+/// Draws each vertex of some triangles that is none of the cloth to the nearest one that is.
+void draw_to_cloth(Positions& positions, const Triangles& drawn, const Triangles& cloth)
+{
+    const std::vector<int> kept = used_vertices(cloth);
+    const NearestPoint nearest(positions(kept, Eigen::all));
+    for (const int v : used_vertices(drawn))
+        if (!std::binary_search(kept.begin(), kept.end(), v))
+            positions.row(v) = positions.row(kept[nearest.index(positions.row(v))]).eval();
+}
+
 }  // namespace
 
 OpenedGarment open_ends(const GarmentMesh& garment)
@@ -157,7 +168,11 @@ OpenedGarment open_ends(const GarmentMesh& garment)
         return result;
     std::vector<char> is_kept(std::size_t(result.garment.triangles.rows()), 1);
     leave_out(ends.faces, is_kept);
-    result.garment.triangles = result.garment.triangles(marked(is_kept), Eigen::all).eval();
+    const Triangles given = result.garment.triangles;
+    result.garment.triangles = given(marked(is_kept), Eigen::all);
+    const bool was_solid = ends.outside.triangles.rows() > 0;  // its floors are hidden deep inside
+    for (std::size_t i = 0; i < ends.faces.size() && !was_solid; ++i)
+        draw_to_cloth(result.garment.positions, given(ends.faces[i], Eigen::all), result.garment.triangles);
     result.closed_ends += int(ends.faces.size());
     result.outside = std::move(ends.outside);
     return result;

@@ -12,7 +12,9 @@
 #include "fixtures.h"
 #include "garment_openings.h"
 #include "garmentfit/closed_ends.h"
+#include "nearest.h"
 #include "outward_cloth.h"
+#include "used_vertices.h"
 
 namespace garmentfit {
 namespace {
@@ -137,6 +139,9 @@ TEST(HollowEnds, OfClothThatIsOpenElsewhereAreLeftOut)
     const TriangleMesh cloth = between(-1, 0.75, trousers(0.03));
     const OpenedGarment opened = open_ends(garment_of(cloth));
     EXPECT_EQ(opened.closed_ends, 2);
+    const NearestPoint kept(opened.garment.positions(used_vertices(opened.garment.triangles), Eigen::all));
+    for (Eigen::Index v = 0; v < cloth.positions.rows(); ++v)
+        ASSERT_EQ(kept.distance(opened.garment.positions.row(v)), 0) << "floors are drawn to the cloth";
     EXPECT_EQ(opened.outside.triangles.rows(), 0);
     EXPECT_EQ(count_openings(outward_cloth(garment_of(cloth))), 3u);
 }

@@ -18,7 +18,8 @@ struct LeftOut {
 
 struct OpenedGarment {
     /// All vertices in their order, and the faces of the cloth in theirs. The vertices of each piece of `left_out` lie
-    /// in one place, that of the vertex of the cloth nearest to its middle: they go where the cloth goes.
+    /// in one place, that of the vertex of the cloth nearest to its middle: they go where the cloth goes. So does each
+    /// vertex of the floor of a hollow, but for solids.
     GarmentMesh garment;
     int closed_ends = 0;  ///< caps, lids and floors of hollows
     LeftOut left_out = {};
