@@ -148,12 +148,12 @@ OpenedGarment leave_out_caps(const GarmentMesh& garment)
     return result;
 }
 
-/// Draws each vertex of some triangles that is none of the cloth to the nearest one that is.
-void draw_to_cloth(Positions& positions, const Triangles& drawn, const Triangles& cloth)
+/// Draws each vertex of the given triangles that is none of the cloth among them to the nearest one that is.
+void draw_to_cloth(Positions& positions, const Triangles& given, const Triangles& cloth)
 {
     const std::vector<int> kept = used_vertices(cloth);
     const NearestPoint nearest(positions(kept, Eigen::all));
-    for (const int v : used_vertices(drawn))
+    for (const int v : used_vertices(given))
         if (!std::binary_search(kept.begin(), kept.end(), v))
             positions.row(v) = positions.row(kept[nearest.index(positions.row(v))]).eval();
 }
@@ -166,13 +166,12 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     HollowEnds ends = find_hollow_ends(result.garment);
     if (ends.faces.empty())
         return result;
-    std::vector<char> is_kept(std::size_t(result.garment.triangles.rows()), 1);
-    leave_out(ends.faces, is_kept);
     const Triangles given = result.garment.triangles;
+    std::vector<char> is_kept(std::size_t(given.rows()), 1);
+    leave_out(ends.faces, is_kept);
     result.garment.triangles = given(marked(is_kept), Eigen::all);
-    const bool was_solid = ends.outside.triangles.rows() > 0;  // its floors are hidden deep inside
-    for (std::size_t i = 0; i < ends.faces.size() && !was_solid; ++i)
-        draw_to_cloth(result.garment.positions, given(ends.faces[i], Eigen::all), result.garment.triangles);
+    if (ends.outside.triangles.rows() == 0)  // floors of solids are hidden deep inside
+        draw_to_cloth(result.garment.positions, given, result.garment.triangles);
     result.closed_ends += int(ends.faces.size());
     result.outside = std::move(ends.outside);
     return result;
