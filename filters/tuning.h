@@ -71,7 +71,7 @@ inline constexpr double k_usual_longest_side = 1;
 
 /// Share of the stature that the longest clothes have, hoods and trains apart, that the shortest have, and the spread
 /// of the logarithm beyond them. fitted: guess; from shoulder to floor it is about 0.82. With 0.95, a dress of a shop
-/// was 1.89 m long, in metres; with either, all 152 garments with a unit keep it on three bodies.
+/// was 1.89 m long, in metres; of 152 garments with a unit none is read differently on three bodies.
 inline constexpr double k_longest_share = 0.86, k_shortest_share = 0.1, k_length_spread = 0.05;
 /// m. Tallest people for whom clothes are made, where the body is not taller. fitted: guess; as the longest share is
 /// ample, a garment without a hood may be made for people of 2 m
