@@ -10,11 +10,44 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
+# All targets alike: objects of both kinds in one library would share code that only one kind of processor runs.
+set(GARMENTFIT_CPU auto CACHE STRING
+    "Processors to build for: baseline, x86-64-v3 (those with AVX2 and FMA), or auto: this machine's of these two")
+set_property(CACHE GARMENTFIT_CPU PROPERTY STRINGS auto baseline x86-64-v3)
+if(NOT GARMENTFIT_CPU MATCHES "^(auto|baseline|x86-64-v3)$")
+    message(FATAL_ERROR "GARMENTFIT_CPU: \"${GARMENTFIT_CPU}\" is none of auto, baseline, x86-64-v3")
+endif()
+set(fit_cpu ${GARMENTFIT_CPU})
+if(GARMENTFIT_INSTALLED)
+    set(fit_cpu baseline)  # the installed libfit, not the plugins on it, is what takes the time
+elseif(fit_cpu STREQUAL auto)
+    set(fit_cpu baseline)
+    if(NOT CMAKE_CROSSCOMPILING)
+        include(CheckCXXSourceRuns)
+        check_cxx_source_runs("int main() { return !(__builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\")
+                                                     && __builtin_cpu_supports(\"bmi2\")); }" GARMENTFIT_HAS_X86_64_V3)
+        if(GARMENTFIT_HAS_X86_64_V3)
+            set(fit_cpu x86-64-v3)
+        endif()
+    endif()
+endif()
+set(GARMENTFIT_X86_64_V3 0)
+if(fit_cpu STREQUAL x86-64-v3)
+    set(GARMENTFIT_X86_64_V3 1)
+    # GCC 12 is mistaken about loops of four doubles that never run over vectors of three (Eigen's umeyama); baseline
+    # builds keep the warnings
+    add_compile_options(-march=x86-64-v3 -Wno-array-bounds -Wno-free-nonheap-object)
+    # Matrices of libfit and of programs that are compiled for other processors: aligned to what all have, and kept in
+    # memory that Eigen aligns by itself in both (else it would be malloc's in the one and its own in the other).
+    set(fit_eigen_memory EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=0)
+    add_compile_definitions(${fit_eigen_memory})
+endif()
+
 set(GARMENTFIT_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
 
 function(fit_target name)
     target_compile_options(${name} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi
-                           # exact predicates and equal bits on every machine need plain IEEE arithmetic
+                           # exact predicates need plain IEEE arithmetic
                            -ffp-contract=off)
     if(GARMENTFIT_WERROR)
         target_compile_options(${name} PRIVATE -Werror)

@@ -9,6 +9,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "garmentfit/version.h"
+
+#if EIGEN_MAX_ALIGN_BYTES != 16 || (GARMENTFIT_X86_64_V3 && EIGEN_MALLOC_ALREADY_ALIGNED)
+#error                                                                                                                 \
+    "Eigen would free matrices of this program in another way than libfit makes them: link GarmentFit::fit in CMake, \
+or define EIGEN_MAX_ALIGN_BYTES=16 and EIGEN_MALLOC_ALREADY_ALIGNED=0 for all sources"
+#endif
+
 namespace garmentfit {
 
 using Vec3 = Eigen::Vector3d;
