@@ -15,6 +15,7 @@
 #include "pose_path.h"
 #include "sewn_body.h"
 #include "skin_weights.h"
+#include "stretch.h"
 #include "tightness.h"
 #include "topology.h"
 #include "tuning.h"
@@ -263,13 +264,23 @@ std::vector<TooTight> list_tight_parts(const Rig& rig, const DressedBody& before
     return result;
 }
 
+/// Whether a garment is stretched so far that it will not slide to where it is wide enough.
+bool is_far_too_tight(const DressedBody& now, const ClothOptions& cloth)
+{
+    return std::any_of(now.garments.begin(), now.garments.end(), [&](const WornGarment& garment) {
+        const auto edges = edge_stretches(garment.rest.positions, garment.positions, edges_of(garment.rest.triangles));
+        return quantile_by_length(edges, k_stretch_quantile)
+            > k_far_too_tight * material_of(cloth, garment).largest_stretch;
+    });
+}
+
 struct Start {
     const Rig& rig;
     const DressedBody& dressed;
 };
 
 /// Lets the cloth hang at the end of the way, leads it to rest where that is asked for, and writes what comes of it.
-/// What looks too small is led there as well: it may slide to where it is not.
+/// What looks too small is led there as well, for it may slide to where it is not, unless it is far too small.
 /// @return whether the whole body is in its place
 bool come_to_rest(ClothMotion& motion, const Positions& end, Quality quality, const RecoverOptions& options,
                   const Start& start, RecoverResult& result, const Progress& progress)
@@ -285,13 +296,15 @@ bool come_to_rest(ClothMotion& motion, const Positions& end, Quality quality, co
         return settled;
     };
     SettleResult settled = hang(options.settling_steps);
-    if (!result.too_tight.empty() && !settled.out_of_time)  // it may only be caught
+    const bool looks_too_tight = !result.too_tight.empty(),
+               is_hopeless = looks_too_tight && is_far_too_tight(result, options.cloth);
+    if (looks_too_tight && !is_hopeless && !settled.out_of_time)  // it may only be caught
         settled = hang(k_steps_if_tight);
     result.speed = settled.speed;
     result.out_of_time = settled.out_of_time;
     if (settled.out_of_time)
         return settled.is_at_target;
-    if (quality == Quality::draft || !settled.is_at_target) {
+    if (quality == Quality::draft || is_hopeless || !settled.is_at_target) {
         result.residual = motion.residual();
         return settled.is_at_target;
     }

@@ -29,20 +29,6 @@ std::vector<TooTight> sort_worst_first(std::vector<TooTight> parts)
     return parts;
 }
 
-/// The stretch that this fraction of the edges does not exceed, by their length at rest: where triangles are uneven, most
-/// edges are small details. O(n log n).
-double quantile_by_length(std::vector<EdgeStretch> edges, double fraction)
-{
-    std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.stretch < b.stretch; });
-    double left = 0;
-    for (const EdgeStretch& edge : edges)
-        left += fraction * edge.rest;
-    for (const EdgeStretch& edge : edges)
-        if ((left -= edge.rest) <= 0)
-            return edge.stretch;
-    return 0;
-}
-
 }  // namespace
 
 Tightness::Tightness(const Positions& rest, const Edges& edges, const SkinWeights& weights, const Skeleton& skeleton,
