@@ -67,7 +67,7 @@ public:
             if (!left.empty())
                 let_go();
             in_time = make_round(left.empty() ? k_enough_at_first : 0, progress, most);
-            left.push_back(residual_.mean);
+            left.push_back(typical_residual());
             const bool is_still = stands_still(cloth() - before);
             if (after_rest >= 0 || (left.size() > 1 && residual_.is_at_rest() && is_still))
                 ++after_rest;
@@ -101,6 +101,10 @@ private:
         return *nearly_all < k_still && lengths.maxCoeff() < k_nearly_still;
     }
 
+    /// What is left on a vertex on the mean where none is jammed: such a vertex may have more than all others together. Of
+    /// cloth near balance the 99th percentile is ten times the mean or more, as in ForceResidual::is_at_rest.
+    double typical_residual() const { return residual_.percentile_99 / 10; }
+
     /// Whether two rounds brought the forces no nearer to balance.
     static bool has_stalled(const std::vector<double>& left)
     {
@@ -119,7 +123,7 @@ private:
         return left[n - 1] * std::pow(left[n - 1] / left[n - 2], 2 * rounds_left) > k_balanced;
     }
 
-    /// Moves until forces balance, or leave no more than `enough` on the mean.
+    /// Moves until forces balance, or leave no more than `enough`.
     /// @return whether there was time enough
     bool make_round(double enough, const Progress& progress, int most)
     {
@@ -133,7 +137,7 @@ private:
         return true;
     }
 
-    bool is_balanced(double enough) const { return residual_.mean < enough || residual_.is_at_rest(); }
+    bool is_balanced(double enough) const { return typical_residual() < enough || residual_.is_at_rest(); }
 
     /// To the best state, with the contacts and the anchors that it was in balance with.
     void go_back()
@@ -260,7 +264,7 @@ private:
             energy_.set_time_step(k_rest_time_step);
             factor_.emplace(energy_);
         }
-        if (residual_.mean > k_far_contacts || moves_ >= next_factor_) {
+        if (typical_residual() > k_far_contacts || moves_ >= next_factor_) {
             factor_->factorise(from, constraints_);
             next_factor_ = moves_ + k_factor_period;
         }
