@@ -237,9 +237,10 @@ void recover(Scene& scene, const Parameters& p, const Progress& progress)
 using RunStage = void(Scene&, const Parameters&, const Progress&);
 
 /// Runs a stage with stand-ins in the places of garments that need one.
-/// @param output  where it puts its dressing
-void run_with_stand_ins(RunStage& run, Stage stage, std::optional<Dressing> Scene::*output, Scene& scene,
-                        const Parameters& p, const ClothOptions& cloth, const Progress& progress)
+/// @param output         where it puts its dressing
+/// @param is_on_the_way  where it ends well, another stage goes on from there
+void run_with_stand_ins(RunStage& run, Stage stage, bool is_on_the_way, std::optional<Dressing> Scene::*output,
+                        Scene& scene, const Parameters& p, const ClothOptions& cloth, const Progress& progress)
 {
     if (!find_stand_ins(scene))
         return run(scene, p, progress);
@@ -247,7 +248,8 @@ void run_with_stand_ins(RunStage& run, Stage stage, std::optional<Dressing> Scen
     run(led, p, progress);
     const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*output));
     const bool led_well = (led.*output)->certified;
-    Dressing dressing = follow_stand_ins({ scene, led, order }, *std::move(led.*output), cloth, progress);
+    Dressing dressing
+        = follow_stand_ins({ scene, led, order, is_on_the_way && led_well }, *std::move(led.*output), cloth, progress);
     if (led_well && !dressing.certified && progress.is_late())
         dressing.out_of_time = stage;
     scene.*output = std::move(dressing);
@@ -257,12 +259,17 @@ void run_with_stand_ins(RunStage& run, Stage stage, std::optional<Dressing> Scen
 
 void drape_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(drape_all, Stage::drape, &Scene::draped, scene, p, p.drape.cloth, progress);
+    run_with_stand_ins(drape_all, Stage::drape, false, &Scene::draped, scene, p, p.drape.cloth, progress);
+}
+
+void drape_on_the_way_stage(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    run_with_stand_ins(drape_all, Stage::drape, true, &Scene::draped, scene, p, p.drape.cloth, progress);
 }
 
 void recover_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(recover, Stage::recover, &Scene::recovered, scene, p, p.recover.cloth, progress);
+    run_with_stand_ins(recover, Stage::recover, false, &Scene::recovered, scene, p, p.recover.cloth, progress);
 }
 
 }  // namespace garmentfit

@@ -17,9 +17,11 @@
 namespace garmentfit {
 namespace {
 
+using RunStage = void(Scene&, const Parameters&, const Progress&);
+
 struct StageRow {
     std::string_view name, progress_name;
-    void (*run)(Scene&, const Parameters&, const Progress&);
+    RunStage* run;
     double share;  ///< of the time that dressing takes, for the progress bar
 };
 
@@ -57,15 +59,22 @@ void require_inputs(const Filter& filter, const Scene& scene)
 }
 
 /// @throws TimeLimitReached with a line that says which stage takes longer, and what to do
-void run_stage(const StageRow& stage, Scene& scene, const Parameters& parameters, const Progress& progress)
+void run_stage(const StageRow& stage, RunStage& run, Scene& scene, const Parameters& parameters,
+               const Progress& progress)
 {
     try {
         progress.goes_on(0);  // draping and recovering return something at any time
-        stage.run(scene, parameters, progress);
+        run(scene, parameters, progress);
     } catch (const TimeLimitReached&) {
         throw TimeLimitReached("time_limit: it was reached while " + std::string(stage.progress_name)
                                + ", before there was anything to show; give more, or 0 for no limit");
     }
+}
+
+RunStage& run_of(Stage stage, const std::vector<Stage>& stages)
+{
+    const bool is_on_the_way = stage == Stage::drape && stages.back() == Stage::recover;
+    return is_on_the_way ? drape_on_the_way_stage : *row(stage).run;
 }
 
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
@@ -79,7 +88,7 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
         const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
         const double next = done + row(stage).share / total;
         const Progress slice = progress.part(done, next, row(stage).progress_name);
-        run_stage(row(stage), scene, parameters, slice);
+        run_stage(row(stage), run_of(stage, stages), scene, parameters, slice);
         slice.goes_on(1);
         done = next;
         if (ends_here(scene, stage))

@@ -15,6 +15,9 @@ void fit_stage(Scene& scene, const Parameters& parameters, const Progress& progr
 /// cannot be put on.
 void drape_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
+/// The same where recover_stage comes next: garments that follow stand-ins are made clean at the end alone.
+void drape_on_the_way_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
+
 /// Moves the dressed body to its input pose.
 void recover_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 

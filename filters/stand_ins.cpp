@@ -62,14 +62,15 @@ private:
 };
 
 /// The garment in the place of its stand-in.
-WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Surroundings& around,
-                          const Progress& progress)
+/// @param following  where it goes with that, from its rest shape
+template <class Following>
+WornGarment garment_after(const GarmentInput& garment, const WornGarment& led, const Following& following)
 {
     OpenedGarment opened = open_ends(garment.mesh);
     WornGarment worn = led;
     worn.stand_in = WornStandIn { led.rest, led.positions, led.certificate.clean() };
     worn.rest = enlarged(std::move(opened.garment), led.size);
-    worn.positions = follow(led.rest, led.positions, worn.rest, around, progress);
+    worn.positions = following(worn.rest);
     worn.closed_ends = opened.closed_ends;
     worn.left_out = opened.left_out;
     worn.pieces = count_pieces_held(worn.rest);
@@ -94,12 +95,16 @@ bool certify_worn(std::vector<WornGarment>& garments, const std::vector<std::siz
 bool follow_all(const Leading& leading, std::vector<WornGarment>& garments, const Positions& body,
                 const Progress& progress)
 {
-    const auto& [scene, led, order] = leading;
+    const auto& [scene, led, order, is_on_the_way] = leading;
     const Triangles& triangles = scene.body->surface.triangles;
     Company company(body, triangles, garments);
     for (const std::size_t i : order)
         if (has_stand_in(led.garments[i])) {
-            garments[i] = garment_after(scene.garments[i], garments[i], company.around(i), progress);
+            const WornGarment& leader = garments[i];
+            garments[i] = garment_after(scene.garments[i], leader, [&](const GarmentMesh& rest) {
+                return is_on_the_way ? follow_roughly(leader.rest, leader.positions, rest)
+                                     : follow(leader.rest, leader.positions, rest, company.around(i), progress);
+            });
             company.replace(i, garments[i]);
         }
     return certify_worn(garments, order, { body, triangles });
@@ -157,7 +162,7 @@ Scene lead(Scene scene)
 Dressing follow_stand_ins(const Leading& leading, Dressing dressing, const ClothOptions& cloth,
                           const Progress& progress)
 {
-    const auto& [scene, led, order] = leading;
+    const auto& [scene, led, order, is_on_the_way] = leading;
     const std::vector<WornGarment> led_garments = dressing.garments;
     dressing.certified &= follow_all(leading, dressing.garments, dressing.body, progress);
     follow_in_frames(leading, dressing, led_garments, progress);

@@ -19,6 +19,7 @@ struct Leading {
     const Scene& scene;
     const Scene& led;  ///< lead(scene)
     const std::vector<std::size_t>& order;  ///< which of the garments are worn, from the inside out
+    bool is_on_the_way;  ///< the dressing goes on to another pose: what follows need not be made clean here
 };
 
 /// Takes the garments of a dressing of the led scene where their stand-ins went; each is certified. Frames in which one

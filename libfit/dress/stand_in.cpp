@@ -461,4 +461,12 @@ Positions follow(const GarmentMesh& stand_in, const Positions& worn, const Garme
     return cloth.weld.place(untangled(cloth, clear, obstacles, progress));
 }
 
+Positions follow_roughly(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment)
+{
+    const Weld weld(garment);
+    const GarmentMesh rest = weld.gather(garment);
+    const MeshTopology topology(rest.triangles, int(rest.positions.rows()));
+    return weld.place(lead_along(stand_in, worn, rest.positions, topology).positions);
+}
+
 }  // namespace garmentfit

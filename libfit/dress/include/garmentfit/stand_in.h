@@ -46,4 +46,7 @@ struct Surroundings {
 GARMENTFIT_API Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
                                 const Surroundings& around, const Progress& progress = {});
 
+/// The same without anything that keeps it clear, for what is only passed through. Cost O(n log n).
+GARMENTFIT_API Positions follow_roughly(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment);
+
 }  // namespace garmentfit
