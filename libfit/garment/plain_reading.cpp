@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,27 @@ bool has_many_borders(const TriangleMesh& cloth)
     return border_length(cloth.positions, topology) > k_longest_borders * diagonal(cloth.positions);
 }
 
+/// Whether two borders of one piece lie in each other and no tube leads to either: those of a cuff of two sheets, which
+/// are joined where the sleeve begins.
+bool has_doubled_rims(const std::vector<Opening>& openings)
+{
+    for (std::size_t i = 0; i < openings.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const Opening &one = openings[i], &other = openings[j];
+            const double radius = std::min(one.girth, other.girth) / (2 * std::numbers::pi);
+            if (one.piece == other.piece && (one.centre - other.centre).norm() < k_doubled_rims * radius
+                && std::max(one.tube_length, other.tube_length) < k_doubled_tube * radius)
+                return true;
+        }
+    return false;
+}
+
+bool has_openings(const TriangleMesh& outer)
+{
+    const std::vector<Opening> openings = openings_of(outer);
+    return openings.size() >= k_fewest_openings && !has_doubled_rims(openings);
+}
+
 }  // namespace
 
 PlainReading read_plainly(GarmentMesh opened)
@@ -109,7 +131,7 @@ PlainReading read_plainly(GarmentMesh opened)
     orient_outwards(reading.cloth, patches);
     reading.outer = drop_inner_sheets(reading.cloth, patches);
     reading.is_sealed = is_sealed(reading.outer);
-    reading.serves = !is_in_parts && (reading.is_sealed || count_openings(reading.outer) >= k_fewest_openings);
+    reading.serves = !is_in_parts && (reading.is_sealed || has_openings(reading.outer));
     return reading;
 }
 

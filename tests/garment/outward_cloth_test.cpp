@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "plain_reading.h"
 #include "surface_measures.h"
 
 namespace {
@@ -59,6 +60,38 @@ TEST(OutwardCloth, EqualVerticesAndFacesAreMerged)
     const TriangleMesh cloth = outward_cloth(garment_of(fixtures::joined(sphere, sphere)));
     EXPECT_EQ(cloth.positions.rows(), sphere.positions.rows());
     EXPECT_EQ(cloth.triangles.rows(), sphere.triangles.rows());
+}
+
+/// An open tube about the y axis, from its lower rim up.
+TriangleMesh open_tube(double radius, double from, double to, int rows)
+{
+    TriangleMesh mesh { Positions(k_around * rows, 3), Triangles(2 * k_around * (rows - 1), 3) };
+    for (int i = 0; i < rows; ++i)
+        for (int k = 0; k < k_around; ++k) {
+            const double angle = 2 * std::numbers::pi * k / k_around;
+            const int here = i * k_around + k, next = i * k_around + (k + 1) % k_around;
+            mesh.positions.row(here) << radius * std::sin(angle), from + (to - from) * i / (rows - 1),
+                radius * std::cos(angle);
+            if (i + 1 == rows)
+                continue;
+            mesh.triangles.row(2 * here) << here, next, here + k_around;
+            mesh.triangles.row(2 * here + 1) << next, next + k_around, here + k_around;
+        }
+    return mesh;
+}
+
+// A sleeve with a cuff of two sheets, which are joined where it begins.
+TEST(PlainReading, OfACuffOfTwoSheetsServesNot)
+{
+    const TriangleMesh sleeve = open_tube(0.06, 0, 0.5, k_rows);
+    EXPECT_TRUE(read_plainly(garment_of(sleeve)).serves);
+    TriangleMesh cuffed = sleeve;
+    for (const double radius : { 0.061, 0.064 }) {
+        TriangleMesh sheet = open_tube(radius, -0.03, 0, 3);
+        sheet.positions.bottomRows(k_around) = sleeve.positions.topRows(k_around);
+        cuffed = fixtures::joined(cuffed, sheet);
+    }
+    EXPECT_FALSE(read_plainly(garment_of(cuffed)).serves);
 }
 
 TEST(OutwardCloth, OfThickClothTheOuterSheetIsTheSameInAnyUnit)
