@@ -442,12 +442,22 @@ std::optional<GarmentMesh> coarser(const GarmentMesh& garment)
     return GarmentMesh { coarse->positions, coarse->triangles };
 }
 
+/// The sheet moved out to near the cloth: collars and cuffs would be as much tighter than they are. As it is where it
+/// would cross itself there.
+GarmentMesh widened(Lining lining)
+{
+    GarmentMesh wide = lining.sheet;
+    wide.positions += k_lining_shift * lining.gap * vertex_normals(wide.positions, wide.triangles);
+    const bool crosses = count_self_crossings({ wide.positions, wide.triangles }) > 0;
+    return crosses ? std::move(lining.sheet) : wide;
+}
+
 }  // namespace
 
 std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment)
 {
     if (auto lining = lining_of(garment, crowding(garment) < k_crowded ? Lined::clothes_in_parts : Lined::all))
-        return lining;
+        return widened(*std::move(lining));
     return coarser(garment);
 }
 

@@ -6,6 +6,8 @@
 #include "garment_wrap.h"
 #include "garmentfit/closed_ends.h"
 #include "plain_reading.h"
+#include "surface_measures.h"
+#include "tuning.h"
 
 namespace garmentfit {
 
@@ -24,18 +26,19 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
     return reads_inner ? std::move(sheets->inner) : std::move(sheets->outer);
 }
 
-std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined)
+std::optional<Lining> lining_of(const GarmentMesh& garment, Lined lined)
 {
     OpenedGarment opened = open_ends(garment);
     if (opened.outside.triangles.rows() > 0)
-        return GarmentMesh { std::move(opened.outside.positions), std::move(opened.outside.triangles) };
+        return Lining { { std::move(opened.outside.positions), std::move(opened.outside.triangles) }, 0 };
     const PlainReading plain = read_plainly(std::move(opened.garment));
     if (plain.serves && lined == Lined::clothes_in_parts)
         return {};
     std::optional<WrapSheets> sheets = sheets_of(wrap_parts(plain));
     if (!sheets || !sheets->inner_goes_round())
         return {};
-    return GarmentMesh { std::move(sheets->inner.positions), std::move(sheets->inner.triangles) };
+    return Lining { { std::move(sheets->inner.positions), std::move(sheets->inner.triangles) },
+                    garment_tuning::k_garment_wrap_offset * diagonal(plain.cloth.positions) };
 }
 
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn)

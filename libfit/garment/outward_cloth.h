@@ -19,10 +19,15 @@ TriangleMesh outward_cloth(const GarmentMesh& garment);
 /// Which clothes get a lining: those that outward_cloth wraps, or all.
 enum class Lined { clothes_in_parts, all };
 
+struct Lining {
+    GarmentMesh sheet;
+    double gap;  ///< m, between it and the cloth around it
+};
+
 /// The inner sheet of such a wrap: one layer of cloth that goes round the body inside of all parts, facing outwards, in
 /// one piece. None for what gets no lining, in O(n log n), and where it is closed where the wrap has openings. The cost of
 /// a wrap.
-std::optional<GarmentMesh> lining_of(const GarmentMesh& garment, Lined lined);
+std::optional<Lining> lining_of(const GarmentMesh& garment, Lined lined);
 
 /// About the origin.
 TriangleMesh rotate(TriangleMesh cloth, const Eigen::Quaterniond& turn);

@@ -119,7 +119,7 @@ TEST(HollowEnds, OfASolidLeaveOneLayerOfClothWithItsOpenings)
     EXPECT_EQ(outward_cloth(garment_of(solid)).triangles, opened.outside.triangles);
     const auto lining = lining_of(garment_of(solid), Lined::clothes_in_parts);
     ASSERT_TRUE(lining);
-    EXPECT_EQ(lining->triangles, opened.outside.triangles);
+    EXPECT_EQ(lining->sheet.triangles, opened.outside.triangles);
 }
 
 /// Its faces between two heights, m.
