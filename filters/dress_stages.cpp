@@ -234,8 +234,6 @@ void recover(Scene& scene, const Parameters& p, const Progress& progress)
     write_given(scene, *scene.recovered, p.recover.cloth);
 }
 
-using RunStage = void(Scene&, const Parameters&, const Progress&);
-
 /// Runs a stage with stand-ins in the places of garments that need one.
 /// @param output         where it puts its dressing
 /// @param is_on_the_way  where it ends well, another stage goes on from there

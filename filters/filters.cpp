@@ -17,8 +17,6 @@
 namespace garmentfit {
 namespace {
 
-using RunStage = void(Scene&, const Parameters&, const Progress&);
-
 struct StageRow {
     std::string_view name, progress_name;
     RunStage* run;

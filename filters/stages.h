@@ -6,6 +6,8 @@
 
 namespace garmentfit {
 
+using RunStage = void(Scene&, const Parameters&, const Progress&);
+
 void rig_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
 /// Fits the skeleton to each garment, then to all of them in one pose, and puts them in layers.

@@ -98,8 +98,8 @@ inline constexpr double k_fewest_rounds = 6;
 /// Quantile, by length, of the stretch that counts for cloth at rest: single edges stretch for many reasons. Fitted: guess.
 inline constexpr double k_stretch_quantile = 0.95;
 /// Shares of what the fabric gives. A garment of which that quantile is stretched further will not slide to where it is
-/// wide enough. fitted: guess; the twelve house pairs and the wild clothes on three bodies have at most 1.75 where they
-/// are worn at the end, a blouse that is far too small 2.9.
+/// wide enough. fitted: guess; house pairs and the wild clothes on three bodies have at most 1.3, by the number of
+/// edges, where they are worn at the end, trousers that are too small 1.75, a blouse that is far too small 2.9.
 inline constexpr double k_far_too_tight = 2;
 /// An edge stretched by more is caught (a cuff on a thumb) and no measure of girth; it counts as stretched by this.
 /// Fitted: guess; without it, garments were called too small by up to 137 %.

@@ -12,8 +12,9 @@ namespace garmentfit {
 ///
 /// Where that leaves no garment, it is one sheet of an alpha wrap [portaneri_2022_alpha_wrap] round all of it, which takes
 /// some seconds: of panels that are each closed by their thickness, of cloth with more border than openings have (sheets
-/// side by side or beside each other), and where only one opening is found. It is the inner sheet, which does not bridge
-/// the gaps between sleeves and trunk; the outer one where that has openings which the inner one lacks.
+/// side by side or beside each other), where only one opening is found, and where the rims of a cuff of two sheets lie in
+/// each other. It is the inner sheet, which does not bridge the gaps between sleeves and trunk; the outer one where that
+/// has openings which the inner one lacks.
 TriangleMesh outward_cloth(const GarmentMesh& garment);
 
 /// Which clothes get a lining: those that outward_cloth wraps, or all.
