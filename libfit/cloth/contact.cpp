@@ -7,6 +7,7 @@
 
 #include "parallel.h"
 #include "segment.h"
+#include "tuning.h"
 #include "used_vertices.h"
 
 namespace garmentfit {
@@ -107,19 +108,22 @@ ContactReason ContactDetector::reason_of(const std::array<int, 4>& vertices) con
 }
 
 // A segment with a margin is convex: it holds a smaller one when it holds both of its ends.
-bool ContactDetector::is_searched(const SweptRegion& region) const
+double ContactDetector::spare_lacking(const SweptRegion& region) const
 {
     if (region_.start.rows() != region.start.rows())
-        return false;
+        return INFINITY;
+    double most = 0;
     for (Eigen::Index v = 0; v < region.start.rows(); ++v) {
         const Vec3 from = region.start.row(v), to = from + Vec3(region.path.row(v)), begin = region_.start.row(v),
                    end = begin + Vec3(region_.path.row(v));
-        const double spare = v < cloth_vertices_ ? region_.margins.cloth - region.margins.cloth
-                                                 : region_.margins.obstacle - region.margins.obstacle;
-        if (distance_to_segment(from, begin, end) > spare || distance_to_segment(to, begin, end) > spare)
-            return false;
+        const auto of = [&](double Margins::*margin) {
+            const double beyond = std::max(distance_to_segment(from, begin, end), distance_to_segment(to, begin, end))
+                - (region_.margins.*margin - region.margins.*margin);
+            return beyond > 0 ? beyond / (spare_.*margin) : 0;
+        };
+        most = std::max(most, of(v < cloth_vertices_ ? &Margins::cloth : &Margins::obstacle));
     }
-    return true;
+    return most;
 }
 
 // Whether the trees of the obstacle, which stands still most of the time, serve for that region as they are.
@@ -150,8 +154,23 @@ void ContactDetector::refit_trees()
     });
 }
 
-void ContactDetector::search()
+// A search that served more than once was worth its spare margins.
+void ContactDetector::choose_spare(double lacking)
 {
+    const bool served_again = has_spare_ && detections_ > 1;
+    has_spare_ = served_again || (has_spare_ + lacking) / detections_ < k_spare_used_up;
+    detections_ = 0;
+}
+
+void ContactDetector::search(SweptRegion region)
+{
+    if (has_spare_) {
+        region.margins.cloth += spare_.cloth;
+        region.margins.obstacle += spare_.obstacle;
+    }
+    obstacle_is_fitted_ = has_same_obstacle(region);
+    is_path_empty_ = region.path.isZero(0);
+    region_ = std::move(region);
     refit_trees();
     std::vector<Found> parts(BoxTree::k_parts);
     find_vertex_faces(cloth_, obstacle_, parts);
@@ -205,12 +224,11 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
 
 void ContactDetector::detect(const Positions& x, const Positions& displacements, const Margins& margins)
 {
-    if (!is_searched({ x, displacements, margins })) {
-        SweptRegion region { x, displacements, { margins.cloth + spare_.cloth, margins.obstacle + spare_.obstacle } };
-        obstacle_is_fitted_ = has_same_obstacle(region);
-        is_path_empty_ = displacements.isZero(0);
-        region_ = std::move(region);
-        search();
+    ++detections_;
+    const SweptRegion asked { x, displacements, margins };
+    if (const double lacking = spare_lacking(asked); lacking > 0) {
+        choose_spare(lacking);
+        search(asked);
     }
     const bool stands_still = displacements.isZero(0);
     const Eigen::VectorXd moved = (x - region_.start).rowwise().norm();

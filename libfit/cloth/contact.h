@@ -47,8 +47,8 @@ class ContactDetector {
 public:
     /// Indices of both surfaces begin at 0.
     /// @param body_vertices  of the obstacle; its other vertices belong to layers
-    /// @param spare          a search looks this much further than asked. Its pairs serve later detections, too, as
-    ///                       long as no vertex leaves the region that was searched
+    /// @param spare          a search looks this much further than asked where little is moving: its pairs serve later
+    ///                       detections, too, as long as no vertex leaves the region that was searched
     ContactDetector(const ContactSurface& cloth, const ContactSurface& obstacle, int body_vertices,
                     const Margins& spare = { 0, 0 });
 
@@ -86,10 +86,13 @@ private:
     };
     static Surface make_surface(const ContactSurface& surface, int offset);
     ContactReason reason_of(const std::array<int, 4>& vertices) const;
-    bool is_searched(const SweptRegion& region) const;
+    /// How much further the last search would have had to look to serve for this region, as a share of the spare
+    /// margins. 0 where it serves.
+    double spare_lacking(const SweptRegion& region) const;
     bool has_same_obstacle(const SweptRegion& region) const;
     void refit_trees();
-    void search();
+    void choose_spare(double lacking);
+    void search(SweptRegion region);
     void find_vertex_faces(const Surface& a, const Surface& b, std::vector<Found>& parts);
     void find_edge_edges(const Surface& a, const Surface& b, std::vector<Found>& parts);
     void add_candidate(Candidate candidate, Found& found);
@@ -99,6 +102,8 @@ private:
     Surface cloth_, obstacle_;
     Margins spare_;
     SweptRegion region_;  // the one searched last
+    bool has_spare_ = false;  // it was searched with the spare margins
+    int detections_ = 0;  // since then
     bool is_path_empty_ = true;  // there
     bool obstacle_is_fitted_ = false;  // its trees are those of the region
     std::vector<Candidate> candidates_;  // all pairs that may meet there

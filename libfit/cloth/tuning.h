@@ -107,6 +107,10 @@ inline constexpr double k_self_contact_edges = 0.3;
 /// fitted: CPU time of the search for rest, .375, 1 and 2: on one coat of the house data 19.4, 17.9 and 21.8 s; on a
 /// jacket with .375, .7 and 1: 6.2, 5.5 and 5.1 s.
 inline constexpr double k_spare_margin = 1;
+/// Share of the spare margins that one detection uses up, from which on a search does without them: it would serve but
+/// once.
+/// derived: where a search costs as the square of its margins, it pays to let it serve twice below sqrt(2) - 1.
+inline constexpr double k_spare_used_up = 0.41;
 /// Fraction of the velocity that a settling time step keeps: first it lets the cloth swing, then come to rest; and the
 /// fraction of the settling steps at which it changes.
 /// fitted: guess, on the house data.
