@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "diagonal.h"
 #include "garmentfit/error.h"
 #include "garmentfit/rig_body.h"
 #include "tuning.h"
@@ -23,11 +24,6 @@ using Radii = std::array<double, bone_count>;
 bool is_known(const Radii& radii)
 {
     return std::any_of(radii.begin(), radii.end(), [](double radius) { return radius > 0; });
-}
-
-double diagonal_of(const Positions& positions)
-{
-    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
 std::string millimetres(double metres) { return std::to_string(std::lround(1000 * metres)) + " mm"; }

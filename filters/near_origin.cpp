@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagonal.h"
 #include "moved_scene.h"
 #include "tuning.h"
 
@@ -13,11 +14,6 @@ namespace {
 // derived: the grid of origins, 1/1024 of a body's box, is a power of two. Coordinates on it and those of a mesh far
 // away are multiples of the mesh's last digit, and so is their difference, which is shorter: it is exact.
 constexpr int k_grid_exponent = -10;
-
-double diagonal_of(const Positions& positions)
-{
-    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-}
 
 /// On the floor in the middle.
 Vec3 foot_of(const Positions& positions)

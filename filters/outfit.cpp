@@ -12,8 +12,6 @@
 namespace garmentfit {
 namespace {
 
-constexpr const char* k_own_bones = "own";
-
 std::vector<std::string> names_of(const std::vector<OutfitPart>& parts)
 {
     std::vector<std::string> names;
@@ -81,12 +79,39 @@ std::vector<char> mark_stripped(std::vector<char> covered, const TriangleMesh& b
     return covered;
 }
 
+/// Of each vertex of the body, over the joints of its file.
+JointWeights weights_on_body(const AvatarFile& avatar)
+{
+    const JointWeights of_file = read_joint_weights(avatar.path);
+    if (avatar.file_rows.empty())
+        return of_file;
+    JointWeights weights(Eigen::Index(avatar.file_rows.size()), of_file.cols());
+    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+        weights.startVec(v);
+        for (JointWeights::InnerIterator joint(of_file, avatar.file_rows[std::size_t(v)]); joint; ++joint)
+            weights.insertBack(v, joint.col()) = joint.value();
+    }
+    weights.finalize();
+    return weights;
+}
+
+/// From the vertices of the body to those of its file; parts that the body has not are not covered.
+std::vector<char> covered_in_file(const std::vector<char>& covered, const AvatarFile& avatar)
+{
+    if (covered.empty() || avatar.body_rows.empty())
+        return covered;
+    std::vector<char> in_file;
+    for (const int row : avatar.body_rows)
+        in_file.push_back(row < 0 ? char(0) : covered.at(std::size_t(row)));
+    return in_file;
+}
+
 void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments, const OutfitRequest& request,
                      const std::vector<char>& covered)
 {
     const Dressing& dressing = *scene.recovered;
     const TriangleMesh skin { dressing.body, scene.body->surface.triangles };
-    const JointWeights weights = read_joint_weights(request.avatar->path);
+    const JointWeights weights = weights_on_body(*request.avatar);
     if (weights.rows() != skin.positions.rows())
         throw InvalidInput(ErrorCode::rig_mismatch,
                            request.avatar->path.string() + ": has weights of " + std::to_string(weights.rows())
@@ -101,8 +126,9 @@ void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments
                             garment_weights(skin, weights, garment, worn),
                             garments.at(i).look });
     }
-    write_dressed_avatar(request.path, request.avatar->path, clothes,
-                         request.is_stripped ? mark_stripped(covered, skin) : covered);
+    write_dressed_avatar(
+        request.path, request.avatar->path, clothes,
+        covered_in_file(request.is_stripped ? mark_stripped(covered, skin) : covered, *request.avatar));
 }
 
 }  // namespace
@@ -128,12 +154,6 @@ std::optional<BoneNames> bone_names_called(const std::string& name)
         known += ", " + each;
     }
     throw InvalidInput(ErrorCode::unknown_name, "there are no bones called \"" + name + "\"; give one of " + known);
-}
-
-std::optional<AvatarFile> avatar_in(const MeshFile& body, const Frame& frame)
-{
-    const bool is_gltf = body.format() == "glb" || body.format() == "gltf";
-    return is_gltf && has_skin(body.path()) ? std::optional(AvatarFile { body.path(), frame }) : std::nullopt;
 }
 
 bool is_on_avatar(const OutfitRequest& request)

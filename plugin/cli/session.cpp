@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "garmentfit/error.h"
+#include "garmentfit/filters/avatar_file.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/given_rig.h"
 #include "garmentfit/filters/rig_file.h"
@@ -19,8 +20,6 @@ namespace garmentfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double k_same_place = 1e-3;  // unit: share of the diagonal; far more than the rounding of a file of floats
 
 // ---- reading ---------------------------------------------------------------------------------------------------
 
@@ -110,14 +109,12 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     session.garments.push_back(std::move(garment));
 }
 
-/// The units and axes in which the mesh of a rig coincides with the body: those of the body, or those of glTF.
-Frame frame_on_body(const Session& session, const fs::path& glb)
+/// The units and axes in which the mesh of a rig coincides with the body.
+Frame frame_of_rig(const Session& session, const fs::path& glb)
 {
     const Positions body = session.scene.body->surface.positions, mesh = MeshFile::read(glb).positions();
-    const double close = k_same_place * (body.colwise().maxCoeff() - body.colwise().minCoeff()).norm();
-    for (const Frame& frame : { session.body.frame.frame, Frame() })
-        if (mesh.rows() == body.rows() && (frame.to_metres(mesh) - body).rowwise().norm().maxCoeff() < close)
-            return frame;
+    if (const std::optional<Frame> frame = frame_on_body(mesh, body, session.body.frame.frame))
+        return *frame;
     throw InvalidInput(ErrorCode::rig_mismatch,
                        glb.string() + ": its " + std::to_string(mesh.rows()) + " vertices do not lie where the "
                            + std::to_string(body.rows()) + " of " + session.body.path.string()
@@ -127,7 +124,7 @@ Frame frame_on_body(const Session& session, const fs::path& glb)
 /// @param foreign  the rig in that file
 Rig take_skinned(Session& session, const fs::path& glb, const ForeignRig& foreign)
 {
-    const Frame frame = frame_on_body(session, glb);
+    const Frame frame = frame_of_rig(session, glb);
     if (foreign.loose_vertices > 0)
         session.warnings.push_back(glb.filename().string() + ": " + std::to_string(foreign.loose_vertices)
                                    + " vertices hang on no joint; they follow the nearest vertex that does");

@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "garmentfit/filters/avatar_file.h"
 #include "garmentfit/filters/filters.h"
-#include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
-#include "garmentfit/units.h"
 
 namespace garmentfit {
 
@@ -20,12 +19,6 @@ namespace garmentfit {
 struct OutfitPart {
     std::string name;
     Appearance look {};  ///< of the triangles of the mesh in the scene; empty where nothing is known
-};
-
-/// A skinned glTF or GLB that the body was read from.
-struct AvatarFile {
-    std::filesystem::path path;
-    Frame frame;
 };
 
 struct OutfitRequest {
@@ -38,14 +31,14 @@ struct OutfitRequest {
     bool is_stripped = false;  ///< vertices of the body without faces are clothes that its file is to lose
 };
 
+/// The name of no set: the joints are those of the body's file.
+constexpr const char* k_own_bones = "own";
+
 /// "garmentfit", "vrm", "mixamo", "unreal" and "smpl".
 const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets();
 
-/// None for "own", the avatar's. @throws InvalidInput naming the sets that there are.
+/// None for k_own_bones. @throws InvalidInput naming the sets that there are.
 std::optional<BoneNames> bone_names_called(const std::string& name);
-
-/// The body's file, where it is a skinned glTF or GLB. Reads it again. @throws InvalidInput: it is gone.
-std::optional<AvatarFile> avatar_in(const MeshFile& body, const Frame& frame);
 
 /// Whether the outfit is the avatar's file with clothes added, which keeps all that it says of the body.
 bool is_on_avatar(const OutfitRequest& request);
