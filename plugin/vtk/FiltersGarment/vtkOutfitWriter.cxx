@@ -66,9 +66,17 @@ void vtkOutfitWriter::WriteData()
     try {
         if (!body || !garments)
             throw InvalidInput(ErrorCode::missing_input, "connect a dressed body to port 0 and its garments to port 1");
-        const OutfitRequest request { this->FileName, bone_names_called(this->Bones), this->HideCoveredSkin };
+        OutfitRequest request { this->FileName, bone_names_called(this->Bones), this->HideCoveredSkin };
         require_own_pose(*body);
         KnownScene known = scene_of_dressed(*body, *garments);
+        if (!request.bones && !this->BodyFileName.empty()) {
+            request.avatar = avatar_of_body(this->BodyFileName, known.scene.body->surface.positions, known.body_frame);
+            if (!request.avatar)
+                vtkWarningMacro(
+                    << this->BodyFileName
+                    << ": has no skin, so the outfit has the joints of garmentfit; give the skinned file of "
+                       "the body, or no BodyFileName");
+        }
         std::vector<OutfitPart> parts;
         const std::vector<vtkPolyData*> leaves = garments_in(*garments);
         for (std::size_t i = 0; i < leaves.size(); ++i)
@@ -89,6 +97,7 @@ void vtkOutfitWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
     this->Superclass::PrintSelf(os, indent);
     os << indent << "FileName: " << this->FileName << "\n";
+    os << indent << "BodyFileName: " << this->BodyFileName << "\n";
     os << indent << "Bones: " << this->Bones << "\n";
     os << indent << "HideCoveredSkin: " << this->HideCoveredSkin << "\n";
 }

@@ -5,7 +5,8 @@
  *
  * Inputs: body (port 0) and garments (port 1) of vtkRecoverPose or vtkDressBody, or files of them that were read again.
  * The file has one skeleton and skin weights for the body and each garment, in the body's own pose. Point coordinates
- * for textures (TCoords) are written as UVs. Only what is free of crossings is written, and never half a file.
+ * for textures (TCoords) are written as UVs. Only what is free of crossings is written, and never half a file. With
+ * BodyFileName, the outfit is the avatar's own file with the garments added.
  *
  * @code
  * writer->SetInputConnection(0, dress->GetOutputPort(0));
@@ -43,7 +44,19 @@ public:
 
     ///@{
     /**
-   * Names and number of the joints: garmentfit (default), vrm, mixamo, unreal or smpl. A .vrm file has those of VRM.
+   * The skinned glTF, GLB or VRM that the body was read from, by any reader that left its vertices where they are. With
+   * the bones `own`, the outfit is this file with the garments added: its joints, weights, materials, animations and
+   * parts that the body lacks stay as they are. A file without a skin is a warning, and the joints are those of
+   * garmentfit; a file without the body's vertices is an error. Empty by default: the file is not known.
+   */
+    vtkSetStdStringFromCharMacro(BodyFileName);
+    vtkGetCharFromStdStringMacro(BodyFileName);
+    ///@}
+
+    ///@{
+    /**
+   * Names and number of the joints: own (default), garmentfit, vrm, mixamo, unreal or smpl. Own are those of the file
+   * BodyFileName, or those of garmentfit without one. A .vrm file has those of VRM.
    */
     vtkSetStdStringFromCharMacro(Bones);
     vtkGetCharFromStdStringMacro(Bones);
@@ -51,8 +64,8 @@ public:
 
     ///@{
     /**
-   * Leaves out faces of the body that the garments cover in the rest pose and in poses of everyday movement, and draws
-   * in skin under cloth by up to 2 cm (of an adult).
+   * Leaves out faces of the body that the garments cover in the rest pose and in poses of everyday movement, and, but
+   * on the bones of BodyFileName, draws in skin under cloth by up to 2 cm (of an adult).
    */
     vtkSetMacro(HideCoveredSkin, bool);
     vtkGetMacro(HideCoveredSkin, bool);
@@ -71,7 +84,8 @@ private:
     void operator=(const vtkOutfitWriter&) = delete;
 
     std::string FileName;
-    std::string Bones = "garmentfit";
+    std::string BodyFileName;
+    std::string Bones = "own";
     bool HideCoveredSkin = false;
 };
 

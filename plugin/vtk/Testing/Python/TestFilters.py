@@ -192,6 +192,25 @@ class Outfits(unittest.TestCase):
             length_of_json = struct.unpack("<5I", file.read(20))[3]
             return json.loads(file.read(length_of_json))
 
+    def write_avatar(self, name, left_out=None):
+        """A skinned file with joints of Mixamo of body and garment, one of which may be left out."""
+        path = self.writer.GetFileName()
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetInputConnection(1, self.dress.GetOutputPort(1))
+        self.writer.SetBones("mixamo")
+        self.writer.SetFileName(os.path.join(self.folder.name, name))
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        avatar = self.outfit()
+        for node in avatar["nodes"]:
+            if "mesh" in node and node["name"] == left_out:
+                del node["mesh"], node["skin"]
+        with open(self.writer.GetFileName(), "r+b") as file:
+            length = struct.unpack("<5I", file.read(20))[3]
+            file.write(json.dumps(avatar, separators=(",", ":")).ljust(length).encode())
+        self.writer.SetFileName(path)
+        self.writer.SetBones("own")
+        return os.path.join(self.folder.name, name), avatar
+
     def expect_refusal(self, words):
         self.assertEqual(self.writer.Write(), 0)
         self.assertNotEqual(self.writer.GetErrorCode(), 0)
@@ -240,6 +259,58 @@ class Outfits(unittest.TestCase):
         self.writer.SetInputData(1, blocks)
         self.assertEqual(self.writer.Write(), 1, self.messages)
         self.assertEqual(len(self.outfit()["meshes"]), 2)
+
+    def expect_kept(self, avatar):
+        """The outfit is the avatar's file with a mesh more."""
+        outfit = self.outfit()
+        for of_file in ("nodes", "meshes", "skins"):
+            self.assertEqual(outfit[of_file][:-1], avatar[of_file])
+        self.assertEqual(outfit["nodes"][-1]["name"], "the garment")
+        self.assertIn("JOINTS_0", outfit["meshes"][-1]["primitives"][0]["attributes"])
+
+    def test_an_outfit_on_the_bodys_own_joints_is_its_file_with_the_garments(self):
+        self.assertEqual(self.writer.GetBones(), "own")
+        path, avatar = self.write_avatar("avatar.glb", left_out="the garment")
+        self.writer.SetBodyFileName(path)
+        self.assertEqual(self.writer.GetBodyFileName(), path)
+        for hides in (False, True):
+            self.writer.SetHideCoveredSkin(hides)
+            self.assertEqual(self.writer.Write(), 1, self.messages)
+            outfit = self.outfit()
+            self.assertEqual("_COVERED" in outfit["meshes"][0]["primitives"][0]["attributes"], hides)
+            if not hides:
+                self.expect_kept(avatar)
+        self.writer.SetBones("smpl")
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        self.assertNotIn("mixamorig:Hips", [node.get("name") for node in self.outfit()["nodes"]])
+
+    def test_the_bodys_own_file_may_have_more_parts(self):
+        path, avatar = self.write_avatar("clothed.glb")
+        self.writer.SetBodyFileName(path)
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        self.expect_kept(avatar)
+
+    def test_a_file_that_is_not_the_bodys_is_refused(self):
+        path, _ = self.write_avatar("clothes.glb", left_out="body")
+        self.writer.SetBodyFileName(path)
+        self.expect_refusal("vertices of the body do not lie where any of its")
+        self.writer.SetBodyFileName(os.path.join(self.folder.name, "gone.glb"))
+        self.expect_refusal("gone.glb")
+
+    def test_a_file_of_the_body_without_a_skin_is_a_warning(self):
+        warnings = []
+
+        def keep_warning(_, event, message=""):
+            warnings.append(message)
+
+        keep_warning.CallDataType = VTK_STRING
+        self.writer.AddObserver("WarningEvent", keep_warning)
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetInputConnection(1, self.dress.GetOutputPort(1))
+        self.writer.SetBodyFileName(os.path.join(SAMPLES, "walking_woman.ply"))
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        self.assertIn("walking_woman.ply: has no skin", warnings[0])
+        self.assertIn("lhipjoint", [node.get("name") for node in self.outfit()["nodes"]])
 
     def test_what_cannot_be_written_is_said_in_one_line(self):
         self.writer.SetInputConnection(0, self.body.GetOutputPort())
