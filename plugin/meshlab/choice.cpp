@@ -161,8 +161,8 @@ Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDo
         choice.worn = read_layer(list, k_worn, document);
     }
     if (entry.task == Task::save_outfit) {
-        choice.outfit_bones
-            = bone_name_sets()[read_number<std::size_t>(list, k_outfit_bones, bone_name_sets().size())].second;
+        choice.outfit_bones = bone_names_called(read_word(list, k_outfit_bones, outfit_bones()));
+        choice.body_file = list.getOpenFileName(k_body_file).toStdString();
         choice.hide_covered_skin = list.getBool(k_hide_covered_skin);
     }
     if (entry.task == Task::save_rig || entry.task == Task::load_rig || entry.task == Task::save_outfit)

@@ -32,7 +32,8 @@ struct Choice {
     Bone shown_bone = thorax;
     ShownMap shown_map = ShownMap::ease;
     std::filesystem::path file;
-    BoneNames outfit_bones = BoneNames::garmentfit;
+    std::optional<BoneNames> outfit_bones = {};  ///< none: those of the body's file
+    std::filesystem::path body_file;  ///< empty: that of the body's layer
     bool hide_covered_skin = false;
 };
 

@@ -186,15 +186,19 @@ void add_file(RichParameterList& list, const MenuEntry& entry, const MeshModel& 
 
 void add_outfit(RichParameterList& list, const MeshModel& body)
 {
-    std::vector<std::string_view> bones;
-    for (const auto& [name, set] : bone_name_sets())
-        bones.push_back(name);
+    const std::vector<std::string_view> bones = outfit_bones();
     add_choice(list, k_outfit_bones, bones, "Bones",
-               "Names and number of the joints, as that program has them; a .vrm file has those of VRM");
+               "Names and number of the joints, as that program has them; a .vrm file has those of VRM. own: those of "
+               "the body's file, which is kept as it is and gets the garments; of garmentfit where it has none",
+               int(bones.size()) - 1);
+    list.addParam(OpenFileParameter(
+        k_body_file, "", { "*.glb", "*.gltf", "*.vrm" }, "Body file",
+        "For the bones own: the skinned glTF, GLB or VRM that the body was made from, where its layer was opened from "
+        "another file; its vertices are found by their places. Without a name: the file of the layer"));
     list.addParam(
         RichBool(k_hide_covered_skin, false, "Hide covered skin",
                  "Leave out faces of the body that the garments cover in poses of everyday movement, and draw in "
-                 "skin under cloth by up to 2 cm"));
+                 "skin under cloth by up to 2 cm (not on an avatar's own bones)"));
     list.addParam(SaveFileParameter(k_file, QString::fromStdString(outfit_beside(body).string()), "*.glb", "Outfit",
                                     "A .glb or .vrm file; without a name: man.outfit.glb beside man.ply"));
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "garmentfit/filters/outfit.h"
 #include "garmentfit/filters/schema.h"
 #include "host_api.h"
 #include "menu.h"
@@ -15,7 +16,8 @@ namespace garmentfit::meshlab {
 
 inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit = "unit", k_up = "up", k_front = "front",
                      k_garment_unit = "garment_unit", k_garment_up = "garment_up", k_bone = "shown_bone",
-                     k_map = "shown_map", k_outfit_bones = "bones", k_hide_covered_skin = "hide_covered_skin";
+                     k_map = "shown_map", k_outfit_bones = "bones", k_body_file = "body_file",
+                     k_hide_covered_skin = "hide_covered_skin";
 inline const QString k_garment_fronts[] = { "garment_front", "second_garment_front", "third_garment_front" };
 inline const QString k_garments[] = { "garment", "second_garment", "third_garment" };
 inline const QString k_types[] = { "type", "second_type", "third_type" };
@@ -27,6 +29,16 @@ inline std::vector<std::string_view> further_fabrics()
 {
     std::vector<std::string_view> names { "as the first" };
     names.insert(names.end(), fabric_names().begin(), fabric_names().end());
+    return names;
+}
+
+/// The last one is shown first.
+inline std::vector<std::string_view> outfit_bones()
+{
+    std::vector<std::string_view> names;
+    for (const auto& [name, set] : bone_name_sets())
+        names.push_back(name);
+    names.push_back(k_own_bones);
     return names;
 }
 

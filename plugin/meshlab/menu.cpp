@@ -60,7 +60,8 @@ std::vector<MenuEntry> make_menu()
     entries.push_back(
         { entry_name("Save Outfit"), "save_garment_fitting_outfit",
           "Writes a dressed body and its garments as one GLB or VRM that other programs can pose: one skeleton, and "
-          "skin weights for body and garments. UVs, materials and textures come from the files of the layers. Needs a "
+          "skin weights for body and garments, or the avatar's own file with the garments added. UVs, materials and "
+          "textures come from the files of the layers. Needs a "
           "garment that Recover Pose or Dress Body put on.",
           Task::save_outfit, nullptr });
     entries.push_back(

@@ -94,6 +94,33 @@ Appearance look_of_file(const std::filesystem::path& path, const Triangles& tria
     }
 }
 
+/// The body's file, whose skeleton the outfit keeps. Where it has none, the log says so.
+/// @throws InvalidInput where the user named a file that is not the body's.
+std::optional<AvatarFile> avatar_of(const Choice& choice, const Fitting& fitting, Report& report)
+{
+    if (choice.outfit_bones)
+        return {};
+    const bool is_named = !choice.body_file.empty();
+    const std::filesystem::path of_layer = choice.body->fullName().toStdString();
+    const std::filesystem::path& file = is_named ? choice.body_file : of_layer;
+    std::string why = "its layer was opened from no file";
+    try {
+        if (is_named || std::filesystem::exists(file)) {
+            if (auto avatar = avatar_of_body(file, fitting.scene.body->surface.positions, fitting.body_frame))
+                return avatar;
+            why = file.filename().string() + " has no skin";
+        }
+    } catch (const InvalidInput& error) {
+        if (is_named)
+            throw;
+        why = error.what();
+    }
+    (is_named ? report.warnings : report.lines)
+        .push_back("the outfit of " + fitting.body_name + " has the joints of garmentfit: " + why
+                   + ". Choose the avatar's glTF, GLB or VRM as Body file to keep its skeleton");
+    return {};
+}
+
 Report save_outfit(const Choice& choice, const MeshDocument& document)
 {
     const TriangleMesh body = mesh_of(*choice.body);
@@ -111,9 +138,12 @@ Report save_outfit(const Choice& choice, const MeshDocument& document)
         garments.push_back(
             { fitting->garment_names[i],
               look_of_file(fitting->garment_files.at(i), fitting->scene.garments[i].mesh.triangles, report) });
-    const OutfitPart wearer { fitting->body_name,
-                              look_of_file(choice.body->fullName().toStdString(), body.triangles, report) };
-    write_outfit(fitting->scene, wearer, garments, { choice.file, choice.outfit_bones, choice.hide_covered_skin });
+    const OutfitRequest request { choice.file, choice.outfit_bones, choice.hide_covered_skin,
+                                  avatar_of(choice, *fitting, report) };
+    OutfitPart wearer { fitting->body_name };
+    if (!is_on_avatar(request))  // else its file is kept as it is
+        wearer.look = look_of_file(choice.body->fullName().toStdString(), body.triangles, report);
+    write_outfit(fitting->scene, wearer, garments, request);
     report.lines.push_back("wrote " + fitting->body_name + " and " + std::to_string(garments.size())
                            + (garments.size() == 1 ? " garment to " : " garments to ") + choice.file.string());
     return report;

@@ -22,6 +22,7 @@
 #include "garmentfit/filters/filters.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/io.h"
+#include "garmentfit/skinned_gltf.h"
 #include "open_layer.h"
 
 namespace {
@@ -473,6 +474,59 @@ TEST_F(MeshLab, SavesADressedBodyAsAnOutfit)
     expect_refusal("Save Outfit", list, "give a name that ends in .glb or .vrm");
     document.meshList[0]->cm.vert[0].P()[0] += 0.01F;
     expect_refusal("Save Outfit", dialog_of("Save Outfit", document), "was changed since");
+}
+
+/// A skinned body with the joints of another program.
+void write_avatar(const fs::path& path, double size = 1)
+{
+    const TriangleMesh mesh = body_mesh();
+    const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles));
+    OutfitOptions options;
+    options.names = BoneNames::unreal;
+    write_outfit_glb(path, rig, { { "body", { size * mesh.positions, mesh.triangles }, rig.weights } }, options);
+}
+
+TEST_F(MeshLab, SavesAnOutfitOnTheSkeletonOfTheBodysFile)
+{
+    write_avatar(folder / "avatar.glb");
+    meshlab::open_layer(document, folder / "avatar.glb");
+    meshlab::open_layer(document, k_skirt);
+    RichParameterList dress = dialog_of("Dress Body", document);
+    dress.setValue("quality", EnumValue(int(Quality::draft)));
+    const Ended dressed = run("Dress Body", document, dress);
+    ASSERT_TRUE(dressed.well) << dressed.message;
+
+    RichParameterList list = dialog_of("Save Outfit", document);
+    const auto choose_file = [&](const QString& name, const fs::path& file) {
+        list.setValue(name, FileValue(QString::fromStdString((folder / file).string())));
+    };
+    const auto joints_saved_as = [&](const char* file) {
+        choose_file("file", file);
+        const Ended ended = run("Save Outfit", document, list);
+        EXPECT_TRUE(ended.well) << ended.message;
+        const std::string outfit = load(folder / file);
+        return outfit.find("spine_03") != std::string::npos ? "own" : "garmentfit";
+    };
+    EXPECT_EQ(joints_saved_as("of_the_layer.glb"), std::string("own"));
+    EXPECT_EQ(MeshFile::read(folder / "of_the_layer.glb").positions().topRows(document.meshList[0]->cm.vn),
+              MeshFile::read(folder / "avatar.glb").positions());
+
+    write_ply(folder / "avatar.ply", body_mesh().positions, body_mesh().triangles);  // MeshLab 2020.09 opens no glTF
+    document.meshList[0]->setFileName(QString::fromStdString((folder / "avatar.ply").string()));
+    EXPECT_EQ(joints_saved_as("of_a_layer_without.glb"), std::string("garmentfit"));
+    EXPECT_NE(log_of(document).find("avatar.ply has no skin. Choose the avatar's glTF, GLB or VRM as Body file"),
+              std::string::npos);
+    choose_file("body_file", "avatar.glb");
+    EXPECT_EQ(joints_saved_as("of_a_file.glb"), std::string("own"));
+    EXPECT_EQ(load(folder / "of_a_file.glb"), load(folder / "of_the_layer.glb"));
+
+    choose_file("body_file", "avatar.ply");
+    EXPECT_EQ(joints_saved_as("of_a_file_without.glb"), std::string("garmentfit"));
+    write_avatar(folder / "taller.glb", 1.06);
+    choose_file("body_file", "taller.glb");
+    expect_refusal("Save Outfit", list, "vertices of the body do not lie where any of its");
+    choose_file("body_file", "gone.glb");
+    expect_refusal("Save Outfit", list, "gone.glb");
 }
 
 TEST_F(MeshLab, DrapesInAPoseFittedBeforeTheRigWasSaved)

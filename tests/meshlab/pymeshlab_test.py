@@ -3,8 +3,10 @@
 
 import ctypes
 import gc
+import json
 import os
 import resource
+import struct
 import subprocess
 import sys
 import tempfile
@@ -33,6 +35,11 @@ def opened(*paths):
 
 def labels(meshes):
     return [meshes.mesh(layer).label() for layer in range(len(meshes))]
+
+
+def glb_json(path):
+    with open(path, "rb") as file:
+        return json.loads(file.read(struct.unpack("<5I", file.read(20))[3]))
 
 
 def resident_bytes():
@@ -120,6 +127,21 @@ class GarmentFitting(unittest.TestCase):
 
         girths = meshes.apply_filter("get_garment_fitting_measurements", body=0, garment=1, worn=worn)
         self.assertGreater(girths["hips garment"], girths["hips body"])
+
+    def test_saves_an_outfit_on_the_skeleton_of_the_bodys_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "rig", BODY, "--quiet", "-o", folder + "/rigged"], check=True)
+            avatar = folder + "/rigged/rigged.glb"
+            meshes = opened(avatar, SKIRT)
+            meshes.apply_filter("generate_garment_fitting_dress", body=0, garment=1, quality="draft")
+            meshes.apply_filter("save_garment_fitting_outfit", body=0, file=folder + "/outfit.glb")
+            given, outfit = glb_json(avatar), glb_json(folder + "/outfit.glb")
+            self.assertEqual(outfit["nodes"][:-1], given["nodes"])
+            self.assertEqual(outfit["nodes"][-1]["name"], "skirt")
+            self.assertEqual(len(outfit["skins"]), 2)
+            words = self.refusal(meshes, "save_garment_fitting_outfit", body=0, file=folder + "/outfit.glb",
+                                 body_file=folder + "/gone.glb")
+            self.assertIn("gone.glb", words)
 
     def test_keeps_memory_level_over_twenty_runs(self):
         def run():
