@@ -11,6 +11,7 @@
 #include "named_garment.h"
 #include "other_wearings.h"
 #include "stand_ins.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -144,6 +145,8 @@ void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& clo
 DrapeOptions options_for(const GarmentInput& garment, DrapeOptions options)
 {
     options.cloth.fabric = garment.fabric.value_or(options.cloth.fabric);
+    if (!garment.has_unit)
+        options.cloth.largest_enlargement = std::max(options.cloth.largest_enlargement, k_enlarged_without_unit);
     return options;
 }
 

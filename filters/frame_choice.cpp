@@ -153,6 +153,7 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
         guess.why += "; its parts fit the body in " + std::string(*unit);
     } else {
         guess.scale = scale.factor;
+        guess.frame.has_unit = false;
         guess.why += "; its parts fit the body when it is scaled by " + rounded_text(scale.factor, 3);
     }
 }

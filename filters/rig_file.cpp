@@ -66,11 +66,14 @@ void put_frame(Json& json, const Frame& frame)
 {
     json["metres_per_unit"] = frame.metres_per_unit;
     json["up"] = json_of(frame.up);
+    if (!frame.has_unit)
+        json["has_unit"] = false;
 }
 
 Frame frame_of(const Json& json)
 {
-    const Frame frame { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")) };
+    const Frame frame { json.at("metres_per_unit").get<double>(), vector_of(json.at("up")),
+                        json.value("has_unit", true) };
     if (!(frame.metres_per_unit > 0))
         throw InvalidInput(ErrorCode::out_of_range, "metres_per_unit is not positive");
     if (frame.up.cwiseAbs() != Vec3::UnitX() && frame.up.cwiseAbs() != Vec3::UnitY()

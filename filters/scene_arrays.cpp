@@ -167,7 +167,10 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
                        })) } };
 }
 
-MeshArrays arrays_of(const Frame& garment) { return { {}, {}, { frame_array("GarmentFrame", garment) } }; }
+MeshArrays arrays_of(const Frame& garment)
+{
+    return { {}, {}, { frame_array("GarmentFrame", garment), counts("GarmentHasUnit", { garment.has_unit }) } };
+}
 
 MeshArrays arrays_of(const FitResult& fit)
 {
@@ -307,7 +310,11 @@ std::optional<Frame> garment_frame_from(const FindArray& find)
 {
     if (!find("GarmentFrame"))
         return {};
-    return frame_from(required(find, "GarmentFrame", 1, 4, "connect what the filter before made"), "GarmentFrame");
+    constexpr const char* k_made_first = "connect what the filter before made";
+    Frame frame = frame_from(required(find, "GarmentFrame", 1, 4, k_made_first), "GarmentFrame");
+    if (find("GarmentHasUnit"))  // older files have none
+        frame.has_unit = required(find, "GarmentHasUnit", 1, 1, k_made_first)(0, 0) != 0;
+    return frame;
 }
 
 }  // namespace garmentfit

@@ -53,7 +53,9 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
                                        front_of_garment(guess.frame, garment.front),
                                        {},
                                        0,
-                                       choice.fabrics[i] });
+                                       choice.fabrics[i],
+                                       {},
+                                       guess.frame.has_unit });
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
             fitting.garment_files.push_back(choice.garments[i]->fullName().toStdString());
@@ -82,7 +84,9 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
                                   {},
                                   {},
                                   0,
-                                  choice.fabrics[i] };
+                                  choice.fabrics[i],
+                                  {},
+                                  fitting.garment_frames[i].has_unit };
         }));
     }
 }

@@ -224,7 +224,9 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
                                      front_of_garment(frame, front),
                                      choice.as_placed,
                                      0,
-                                     fabric_from(sizes) });
+                                     fabric_from(sizes),
+                                     {},
+                                     frame.has_unit });
     scene.garment_frames.push_back(frame);
     scene.names.push_back(name);
 }

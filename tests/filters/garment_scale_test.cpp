@@ -48,6 +48,7 @@ TEST(GarmentScale, AGarmentWithAUnitKeepsItsSize)
         const FrameGuess guess = guess_of(1 / metres);
         EXPECT_EQ(guess.frame.metres_per_unit, metres) << guess.why;
         EXPECT_EQ(guess.scale, 1);
+        EXPECT_TRUE(guess.frame.has_unit);
         EXPECT_GT(guess.scale_probability, 0.8) << guess.why;
     }
 }
@@ -84,8 +85,16 @@ TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
     for (const double size : { 1.9, 2.1, 2.6, 17.0, 19.0, 1e-4, 1e5 }) {
         const FrameGuess guess = guess_of(size);
         EXPECT_NEAR(size * guess.frame.metres_per_unit, 1, 0.25) << size << ": " << guess.why;
+        EXPECT_FALSE(guess.frame.has_unit);
         EXPECT_GT(guess.scale_probability, 0.5);
     }
+}
+
+TEST(GarmentScale, AScaleThatTheUserGivesIsNoGuess)
+{
+    GarmentChoice given;
+    given.scale = 1 / 17.0;
+    EXPECT_TRUE(guess_of(17, given).frame.has_unit);
 }
 
 /// The shirt with its trunk drawn out below the sleeves.

@@ -129,6 +129,21 @@ TEST(LayerOrder, DrapingFollowsTheLayersAndHandsOutInTheOrderGiven)
     EXPECT_EQ(scene.recovered->garments[0].rest.positions, scene.garments[0].mesh.positions);
 }
 
+TEST(LayerOrder, AGarmentWithoutAUnitIsMadeLargerWhereItIsTooSmall)
+{
+    Scene scene = scene_with({ trousers(-0.012) });
+    filter_of("drape").run(scene, short_settling());
+    EXPECT_EQ(outcome_of(*scene.draped), Outcome::too_small);
+
+    scene.garments[0].has_unit = false;
+    filter_of("drape").run(scene, short_settling());
+    ASSERT_TRUE(scene.draped->certified);
+    EXPECT_GT(scene.draped->garments[0].size, 1.01);
+    const std::vector<std::string> warnings = warnings_about_dressing(*scene.draped, { "first" });
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
+                            [](const std::string& line) { return line.find("% larger") != std::string::npos; }));
+}
+
 TEST(LayerOrder, WhatDoesNotGoOverTheOthersIsLeftOutUnderItsOwnName)
 {
     Scene scene = scene_with({ trousers(-0.03), trousers(0.015) });

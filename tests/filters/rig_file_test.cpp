@@ -49,6 +49,17 @@ TEST_F(RigFiles, GiveWeightsBackWithTheVeryBitsTheyWereWrittenWith)
     EXPECT_NEAR((read.rig.skeleton.tails[rradius] - written.rig.skeleton.tails[rradius]).norm(), 0, 1e-15);
 }
 
+TEST_F(RigFiles, KeepWhetherAGarmentHasAUnit)
+{
+    RigFile written = small_rig();
+    written.garments = { { "shirt.obj", { 0.01 }, {} }, { "coat.glb", { 0.3, Vec3::UnitY(), false }, {} } };
+    write_rig_file(folder / "man.rig.json", written);
+    const RigFile read = read_whole_rig(folder / "man.rig.json");
+    ASSERT_EQ(read.garments.size(), 2u);
+    EXPECT_TRUE(read.garments[0].frame.has_unit);
+    EXPECT_FALSE(read.garments[1].frame.has_unit);
+}
+
 TEST_F(RigFiles, SayWhichVertexHasAWeightOutOfRange)
 {
     RigFile contents = small_rig();

@@ -22,6 +22,8 @@ std::map<std::string, Rows> by_name(const MeshArrays& arrays)
                 found[array.name] = *rows;
             else if (const auto* bones = std::get_if<BoneIndices>(&array.values))
                 found[array.name] = bones->cast<double>();
+            else if (const auto* counts = std::get_if<Counts>(&array.values))
+                found[array.name] = counts->cast<double>();
     return found;
 }
 
@@ -63,6 +65,19 @@ TEST_F(SceneArrays, NameWhatIsMissingMangledOrAnotherBodys)
     expect_invalid([&] { fits_from(find_in(arrays)); }, "Fit Skeleton");
     expect_invalid([&] { dressed_pose_from(find_in(arrays)); }, "Drape Garment");
     EXPECT_FALSE(garment_frame_from(find_in(arrays)));
+}
+
+TEST_F(SceneArrays, KeepTheUnitOfAGarmentOrThatItHasNone)
+{
+    for (const bool has_unit : { true, false }) {
+        arrays = by_name(arrays_of(Frame { 0.3, Vec3::UnitZ(), has_unit }));
+        const Frame back = garment_frame_from(find_in(arrays)).value();
+        EXPECT_EQ(back.metres_per_unit, 0.3);
+        EXPECT_EQ(back.up, Vec3::UnitZ());
+        EXPECT_EQ(back.has_unit, has_unit);
+    }
+    arrays.erase("GarmentHasUnit");  // as in older files
+    EXPECT_TRUE(garment_frame_from(find_in(arrays))->has_unit);
 }
 
 TEST_F(SceneArrays, HaveOneNameForEachJointAndOneLineForEachBoneAndTip)

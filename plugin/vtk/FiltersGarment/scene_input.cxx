@@ -112,7 +112,9 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
                                      front_of_garment(*frame, choice.front),
                                      choice.as_placed,
                                      0,
-                                     fabric_of_field(garment) });
+                                     fabric_of_field(garment),
+                                     {},
+                                     frame->has_unit });
 }
 
 }  // namespace

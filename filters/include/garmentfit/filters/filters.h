@@ -49,6 +49,7 @@ struct GarmentInput {
     std::optional<Fabric> fabric = {};  ///< empty: as in Parameters
     /// Moves in its place (stand_in.h). Draping looks for one where there is none; without a mesh: it needs none.
     std::optional<std::optional<GarmentMesh>> stand_in = {};
+    bool has_unit = true;  ///< Frame::has_unit; a garment without one may be made larger where it is too small
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.

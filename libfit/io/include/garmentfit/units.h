@@ -19,6 +19,7 @@ constexpr double k_degrees_per_radian = 180 / 3.14159265358979323846;  // derive
 struct Frame {
     double metres_per_unit = 1;
     Vec3 up = Vec3::UnitY();  ///< one of the six axis directions, in the file's axes
+    bool has_unit = true;  ///< else the file is in no unit, and metres_per_unit is a guess by what the mesh is
 
     GARMENTFIT_API Positions to_metres(const Positions& in_file) const;
     GARMENTFIT_API Positions to_file(const Positions& in_metres) const;
