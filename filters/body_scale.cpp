@@ -140,7 +140,7 @@ Scene scale_scene(Scene scene, double factor)
     for (GarmentInput& garment : scene.garments) {
         garment.mesh.positions *= factor;
         if (garment.stand_in && *garment.stand_in)
-            (*garment.stand_in)->positions *= factor;
+            (*garment.stand_in)->mesh.positions *= factor;
     }
     if (scene.rig)
         scale(*scene.rig, factor);

@@ -13,6 +13,7 @@
 #include "near_origin.h"
 #include "other_wearings.h"
 #include "stages.h"
+#include "stand_ins.h"
 
 namespace garmentfit {
 namespace {
@@ -77,7 +78,8 @@ RunStage& run_of(Stage stage, const std::vector<Stage>& stages)
 
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
 
-void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters,
+                     const Progress& progress)
 {
     double total = 0, done = 0;
     for (const Stage stage : stages)
@@ -92,6 +94,38 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
         if (ends_here(scene, stage))
             break;
     }
+}
+
+/// Runs draping and recovering again without stand-ins that are not needed, where garments follow these badly. The scene
+/// changes where that tells more.
+void move_as_they_are(std::vector<Stage> stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    Scene other = scene;
+    if (progress.is_late() || !give_up_stand_ins(other))
+        return;
+    stages.erase(std::remove_if(stages.begin(), stages.end(), [](Stage stage) { return stage < Stage::drape; }),
+                 stages.end());
+    other.recovered.reset();
+    if (stages.front() == Stage::drape)
+        other.draped.reset();
+    try {
+        run_stages_once(stages, other, parameters, progress);
+    } catch (const InvalidInput&) {
+        return;
+    } catch (const SolverFailure&) {
+        return;
+    } catch (const TimeLimitReached&) {
+        return;
+    }
+    if (outcome_of(*final_dressing(other)) != Outcome::not_certified)
+        scene = std::move(other);
+}
+
+void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    run_stages_once(stages, scene, parameters, progress);
+    if (stages.back() >= Stage::drape)
+        move_as_they_are(stages, scene, parameters, progress.part(1, 1));
 }
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)

@@ -91,7 +91,7 @@ Scene moved(Scene scene, const Origins& origins, double sign)
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {
         move(scene.garments[i].mesh.positions, garments[i]);
         if (scene.garments[i].stand_in && *scene.garments[i].stand_in)
-            move((*scene.garments[i].stand_in)->positions, garments[i]);
+            move((*scene.garments[i].stand_in)->mesh.positions, garments[i]);
     }
     if (scene.rig)
         move(*scene.rig, body);

@@ -6,7 +6,7 @@
 #include "garmentfit/closed_ends.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/pieces.h"
-#include "garmentfit/stand_in.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -25,7 +25,7 @@ std::optional<WornStandIn> stand_in_under(const GarmentInput& garment, const Wor
 {
     if (worn.stand_in)
         return worn.stand_in;
-    GarmentMesh rest = enlarged(**garment.stand_in, worn.size);
+    GarmentMesh rest = enlarged((*garment.stand_in)->mesh, worn.size);
     Positions positions = follow(worn.rest, worn.positions, rest, { body });
     if (crossing_count({ positions, rest.triangles }, body) > 0)
         return {};
@@ -128,7 +128,42 @@ void follow_in_frames(const Leading& leading, Dressing& dressing, const std::vec
     dressing.frames = std::move(clean);
 }
 
+/// Whether it is so in a file of single precision, too: sheets that follow may end closer than its digits.
+bool is_surely_clean(WornGarment worn, const Dressing& end, const Triangles& body)
+{
+    worn.positions = worn.positions.cast<float>().cast<double>();
+    std::vector<WornGarment> alone { std::move(worn) };
+    return certify_all(alone, { end.body, body });
+}
+
+/// Whether what follows its stand-in is not clean, or far more strained than that.
+bool follows_badly(const Dressing& end, std::size_t garment, const Triangles& body)
+{
+    if (!end.is_worn(garment) || !end.certified)
+        return true;
+    const WornGarment& worn = end.garments[garment];
+    if (!worn.stand_in)
+        return false;
+    const double led = strain_of(worn.stand_in->rest, worn.stand_in->positions).p95;
+    return worn.certificate.strain.p95 > led + k_follower_strain || !is_surely_clean(worn, end, body);
+}
+
 }  // namespace
+
+bool give_up_stand_ins(Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || outcome_of(*end) == Outcome::too_small)
+        return false;
+    bool any = false;
+    for (std::size_t i = 0; i < scene.garments.size(); ++i)
+        if (has_stand_in(scene.garments[i]) && !(*scene.garments[i].stand_in)->is_needed
+            && follows_badly(*end, i, scene.body->surface.triangles)) {
+            scene.garments[i].stand_in = std::optional<StandIn>();
+            any = true;
+        }
+    return any;
+}
 
 bool find_stand_ins(Scene& scene)
 {
@@ -148,13 +183,13 @@ Scene lead(Scene scene)
             WornGarment& worn = scene.draped->garments[i];
             auto stand_in = stand_in_under(garment, worn, { scene.draped->body, scene.body->surface.triangles });
             if (!stand_in) {  // the garment itself moves on
-                garment.stand_in = std::optional<GarmentMesh>();
+                garment.stand_in = std::optional<StandIn>();
                 continue;
             }
             worn.rest = std::move(stand_in->rest);
             worn.positions = std::move(stand_in->positions);
         }
-        garment.mesh = **garment.stand_in;
+        garment.mesh = (*garment.stand_in)->mesh;
     }
     return scene;
 }

@@ -15,6 +15,10 @@ bool find_stand_ins(Scene& scene);
 /// and has no stand-in there, where it is draped and its stand-in would cross the body.
 Scene lead(Scene scene);
 
+/// Where garments that follow stand-ins which are not needed come out badly, they are to move as they are.
+/// @return whether there is one
+bool give_up_stand_ins(Scene& scene);
+
 struct Leading {
     const Scene& scene;
     const Scene& led;  ///< lead(scene)

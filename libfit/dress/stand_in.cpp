@@ -426,15 +426,17 @@ std::size_t count_self_crossings(const TriangleMesh& cloth)
     return find_self_crossings(cloth, edges_of(cloth.triangles), TriangleTree(cloth)).size();
 }
 
-/// The same cloth with fewer vertices. None where it has few, or where it, or the coarser one, crosses itself: what
-/// follows would cross at new places.
-std::optional<GarmentMesh> coarser(const GarmentMesh& garment)
+TriangleMesh welded(const GarmentMesh& garment)
 {
-    if (garment.positions.rows() < k_fine)
-        return {};
-    const GarmentMesh sewn = Weld(garment).gather(garment);
-    const TriangleMesh cloth { sewn.positions, sewn.triangles };
-    if (cloth.positions.rows() < k_fine || count_self_crossings(cloth) > 0)
+    GarmentMesh sewn = Weld(garment).gather(garment);
+    return { std::move(sewn.positions), std::move(sewn.triangles) };
+}
+
+/// The same cloth with fewer vertices. None where it, or the coarser one, crosses itself: what follows would cross at new
+/// places.
+std::optional<GarmentMesh> coarser(const TriangleMesh& cloth)
+{
+    if (count_self_crossings(cloth) > 0)
         return {};
     const std::optional<TriangleMesh> coarse = remeshed_cloth(cloth, k_coarse);
     if (!coarse || count_self_crossings(*coarse) > 0)
@@ -454,11 +456,20 @@ GarmentMesh widened(Lining lining)
 
 }  // namespace
 
-std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment)
+std::optional<StandIn> make_stand_in(const GarmentMesh& garment)
 {
     if (auto lining = lining_of(garment, crowding(garment) < k_crowded ? Lined::clothes_in_parts : Lined::all))
-        return widened(*std::move(lining));
-    return coarser(garment);
+        return StandIn { widened(*std::move(lining)) };
+    if (garment.positions.rows() < k_fine)
+        return {};
+    const TriangleMesh cloth = welded(garment);
+    if (cloth.positions.rows() < k_fine)
+        return {};
+    if (auto coarse = coarser(cloth))
+        return StandIn { *std::move(coarse), false };
+    if (auto lining = lining_of(garment, Lined::all))
+        return StandIn { widened(*std::move(lining)), false };
+    return {};
 }
 
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,

@@ -83,18 +83,19 @@ TEST(StandIn, OfPanelsIsOneSheetInsideOfThem)
     const GarmentMesh panels = tube_of_panels(0.1, 0.6);
     const auto stand_in = make_stand_in(panels);
     ASSERT_TRUE(stand_in);
-    const MeshTopology topology(stand_in->triangles, int(stand_in->positions.rows()));
+    EXPECT_TRUE(stand_in->is_needed);
+    const MeshTopology topology(stand_in->mesh.triangles, int(stand_in->mesh.positions.rows()));
     EXPECT_GT(topology.border_edges().size(), 0u);
     int beyond = 0;
-    for (const auto& place : stand_in->positions.rowwise())
+    for (const auto& place : stand_in->mesh.positions.rowwise())
         beyond += std::hypot(place.x(), place.z()) > 0.1;
-    EXPECT_LT(beyond, 0.1 * double(stand_in->positions.rows())) << "but where it ends within the rims";
+    EXPECT_LT(beyond, 0.1 * double(stand_in->mesh.positions.rows())) << "but where it ends within the rims";
     std::vector<int> middle;  // it ends within the rims
-    for (int f = 0; f < int(stand_in->triangles.rows()); ++f)
-        if (const Eigen::VectorXd y = stand_in->positions(stand_in->triangles.row(f), 1);
+    for (int f = 0; f < int(stand_in->mesh.triangles.rows()); ++f)
+        if (const Eigen::VectorXd y = stand_in->mesh.positions(stand_in->mesh.triangles.row(f), 1);
             y.minCoeff() > 0.05 && y.maxCoeff() < 0.55)
             middle.push_back(f);
-    EXPECT_EQ(crossing_count({ stand_in->positions, stand_in->triangles(middle, Eigen::all) },
+    EXPECT_EQ(crossing_count({ stand_in->mesh.positions, stand_in->mesh.triangles(middle, Eigen::all) },
                              { panels.positions, panels.triangles }),
               0);
 }
@@ -104,7 +105,7 @@ TEST(StandIn, OfPanelsIsHardlyNarrowerThanThese)
     const auto stand_in = make_stand_in(tube_of_panels(0.1, 0.6));
     ASSERT_TRUE(stand_in);
     std::vector<double> radii;
-    for (const auto& place : stand_in->positions.rowwise())
+    for (const auto& place : stand_in->mesh.positions.rowwise())
         if (place.y() > 0.1 && place.y() < 0.5)
             radii.push_back(std::hypot(place.x(), place.z()));
     std::sort(radii.begin(), radii.end());
@@ -140,7 +141,7 @@ TEST(StandIn, OfClothWithDetailsOfTinyEdgesIsOneSheetToo)
     const auto stand_in = make_stand_in(make_garment(both.positions, both.triangles));
     ASSERT_TRUE(stand_in);
     EXPECT_GT(crowding(make_garment(both.positions, both.triangles)), 10);
-    EXPECT_LT(crowding(*stand_in), 0.5);
+    EXPECT_LT(crowding(stand_in->mesh), 0.5);
 }
 
 /// A tube of cloth with many vertices, sewn along its side.
@@ -166,13 +167,14 @@ TEST(StandIn, OfFineClothIsTheSameSurfaceWithFewerVertices)
     const TriangleMesh tube = fine_tube_with_button();
     const auto stand_in = make_stand_in(make_garment(tube.positions, tube.triangles));
     ASSERT_TRUE(stand_in);
-    EXPECT_LT(stand_in->positions.rows(), tube.positions.rows() * 6 / 10);
-    EXPECT_GT(stand_in->positions.rows(), tube.positions.rows() * 3 / 10);
+    EXPECT_LT(stand_in->mesh.positions.rows(), tube.positions.rows() * 6 / 10);
+    EXPECT_GT(stand_in->mesh.positions.rows(), tube.positions.rows() * 3 / 10);
     const TriangleTree surface(tube);
-    for (Eigen::Index v = 0; v < stand_in->positions.rows(); v += 20)
-        ASSERT_LT(surface.distance(stand_in->positions.row(v)), 1e-3);
-    EXPECT_EQ(MeshTopology(stand_in->triangles, int(stand_in->positions.rows())).border_loops().size(), 2u)
+    for (Eigen::Index v = 0; v < stand_in->mesh.positions.rows(); v += 20)
+        ASSERT_LT(surface.distance(stand_in->mesh.positions.row(v)), 1e-3);
+    EXPECT_EQ(MeshTopology(stand_in->mesh.triangles, int(stand_in->mesh.positions.rows())).border_loops().size(), 2u)
         << "those of the tube: the button has no shape in these triangles";
+    EXPECT_FALSE(stand_in->is_needed);
 }
 
 TEST(StandIn, TakesFineClothAlongWithoutStrain)
@@ -181,16 +183,22 @@ TEST(StandIn, TakesFineClothAlongWithoutStrain)
     const GarmentMesh garment = make_garment(tube.positions, tube.triangles);
     const auto stand_in = make_stand_in(garment);
     ASSERT_TRUE(stand_in);
-    const Positions moved = follow(*stand_in, bent(stand_in->positions), garment, { k_far_body });
+    const Positions moved = follow(stand_in->mesh, bent(stand_in->mesh.positions), garment, { k_far_body });
     EXPECT_LT((moved - bent(garment.positions)).rowwise().norm().maxCoeff(), 1e-3);
 }
 
-TEST(StandIn, FineClothThatCrossesItselfHasNone)
+TEST(StandIn, OfFineClothThatCrossesItselfIsTheInnerSheetOfAWrap)
 {
-    TriangleMesh across = fine_tube();
-    across.positions.col(0).array() += 0.05;
-    const TriangleMesh both = joined(fine_tube(), across);
-    EXPECT_FALSE(make_stand_in(make_garment(both.positions, both.triangles)));
+    TriangleMesh button = strip(4e-3, 2e-3, 0, 6.28, 8);
+    button.positions.col(1).array() += 0.3;
+    button.positions.col(2).array() += 0.2;
+    const TriangleMesh both = joined(fine_tube(), button);
+    ASSERT_FALSE(self_crossings(both).empty());
+    const auto stand_in = make_stand_in(make_garment(both.positions, both.triangles));
+    ASSERT_TRUE(stand_in);
+    EXPECT_LT(stand_in->mesh.positions.rows(), both.positions.rows() / 2);
+    EXPECT_TRUE(self_crossings({ stand_in->mesh.positions, stand_in->mesh.triangles }).empty());
+    EXPECT_FALSE(stand_in->is_needed);
 }
 
 TEST(StandIn, TakesAlongASleeveThatHangsBesideTheTrunk)

@@ -97,5 +97,67 @@ TEST(StandIns, AreNotLookedForWhereAGarmentIsOneLayer)
     EXPECT_EQ(lead(scene).garments[0].mesh.positions, scene.garments[0].mesh.positions);
 }
 
+/// A body, and beside it a garment of two triangles that followed a stand-in of the same shape.
+Scene scene_that_followed(bool needed, const Positions& worn)
+{
+    Scene scene;
+    const TriangleMesh person = fixtures::capsule_person().mesh;
+    scene.body = make_body(person.positions, person.triangles);
+    GarmentMesh sheet { Positions(4, 3), Triangles(2, 3) };
+    sheet.positions << 5, 0, 0, 6, 0, 0, 6, 1, 0, 5, 1, 0;
+    sheet.triangles << 0, 1, 2, 0, 2, 3;
+    scene.garments = { { sheet } };
+    scene.garments[0].stand_in = StandIn { sheet, needed };
+    scene.recovered.emplace();
+    Dressing& end = *scene.recovered;
+    end.body = person.positions;
+    end.certified = true;
+    WornGarment garment { sheet, worn };
+    garment.stand_in = WornStandIn { sheet, sheet.positions };
+    garment.certificate = certify(person, sheet, worn);
+    end.garments = { garment };
+    return scene;
+}
+
+TEST(StandIns, AreGivenUpWhereTheyAreNotNeededAndFollowedBadly)
+{
+    Positions good(4, 3), strained(4, 3);
+    good << 5, 0, 0, 6, 0, 0, 6, 1, 0, 5, 1, 0;
+    strained = 1.3 * good;
+    const auto gives_up = [](Scene scene) {
+        const bool given_up = give_up_stand_ins(scene);
+        EXPECT_EQ(given_up, !scene.garments[0].stand_in->has_value());
+        return given_up;
+    };
+    EXPECT_FALSE(gives_up(scene_that_followed(false, good)));
+    EXPECT_TRUE(gives_up(scene_that_followed(false, strained)));
+    EXPECT_FALSE(gives_up(scene_that_followed(true, strained)));
+    Scene crossing = scene_that_followed(false, good);
+    crossing.recovered->certified = false;
+    EXPECT_TRUE(gives_up(crossing));
+    Scene too_small = crossing;
+    too_small.recovered->scale_reached = 0.9;
+    EXPECT_FALSE(gives_up(too_small)) << "it is so in any triangles";
+}
+
+// Apart by less than the digits of a file of single precision.
+TEST(StandIns, AreGivenUpWhereAFileWouldHoldNewCrossings)
+{
+    Scene scene = scene_that_followed(false, Positions::Zero(4, 3));
+    GarmentMesh sheets { Positions(6, 3), Triangles(2, 3) };
+    sheets.positions << 5, 0, 0, 6, 0, 0, 5, 1, 0, 5.2, 0.2, 0.01, 5.4, 0.2, 0.01, 5.2, 0.4, 0.5;
+    sheets.triangles << 0, 1, 2, 3, 4, 5;
+    Positions worn = sheets.positions;  // an edge of the second triangle passes the first one by 1e-9 m
+    worn.col(2) << 0.3, 0.3, 0.3, 0.3 + 1e-9, 0.3 + 1e-9, 0.5;
+    scene.garments[0].mesh = sheets;
+    WornGarment& garment = scene.recovered->garments[0];
+    garment.rest = sheets;
+    garment.positions = worn;
+    garment.stand_in = WornStandIn { sheets, worn };
+    garment.certificate = certify({ scene.recovered->body, scene.body->surface.triangles }, sheets, worn);
+    ASSERT_TRUE(garment.certificate.clean());
+    EXPECT_TRUE(give_up_stand_ins(scene));
+}
+
 }  // namespace
 }  // namespace garmentfit

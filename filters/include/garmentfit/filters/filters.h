@@ -16,6 +16,7 @@
 #include "garmentfit/filters/schema.h"
 #include "garmentfit/fit_map.h"
 #include "garmentfit/layer_order.h"
+#include "garmentfit/stand_in.h"
 #include "garmentfit/units.h"
 
 namespace garmentfit {
@@ -48,7 +49,7 @@ struct GarmentInput {
     int skipped = 0;  ///< FitOptions::skipped
     std::optional<Fabric> fabric = {};  ///< empty: as in Parameters
     /// Moves in its place (stand_in.h). Draping looks for one where there is none; without a mesh: it needs none.
-    std::optional<std::optional<GarmentMesh>> stand_in = {};
+    std::optional<std::optional<StandIn>> stand_in = {};
     bool has_unit = true;  ///< Frame::has_unit; a garment without one may be made larger where it is too small
 };
 

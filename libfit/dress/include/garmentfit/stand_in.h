@@ -21,14 +21,19 @@
 
 namespace garmentfit {
 
+struct StandIn {
+    GarmentMesh mesh;
+    bool is_needed = true;  ///< else the garment may move as it is, which takes longer
+};
+
 /// A stand-in, for clothes that cannot be read as one layer of cloth: panels that are closed slabs, sheets that lie on
-/// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md); and for clothes with details whose edges
+/// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md); for clothes with details whose edges
 /// are far shorter than those of the cloth, cords, zips and stitches, where contact has hundreds of pairs for a vertex
-/// (docs/decisions/0033-stand-ins.md); and for cloth of 20,000 vertices and more that is a manifold and does not cross
-/// itself. None for all others.
+/// (docs/decisions/0033-stand-ins.md); and, not needed, for cloth of 20,000 vertices and more: the same in larger
+/// triangles where it is a manifold and does not cross itself, else the inner sheet of a wrap. None for all others.
 /// Cost: 4 to 8 s where there is a wrap, whatever the size of the garment; else O(n log n).
 /// @param garment  on a body of human size
-GARMENTFIT_API std::optional<GarmentMesh> make_stand_in(const GarmentMesh& garment);
+GARMENTFIT_API std::optional<StandIn> make_stand_in(const GarmentMesh& garment);
 
 /// What a garment has to keep clear of.
 struct Surroundings {
