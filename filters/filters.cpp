@@ -96,12 +96,13 @@ void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Param
     }
 }
 
-/// Runs draping and recovering again without stand-ins that are not needed, where garments follow these badly. The scene
-/// changes where that tells more.
-void move_as_they_are(std::vector<Stage> stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+/// Runs draping and recovering again after a change of the scene. It stays so where that tells more.
+/// @param change  @return whether there is anything to change
+void run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene,
+                 const Parameters& parameters, const Progress& progress)
 {
     Scene other = scene;
-    if (progress.is_late() || !give_up_stand_ins(other))
+    if (progress.is_late() || !change(other))
         return;
     stages.erase(std::remove_if(stages.begin(), stages.end(), [](Stage stage) { return stage < Stage::drape; }),
                  stages.end());
@@ -124,8 +125,10 @@ void move_as_they_are(std::vector<Stage> stages, Scene& scene, const Parameters&
 void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
     run_stages_once(stages, scene, parameters, progress);
-    if (stages.back() >= Stage::drape)
-        move_as_they_are(stages, scene, parameters, progress.part(1, 1));
+    if (stages.back() < Stage::drape)
+        return;
+    run_changed(give_up_stand_ins, stages, scene, parameters, progress.part(1, 1));
+    run_changed(find_linings, stages, scene, parameters, progress.part(1, 1));
 }
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)

@@ -165,6 +165,20 @@ bool give_up_stand_ins(Scene& scene)
     return any;
 }
 
+bool find_linings(Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || outcome_of(*end) != Outcome::not_certified)
+        return false;
+    bool any = false;
+    for (GarmentInput& garment : scene.garments)
+        if (garment.stand_in && !has_stand_in(garment)) {
+            garment.stand_in = make_lining(garment.mesh);
+            any |= has_stand_in(garment);
+        }
+    return any;
+}
+
 bool find_stand_ins(Scene& scene)
 {
     for (GarmentInput& garment : scene.garments)

@@ -19,6 +19,10 @@ Scene lead(Scene scene);
 /// @return whether there is one
 bool give_up_stand_ins(Scene& scene);
 
+/// Where a dressing that none moved in ended uncertified, garments are to follow the inner sheets of their wraps.
+/// @return whether there is one
+bool find_linings(Scene& scene);
+
 struct Leading {
     const Scene& scene;
     const Scene& led;  ///< lead(scene)

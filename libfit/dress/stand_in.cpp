@@ -467,9 +467,13 @@ std::optional<StandIn> make_stand_in(const GarmentMesh& garment)
         return {};
     if (auto coarse = coarser(cloth))
         return StandIn { *std::move(coarse), false };
-    if (auto lining = lining_of(garment, Lined::all))
-        return StandIn { widened(*std::move(lining)), false };
-    return {};
+    return make_lining(garment);
+}
+
+std::optional<StandIn> make_lining(const GarmentMesh& garment)
+{
+    auto lining = lining_of(garment, Lined::all);
+    return lining ? std::optional(StandIn { widened(*std::move(lining)), false }) : std::nullopt;
 }
 
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,

@@ -159,5 +159,24 @@ TEST(StandIns, AreGivenUpWhereAFileWouldHoldNewCrossings)
     EXPECT_TRUE(give_up_stand_ins(scene));
 }
 
+TEST(StandIns, AreLookedForWhereAGarmentMovedAsItIsInVain)
+{
+    const MeshFile file = MeshFile::read(GARMENTFIT_SAMPLES "/tshirt.ply");
+    Scene scene;
+    scene.garments = { { make_garment(file.positions(), file.triangles()) } };
+    EXPECT_FALSE(find_stand_ins(scene));
+    scene.recovered.emplace();
+    scene.recovered->certified = true;
+    EXPECT_FALSE(find_linings(scene));
+    scene.recovered->certified = false;
+    Scene too_small = scene;
+    too_small.recovered->scale_reached = 0.9;
+    EXPECT_FALSE(find_linings(too_small));
+    EXPECT_TRUE(find_linings(scene));
+    ASSERT_TRUE(scene.garments[0].stand_in.value());
+    EXPECT_FALSE(scene.garments[0].stand_in.value()->is_needed);
+    EXPECT_FALSE(find_linings(scene)) << "tried";
+}
+
 }  // namespace
 }  // namespace garmentfit

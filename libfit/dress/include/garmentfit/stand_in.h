@@ -35,6 +35,10 @@ struct StandIn {
 /// @param garment  on a body of human size
 GARMENTFIT_API std::optional<StandIn> make_stand_in(const GarmentMesh& garment);
 
+/// The inner sheet of a wrap round any garment, where a body passes through it. It is not needed.
+/// Cost as make_stand_in with a wrap.
+GARMENTFIT_API std::optional<StandIn> make_lining(const GarmentMesh& garment);
+
 /// What a garment has to keep clear of.
 struct Surroundings {
     TriangleMesh body;  ///< closed
