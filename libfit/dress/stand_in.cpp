@@ -409,16 +409,29 @@ Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obsta
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
-Positions untangled(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
-                    const Progress& progress)
+Positions untangled_once(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
+                         const Progress& progress)
 {
-    if (!progress.goes_on(1))
-        return positions;
     const std::size_t given = cloth.crossings.size();
     Positions parted = given <= k_few_crossings
         ? untangle({ positions, cloth.rest.triangles }, cloth.topology.edges()).positions
         : parted_to(cloth, positions, std::size_t(k_fewer_crossings * double(given)));
     return with_gaps_of_rest(cloth, moved_clear(cloth, positions, std::move(parted), obstacles), obstacles, progress);
+}
+
+/// Again from where a few are left, as long as it leaves fewer.
+Positions untangled(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
+                    const Progress& progress)
+{
+    Best best { positions };
+    while (best.futile == 0 && progress.goes_on(1)) {
+        Positions next = untangled_once(cloth, best.positions, obstacles, progress);
+        const std::size_t fresh = cloth.fresh_crossings(next).size();
+        best.offer(next, fresh);
+        if (fresh == 0 || fresh > k_last_crossings)
+            break;
+    }
+    return best.positions;
 }
 
 std::size_t count_self_crossings(const TriangleMesh& cloth)
