@@ -71,7 +71,7 @@ public:
         std::vector<Hollow> result;
         for (const Part& floor : floors()) {
             const Tube tube = tube_behind(floor);
-            if (tube.length < k_hollow_length * tube.width)
+            if (!(tube.length > k_hollow_length * tube.width))  // or none was measured
                 continue;
             const std::vector<int> faces = up_to_rim(floor);
             if (!is_end_of(tube, faces))
@@ -223,21 +223,22 @@ private:
             return {};
         const std::size_t step = 1 + samples.size() / k_hollow_samples;
         const auto across = directions_across(floor.axis);
-        const auto median_chord = [&](const Vec3& direction, double depth) {
+        const auto chord_of = [&](double share, const Vec3& direction, double depth) {
             std::vector<double> chords;
             for (std::size_t i = 0; i < samples.size(); i += step)
                 chords.push_back(chord(middles_[samples[i]] - depth * floor.axis, direction));
-            return quantile(chords, 0.5);
+            return quantile(chords, share);
         };
-        double length = median_chord(-floor.axis, k_off * diagonal_);
+        const auto length_along
+            = [&](const Vec3& direction) { return chord_of(k_hollow_chord, direction, k_off * diagonal_); };
+        double length = length_along(-floor.axis);
         const double depth = std::min(k_hollow_depth * diagonal_, length / 2);
         double width = 0;
         for (const Vec3& direction : across)
-            width += 2.0 / k_rays * median_chord(direction, depth);
+            width += 2.0 / k_rays * chord_of(0.5, direction, depth);
         for (const Vec3& direction : across)
             length = std::max(length,
-                              median_chord(std::sin(k_hollow_tilt) * direction - std::cos(k_hollow_tilt) * floor.axis,
-                                           k_off * diagonal_));
+                              length_along(std::sin(k_hollow_tilt) * direction - std::cos(k_hollow_tilt) * floor.axis));
         return { length, width };
     }
 
