@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "attempt.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/number_text.h"
@@ -109,16 +110,8 @@ void run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> s
     other.recovered.reset();
     if (stages.front() == Stage::drape)
         other.draped.reset();
-    try {
-        run_stages_once(stages, other, parameters, progress);
-    } catch (const InvalidInput&) {
-        return;
-    } catch (const SolverFailure&) {
-        return;
-    } catch (const TimeLimitReached&) {
-        return;
-    }
-    if (outcome_of(*final_dressing(other)) != Outcome::not_certified)
+    if (succeeds([&] { run_stages_once(stages, other, parameters, progress); })
+        && outcome_of(*final_dressing(other)) != Outcome::not_certified)
         scene = std::move(other);
 }
 

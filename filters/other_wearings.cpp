@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "attempt.h"
 #include "garmentfit/filters/outcome.h"
 #include "tuning.h"
 
@@ -129,25 +130,23 @@ void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t re
         other.garments[garment].skipped = tried[garment];
         other.draped.reset();
         other.recovered.reset();
-        try {
-            steps.fit(other);
-            FitResult& fit = other.fits[garment];
-            if (fit.probability < k_worth_trying)
-                return;
-            fit = with_probability_of(scene.fits[garment], fit);
-            if (plausibility(fit.probability, End::worn)
-                <= plausibility(scene.fits[garment].probability, end_of(scene)))
-                return;
-            steps.drape_and_recover(other);
-        } catch (const RefusedGarment&) {
-            // it may be this garment or one over it: keep_better sees that there is no end
-        } catch (const InvalidInput&) {
+        if (!succeeds([&] { steps.fit(other); }))
             return;
-        } catch (const SolverFailure&) {
+        FitResult& fit = other.fits[garment];
+        if (fit.probability < k_worth_trying)
             return;
-        } catch (const TimeLimitReached&) {
+        fit = with_probability_of(scene.fits[garment], fit);
+        if (plausibility(fit.probability, End::worn) <= plausibility(scene.fits[garment].probability, end_of(scene)))
             return;
-        }
+        const bool has_ended = succeeds([&] {
+            try {
+                steps.drape_and_recover(other);
+            } catch (const RefusedGarment&) {
+                // it may be this garment or one over it: keep_better sees that there is no end
+            }
+        });
+        if (!has_ended)
+            return;
         keep_better(scene, std::move(other), garment);
     }
 }

@@ -112,16 +112,17 @@ double ContactDetector::spare_lacking(const SweptRegion& region) const
 {
     if (region_.start.rows() != region.start.rows())
         return INFINITY;
+    const Margins slack { region_.margins.cloth - region.margins.cloth,
+                          region_.margins.obstacle - region.margins.obstacle };
     double most = 0;
     for (Eigen::Index v = 0; v < region.start.rows(); ++v) {
+        const auto of_vertex
+            = [&](const Margins& margins) { return v < cloth_vertices_ ? margins.cloth : margins.obstacle; };
         const Vec3 from = region.start.row(v), to = from + Vec3(region.path.row(v)), begin = region_.start.row(v),
                    end = begin + Vec3(region_.path.row(v));
-        const auto of = [&](double Margins::*margin) {
-            const double beyond = std::max(distance_to_segment(from, begin, end), distance_to_segment(to, begin, end))
-                - (region_.margins.*margin - region.margins.*margin);
-            return beyond > 0 ? beyond / (spare_.*margin) : 0;
-        };
-        most = std::max(most, of(v < cloth_vertices_ ? &Margins::cloth : &Margins::obstacle));
+        const double away = std::max(distance_to_segment(from, begin, end), distance_to_segment(to, begin, end));
+        if (const double beyond = away - of_vertex(slack); beyond > 0)
+            most = std::max(most, beyond / of_vertex(spare_));
     }
     return most;
 }
@@ -225,10 +226,10 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
 void ContactDetector::detect(const Positions& x, const Positions& displacements, const Margins& margins)
 {
     ++detections_;
-    const SweptRegion asked { x, displacements, margins };
+    SweptRegion asked { x, displacements, margins };
     if (const double lacking = spare_lacking(asked); lacking > 0) {
         choose_spare(lacking);
-        search(asked);
+        search(std::move(asked));
     }
     const bool stands_still = displacements.isZero(0);
     const Eigen::VectorXd moved = (x - region_.start).rowwise().norm();

@@ -385,8 +385,8 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
 
 /// Gives what meets and did not as given, where that is little, the gaps that it had at rest. Where a fold has no room
 /// for them, sheets are pushed to and fro: then it begins again where the fewest met, with half the step.
-Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles& obstacles,
-                            const Progress& progress)
+/// @return with the crossings that are left, or more than k_few_crossings
+Best with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress)
 {
     double step = k_gap_step * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
     Best best { positions, k_few_crossings + 1 };
@@ -404,13 +404,13 @@ Positions with_gaps_of_rest(const Parts& cloth, Positions positions, const Obsta
         const Positions motion = towards_gaps_of_rest(cloth, fresh, positions, step);
         positions = moved_clear(cloth, positions, positions + motion, obstacles);
     }
-    return best.positions;
+    return best;
 }
 
 /// Untangles cloth with few crossings, but where that would make it meet something. Thousands of crossings are sheets
 /// that lie on each other and do not come apart: of these, it leaves some fewer than were given.
-Positions untangled_once(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
-                         const Progress& progress)
+Best untangled_once(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
+                    const Progress& progress)
 {
     const std::size_t given = cloth.crossings.size();
     Positions parted = given <= k_few_crossings
@@ -425,10 +425,9 @@ Positions untangled(const Parts& cloth, const Positions& positions, const Obstac
 {
     Best best { positions };
     while (best.futile == 0 && progress.goes_on(1)) {
-        Positions next = untangled_once(cloth, best.positions, obstacles, progress);
-        const std::size_t fresh = cloth.fresh_crossings(next).size();
-        best.offer(next, fresh);
-        if (fresh == 0 || fresh > k_last_crossings)
+        const Best next = untangled_once(cloth, best.positions, obstacles, progress);
+        best.offer(next.positions, next.faults);
+        if (next.faults == 0 || next.faults > k_last_crossings)
             break;
     }
     return best.positions;

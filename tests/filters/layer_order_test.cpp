@@ -129,7 +129,7 @@ TEST(LayerOrder, DrapingFollowsTheLayersAndHandsOutInTheOrderGiven)
     EXPECT_EQ(scene.recovered->garments[0].rest.positions, scene.garments[0].mesh.positions);
 }
 
-TEST(LayerOrder, AGarmentWithoutAUnitIsMadeLargerWhereItIsTooSmall)
+TEST(Draping, AGarmentWithoutAUnitIsMadeLargerWhereItIsTooSmall)
 {
     Scene scene = scene_with({ trousers(-0.012) });
     filter_of("drape").run(scene, short_settling());
