@@ -89,14 +89,17 @@ std::string count_text(int count, const std::string& noun)
 
 void warn_of_left_out(std::vector<std::string>& warnings, const std::string& name, const LeftOut& left_out)
 {
-    if (left_out.solids + left_out.lids == 0)
-        return;
-    const std::string solids = left_out.solids > 0 ? count_text(left_out.solids, "solid") : "",
-                      lids = left_out.lids > 0 ? count_text(left_out.lids, "lid") : "";
-    warnings.push_back(
-        name + " has " + solids + (solids.empty() || lids.empty() ? "" : " and ") + lids + " inside ("
-        + count_text(left_out.faces, "face")
-        + "), which no body passes; taken for no cloth, left out, and drawn into one point of the cloth");
+    std::string pieces;
+    const auto add = [&pieces](int count, const std::string& noun, const std::string& after, const std::string& where) {
+        if (count > 0)
+            pieces += (pieces.empty() ? "" : after) + count_text(count, noun) + where;
+    };
+    add(left_out.solids, "solid", "", left_out.lids > 0 ? "" : " inside");
+    add(left_out.lids, "lid", " and ", " inside");
+    add(left_out.specks, "speck", ", and ", " far from the cloth");
+    if (!pieces.empty())
+        warnings.push_back(name + " has " + pieces + " (" + count_text(left_out.faces, "face")
+                           + "); taken for no cloth, left out, and drawn into one point of the cloth");
 }
 
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)

@@ -65,7 +65,7 @@ Parts drop_facets(const Parts& patches, Parts caps)
 
 /// What is no cloth of a garment.
 struct Findings {
-    Parts caps, solids, lids;
+    Parts caps, solids, lids, specks;
     std::vector<int> kept;  // faces of none of them
 };
 
@@ -79,6 +79,8 @@ Findings find_what_is_no_cloth(const GarmentMesh& garment)
     Parts& caps = result.caps = drop_facets(patches, found.find());
     result.solids = find_fillings(mesh, found.topology(), patches, count_caps(patches, caps));
     leave_out(result.solids, is_kept);
+    result.specks = find_specks(mesh, patches);
+    leave_out(result.specks, is_kept);
     std::erase_if(caps, [&](const std::vector<int>& cap) { return !is_kept[cap[0]]; });
     if (!caps.empty())
         std::erase_if(caps, [thick = mark_thick_cloth(mesh, found.topology())](const std::vector<int>& cap) {
@@ -135,7 +137,7 @@ private:
     std::vector<char> is_cloth_;
 };
 
-/// Without caps, lids and fillings.
+/// Without caps, lids, fillings and specks.
 OpenedGarment leave_out_caps(const GarmentMesh& garment)
 {
     const Findings found = find_what_is_no_cloth(garment);
@@ -145,6 +147,7 @@ OpenedGarment leave_out_caps(const GarmentMesh& garment)
     Gatherer gatherer(result.garment.positions, result.garment.triangles);
     result.left_out.solids = gatherer.gather(garment.triangles, found.solids, result.left_out.faces);
     result.left_out.lids = gatherer.gather(garment.triangles, found.lids, result.left_out.faces);
+    result.left_out.specks = gatherer.gather(garment.triangles, found.specks, result.left_out.faces);
     return result;
 }
 

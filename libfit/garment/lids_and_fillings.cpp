@@ -195,6 +195,28 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
     return fillings;
 }
 
+std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
+{
+    const double whole = diagonal(mesh.positions);
+    std::vector<std::vector<int>> small;
+    std::vector<int> large;
+    for (const std::vector<int>& patch : patches)
+        if (box_of(mesh, patch).diagonal().norm() < k_speck_size * whole)
+            small.push_back(patch);
+        else
+            large.insert(large.end(), patch.begin(), patch.end());
+    if (small.empty() || large.empty())
+        return {};
+    const TriangleMesh cloth { mesh.positions, mesh.triangles(large, Eigen::all) };
+    const TriangleTree tree(cloth);
+    std::erase_if(small, [&](const std::vector<int>& patch) {
+        const Eigen::AlignedBox3d box = box_of(mesh, patch);
+        const double length = box.diagonal().norm(), gap = tree.distance(box.center()) - length / 2;
+        return gap < std::max(length, k_speck_gap * whole);
+    });
+    return small;
+}
+
 std::vector<std::vector<int>> find_lids(const TriangleMesh& mesh, const MeshTopology& topology,
                                         const std::vector<std::vector<int>>& patches, const std::vector<char>& is_cloth)
 {

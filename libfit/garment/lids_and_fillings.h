@@ -2,7 +2,8 @@
 #pragma once
 
 // Pieces in a garment's mesh that are no cloth. Shops' viewers look into a garment from outside, so its inside is
-// hidden there: by a solid in the shape of a trunk, or by lids that lie loosely in the openings.
+// hidden there: by a solid in the shape of a trunk, or by lids that lie loosely in the openings. Specks are left over
+// from modelling, far from all cloth.
 
 #include <vector>
 
@@ -23,6 +24,10 @@ bool is_without_inner_vertices(const MeshTopology& topology, const std::vector<i
 std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const MeshTopology& topology,
                                             const std::vector<std::vector<int>>& patches,
                                             const std::vector<int>& closed_ends);
+
+/// Small patches that are farther from the garment's large ones than they are long. Nothing holds them, and a body may be
+/// where they are.
+std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
 
 /// Lids: flat patches, sheets or slabs, whose rims lie at steep cloth, and whose middles are far from any. Those of many
 /// triangles from rim to rim may be as crumpled as the cuff that they close.

@@ -194,6 +194,21 @@ TEST(ClosedEnds, OfAClothThatASolidFillsAreOpen)
     }
 }
 
+TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none);
+    TriangleMesh speck = tube(Cap::around_centre, Cap::around_centre, 0, 8);
+    speck.positions *= 0.005;
+    speck.positions.col(1).array() += 0.5;
+    for (const auto& [from_axis, specks] : { std::pair(0.0, 1), std::pair(0.095, 0) }) {  // far from it, and on it
+        TriangleMesh placed = speck;
+        placed.positions.col(0).array() += from_axis;
+        const OpenedGarment result = opened(fixtures::joined(open, placed));
+        EXPECT_EQ(result.left_out.specks, specks);
+        EXPECT_EQ(result.left_out.faces, specks * speck.triangles.rows());
+    }
+}
+
 /// The cloth stays where it is; the vertices behind it lie in one of its own.
 void expect_gathered(const OpenedGarment& result, const TriangleMesh& cloth)
 {

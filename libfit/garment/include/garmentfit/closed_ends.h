@@ -13,6 +13,7 @@ namespace garmentfit {
 struct LeftOut {
     int solids = 0;  ///< that fill it
     int lids = 0;  ///< that lie loosely in its openings
+    int specks = 0;  ///< small pieces far from all cloth
     int faces = 0;  ///< of all of them
 };
 
