@@ -444,14 +444,18 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
 {
     std::vector<Bone> bones = bones_covered_by(type);
     const bool any_sleeves = type == GarmentType::dress || type == GarmentType::jumpsuit || type == GarmentType::suit;
-    if (!any_sleeves || openings.empty())
+    if (openings.empty())
         return bones;
     Sleeves longest = Sleeves::none;
-    for (const Piece& piece : pieces_of(openings))
+    bool are_short = false;
+    for (const Piece& piece : pieces_of(openings)) {
         longest = std::max(longest, sleeves_of(piece));
+        are_short |= !piece.sleeves.empty() && length_in_girths(piece.sleeves) < k_short_sleeve;
+    }
     const auto is_uncovered = [&](Bone b) {
         const bool upper = b == lhumerus || b == rhumerus, fore = b == lradius || b == rradius;
-        return (upper && longest == Sleeves::none) || (fore && longest != Sleeves::whole_arm);
+        return any_sleeves ? (upper && longest == Sleeves::none) || (fore && longest != Sleeves::whole_arm)
+                           : fore && are_short && longest != Sleeves::whole_arm;
     };
     bones.erase(std::remove_if(bones.begin(), bones.end(), is_uncovered), bones.end());
     return bones;

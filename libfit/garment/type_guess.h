@@ -16,7 +16,8 @@ TypeGuess guess_type(const std::vector<Opening>& openings);
 /// Evidence of the openings that the garment is upright: 0 (none) to 1.
 double uprightness(const std::vector<Opening>& openings);
 
-/// The bones that a garment covers. Where the type does not determine the sleeves, the openings do.
+/// The bones that a garment covers. Where the type does not determine the sleeves, the openings do; sleeves that are
+/// clearly short leave the forearms bare, whatever the type.
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
 
 /// Evidence of the openings on how the garment is worn.

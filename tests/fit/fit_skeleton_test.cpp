@@ -277,6 +277,21 @@ TEST(FitSkeleton, UncoveredForearmsStayAsInTheInputPose)
     EXPECT_EQ(std::count(result.covered.begin(), result.covered.end(), lradius), 0);
 }
 
+// The trunk offers an arm more clearance than a short sleeve: with forearms to cover, one of them would stay there.
+TEST(FitSkeleton, ShortSleevesHaveBothArmsWhateverTheType)
+{
+    const PersonOptions made_on { .arm_angle = 45 };
+    const Rig rig = rig_of({ .arm_angle = 20 });
+    for (const GarmentType type : { GarmentType::longsleeve, GarmentType::jacket }) {
+        const FitResult result = fit_skeleton(rig, shirt(made_on, 0.6, 0.05), { .type = type });
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
+        EXPECT_GT(joints.tail(lhumerus).x(), 0.25);
+        EXPECT_LT(joints.tail(rhumerus).x(), -0.25);
+        for (const Bone forearm : { lradius, rradius })
+            EXPECT_EQ(std::count(result.covered.begin(), result.covered.end(), forearm), 0);
+    }
+}
+
 TEST(FitSkeleton, TheGarmentMayLieAnywhere)
 {
     const PersonOptions input { .arm_angle = 45 };
