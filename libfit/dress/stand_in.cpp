@@ -383,6 +383,26 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
     return motion;
 }
 
+/// Where cloth meets itself and did not as given.
+struct FreshCrossings {
+    std::vector<Crossing> crossings;
+    Positions positions;  ///< at which they do
+};
+
+/// If there are none, those that there would be in a file of single precision, in one of a few units: sheets that lay on
+/// each other may be closer than its digits.
+FreshCrossings find_fresh_crossings(const Parts& cloth, const Positions& positions)
+{
+    FreshCrossings found { cloth.fresh_crossings(positions), positions };
+    for (const double unit : k_units_of_files) {
+        if (!found.crossings.empty())
+            break;
+        found.positions = unit * (positions / unit).cast<float>().cast<double>();
+        found.crossings = cloth.fresh_crossings(found.positions);
+    }
+    return found;
+}
+
 /// Gives what meets and did not as given, where that is little, the gaps that it had at rest. Where a fold has no room
 /// for them, sheets are pushed to and fro: then it begins again where the fewest met, with half the step.
 /// @return with the crossings that are left, or more than k_few_crossings
@@ -391,17 +411,17 @@ Best with_gaps_of_rest(const Parts& cloth, Positions positions, const Obstacles&
     double step = k_gap_step * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
     Best best { positions, k_few_crossings + 1 };
     for (int round = 0; round < k_gap_rounds; ++round) {
-        const std::vector<Crossing> fresh = cloth.fresh_crossings(positions);
-        best.offer(positions, fresh.size());
+        const FreshCrossings fresh = find_fresh_crossings(cloth, positions);
+        best.offer(positions, fresh.crossings.size());
         if (best.futile == k_futile_gap_rounds) {
             positions = best.positions;
             step /= 2;
             best.futile = 0;
             continue;
         }
-        if (fresh.empty() || fresh.size() > k_few_crossings || !progress.goes_on(1))
+        if (fresh.crossings.empty() || fresh.crossings.size() > k_few_crossings || !progress.goes_on(1))
             break;
-        const Positions motion = towards_gaps_of_rest(cloth, fresh, positions, step);
+        const Positions motion = towards_gaps_of_rest(cloth, fresh.crossings, fresh.positions, step);
         positions = moved_clear(cloth, positions, positions + motion, obstacles);
     }
     return best;

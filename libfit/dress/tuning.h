@@ -198,6 +198,8 @@ inline constexpr double k_fewer_crossings = 0.99, k_least_parting = 1. / 16;
 inline constexpr std::size_t k_last_crossings = 100;
 /// How often cloth that was untangled is put back where it meets something. fitted: guess
 inline constexpr int k_clearing_rounds = 6;
+/// Units in which the digits of single precision are tried, m: metres, and two in which they end elsewhere.
+inline constexpr std::array<double, 3> k_units_of_files { 1, 0.7, 0.3 };
 /// Step in which what meets and did not as given is moved apart, in mean edges of the garment; how many of them at most,
 /// and how many in vain halve it. fitted: on five clothes of web shops (docs/decisions/0033)
 inline constexpr double k_gap_step = 0.1;

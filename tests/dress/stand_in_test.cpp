@@ -263,6 +263,23 @@ TEST(StandIn, MovesSheetsAlikeThatLieOnEachOther)
     EXPECT_LT(worn.strain.p95, 0.2) << "0.74 there";
 }
 
+TEST(StandIn, MovesSheetsApartThatFilesWouldLetCross)
+{
+    const auto at = [](double height) { return [height](double, double) { return height; }; };
+    const TriangleMesh plane = sheet(11, 0.05, at(0)),
+                       both = joined(sheet(6, 0.1, at(0.01)), sheet(5, 0.125, at(0.01 + 1e-8)));
+    const GarmentMesh garment { both.positions, both.triangles };
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()).toRotationMatrix().transpose();
+    const auto crossings_in_file = [&](const Positions& positions) {
+        return certify(k_far_body, garment, positions.cast<float>().cast<double>()).self_crossings;
+    };
+    EXPECT_GT(crossings_in_file(garment.positions * turn), 0);
+    const Positions followed
+        = follow({ plane.positions, plane.triangles }, plane.positions * turn, garment, { k_far_body });
+    EXPECT_EQ(crossings_in_file(followed), 0);
+    EXPECT_LT((followed - garment.positions * turn).rowwise().norm().maxCoeff(), 0.05);
+}
+
 TEST(StandIn, DoesNotCrossItselfInFoldsThatHaveNoRoom)
 {
     // pleats 0.9 mm apart and 12 mm deep; the garment is 6 mm from its stand-in
