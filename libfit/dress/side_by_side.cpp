@@ -11,7 +11,8 @@
 
 namespace garmentfit {
 
-SideBySide::SideBySide(const Positions& rest, const MeshTopology& topology) : links_(rest.rows())
+SideBySide::SideBySide(const Positions& rest, const MeshTopology& topology, const Positions& moved) :
+    links_(rest.rows())
 {
     const double edge = mean_edge_length(rest, topology.edges());
     const auto link = [&](int from, int to) {
@@ -25,7 +26,7 @@ SideBySide::SideBySide(const Positions& rest, const MeshTopology& topology) : li
         for (const int n : topology.neighbours(v))
             link(v, n);
         for (const int n : near[v])
-            if (n != v) {
+            if (n != v && (moved.row(v) - moved.row(n)).norm() < k_apart) {
                 link(v, n);
                 link(n, v);
             }

@@ -16,8 +16,9 @@ namespace garmentfit {
 /// The vertices of cloth, linked by its edges and to those near them at rest, of whatever part.
 class SideBySide {
 public:
-    /// @param rest  n x 3, metres
-    SideBySide(const Positions& rest, const MeshTopology& topology);
+    /// @param rest   n x 3, metres
+    /// @param moved  n x 3, metres, roughly where they go: what goes far apart only touched, as a sleeve and the trunk
+    SideBySide(const Positions& rest, const MeshTopology& topology, const Positions& moved);
 
     /// Marks also what is within so many links of the marked vertices.
     void spread(std::vector<char>& marks, int links) const;

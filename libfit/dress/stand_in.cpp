@@ -34,12 +34,13 @@ struct Parts {
     const MeshTopology topology;
     const std::vector<Crossing> crossings;  ///< with itself, as given
     const GivenCrossings given;
+    const LedPlaces led;  ///< with the stand-in
     const SideBySide beside;
 
-    explicit Parts(const GarmentMesh& garment) :
+    Parts(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment) :
         weld(garment), rest(sewn(weld.gather(garment))), topology(rest.triangles, int(rest.positions.rows())),
         crossings(self_crossings(rest.positions)), given(rest, topology.edges(), crossings),
-        beside(rest.positions, topology)
+        led(lead_along(stand_in, worn, rest.positions, topology)), beside(rest.positions, topology, led.positions)
     {
     }
     Parts(const Parts&) = delete;
@@ -81,13 +82,13 @@ struct Best {
 // ---- cloth side by side moves alike --------------------------------------------------------------------------------
 
 /// The affine motions of all vertices, a row each.
-Eigen::MatrixXd affine_motions(const Parts& cloth, const LedPlaces& places)
+Eigen::MatrixXd affine_motions(const Parts& cloth)
 {
-    Eigen::MatrixXd motions(places.positions.rows(), 12);
+    Eigen::MatrixXd motions(cloth.led.positions.rows(), 12);
     for (Eigen::Index v = 0; v < motions.rows(); ++v) {
-        const Eigen::Matrix3d& turn = places.turns[v];
+        const Eigen::Matrix3d& turn = cloth.led.turns[v];
         motions.row(v).head<9>() = Eigen::Map<const Eigen::RowVector<double, 9>>(turn.data());
-        motions.row(v).tail<3>() = places.positions.row(v) - cloth.rest.positions.row(v) * turn.transpose();
+        motions.row(v).tail<3>() = cloth.led.positions.row(v) - cloth.rest.positions.row(v) * turn.transpose();
     }
     return motions;
 }
@@ -124,11 +125,11 @@ std::size_t mark_faults(const Parts& cloth, const Positions& positions, std::vec
 
 /// Evens the motions round all places where parts that lay side by side went different ways: their vertices hang on
 /// different sides of the stand-in, or are further from it than its folds are wide. A wider circle in each round.
-Positions moved_alike(const Parts& cloth, const LedPlaces& places, const Progress& progress)
+Positions moved_alike(const Parts& cloth, const Progress& progress)
 {
-    const Eigen::MatrixXd led = affine_motions(cloth, places);
+    const Eigen::MatrixXd led = affine_motions(cloth);
     const Eigen::VectorXd hold = Eigen::VectorXd::Constant(led.rows(), k_evening_hold);
-    Positions positions = places.positions;
+    Positions positions = cloth.led.positions;
     Best best { positions };
     std::vector<char> evened(led.rows(), 0);
     for (int round = 1;; ++round) {
@@ -236,14 +237,14 @@ void lengthen_ways_between(const Parts& cloth, const Positions& positions, const
 
 /// Beyond the skin, in turns with half of the way to the stand-in, which lies clear of it also where the skin of one limb
 /// faces that of another.
-Positions ways_out(const Parts& cloth, const LedPlaces& places, const Positions& positions,
-                   const std::vector<char>& marks, const Obstacles& obstacles, int round)
+Positions ways_out(const Parts& cloth, const Positions& positions, const std::vector<char>& marks,
+                   const Obstacles& obstacles, int round)
 {
     if (round % 2 == 1) {
         Positions ways = Positions::Zero(positions.rows(), 3);
         for (Eigen::Index v = 0; v < ways.rows(); ++v)
             if (marks[v])
-                ways.row(v) = (places.feet.row(v) - positions.row(v)) / 2;
+                ways.row(v) = (cloth.led.feet.row(v) - positions.row(v)) / 2;
         return ways;
     }
     Positions ways = ways_beyond_skin(positions, marks, obstacles, (round + 1) * k_pushing_step);
@@ -253,8 +254,7 @@ Positions ways_out(const Parts& cloth, const LedPlaces& places, const Positions&
 
 /// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order. Where
 /// something goes on to meet, it is where the least does.
-Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions positions, const Obstacles& obstacles,
-                       const Progress& progress)
+Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress)
 {
     Best best { positions };
     std::vector<char> marks(positions.rows());
@@ -263,7 +263,7 @@ Positions pushed_clear(const Parts& cloth, const LedPlaces& places, Positions po
                    obstacles.mark_meeting({ positions, cloth.rest.triangles }, cloth.topology.edges(), marks));
         if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes || !progress.goes_on(1))
             return best.positions;
-        const Positions ways = ways_out(cloth, places, positions, marks, obstacles, round);
+        const Positions ways = ways_out(cloth, positions, marks, obstacles, round);
         const Eigen::VectorXd hold
             = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
                   .cast<double>();
@@ -511,10 +511,9 @@ std::optional<StandIn> make_lining(const GarmentMesh& garment)
 Positions follow(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment,
                  const Surroundings& around, const Progress& progress)
 {
-    const Parts cloth(garment);
-    const LedPlaces places = lead_along(stand_in, worn, cloth.rest.positions, cloth.topology);
+    const Parts cloth(stand_in, worn, garment);
     const Obstacles obstacles(around);
-    const Positions clear = pushed_clear(cloth, places, moved_alike(cloth, places, progress), obstacles, progress);
+    const Positions clear = pushed_clear(cloth, moved_alike(cloth, progress), obstacles, progress);
     return cloth.weld.place(untangled(cloth, clear, obstacles, progress));
 }
 

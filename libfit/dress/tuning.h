@@ -178,6 +178,9 @@ inline constexpr double k_torn = 2, k_torn_gap = 2e-3, k_largest_island = 0.2;
 /// In mean edges of the garment: vertices this near to each other at rest are side by side, the nearest so many of them;
 /// shorter links count as if they had the least length. fitted: guesses, on eleven clothes of web shops
 inline constexpr double k_beside = 0.5, k_least_link = 0.1;
+/// How far apart vertices of such sheets are led at most, m; others are of limbs that touched. fitted: guess, on a hoodie of
+/// a web shop whose sleeves lie on its trunk
+inline constexpr double k_apart = 0.03;
 inline constexpr int k_most_links = 8;
 /// How often a garment's motions are evened where parts of it meet, at most, and in vain; by how many links round these
 /// places in the first round, and more in each; and how firmly they are held. fitted: guesses, on the same clothes

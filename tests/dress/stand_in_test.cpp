@@ -263,6 +263,25 @@ TEST(StandIn, MovesSheetsAlikeThatLieOnEachOther)
     EXPECT_LT(worn.strain.p95, 0.2) << "0.74 there";
 }
 
+TEST(StandIn, DoesNotHoldWhatOnlyTouchedItself)
+{
+    // two sheets on each of two parts of a stand-in, as a sleeve on the trunk; then one part is folded and lifted
+    const auto at = [](double height) { return [height](double, double) { return height; }; };
+    const TriangleMesh parts = joined(sheet(81, 0.005, at(0)), sheet(81, 0.005, at(0.04)));
+    Positions lifted = parts.positions;
+    for (auto row : lifted.rowwise())
+        row.y() = 0.01 * std::sin(150 * row.x()) * std::sin(150 * row.z()) + (row.y() > 0.02 ? 0.5 : 0);
+    const TriangleMesh lower = joined(sheet(101, 0.004, at(0.0196)), sheet(93, 0.4 / 92, at(0.0198))),
+                       upper = joined(sheet(101, 0.004, at(0.0202)), sheet(93, 0.4 / 92, at(0.0204))),
+                       all = joined(lower, upper);
+    const GarmentMesh garment { all.positions, all.triangles };
+    const Positions followed = follow({ parts.positions, parts.triangles }, lifted, garment, { k_far_body });
+    const Eigen::Index own = lower.positions.rows();
+    EXPECT_LT(followed.topRows(own).col(1).maxCoeff(), 0.05);
+    EXPECT_GT(followed.bottomRows(all.positions.rows() - own).col(1).minCoeff(), 0.42);
+    EXPECT_EQ(certify(k_far_body, garment, followed).self_crossings, 0);
+}
+
 TEST(StandIn, MovesSheetsApartThatFilesWouldLetCross)
 {
     const auto at = [](double height) { return [height](double, double) { return height; }; };
