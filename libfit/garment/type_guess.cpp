@@ -157,13 +157,21 @@ bool are_sleeves(const Opening& a, const Opening& b, const Piece& piece)
     return are_narrow(a, b, piece) && ((are_pair(a, b) && face_apart(a, b)) || are_hanging_sleeves(a, b, piece));
 }
 
+/// Of pairs that may be sleeves, those with the longest tubes: slits in them are pairs, too.
 void take_sleeves(Piece& piece)
 {
     auto& all = piece.others;
-    for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
-        for (std::size_t j = i + 1; j < all.size() && piece.sleeves.empty(); ++j)
-            if (are_sleeves(all[i], all[j], piece))
-                piece.sleeves = take_pair(all, i, j);
+    std::optional<std::pair<std::size_t, std::size_t>> longest;
+    double length = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = i + 1; j < all.size(); ++j)
+            if (const double shorter = std::min(all[i].tube_length, all[j].tube_length);
+                are_sleeves(all[i], all[j], piece) && (!longest || shorter > length)) {
+                longest = { i, j };
+                length = shorter;
+            }
+    if (longest)
+        piece.sleeves = take_pair(all, longest->first, longest->second);
     for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
         for (std::size_t j = 0; j < all.size() && piece.sleeves.empty(); ++j)
             if (i != j && are_sleeve_and_armhole(all[i], all[j], piece) && are_narrow(all[i], all[j], piece))

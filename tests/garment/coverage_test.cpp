@@ -77,6 +77,23 @@ TEST(Coverage, AGivenTypeLeavesOnlyItsOwnBones)
     }
 }
 
+TEST(Coverage, ForearmsAreBareInShortSleevesOfWhateverType)
+{
+    const auto covers_forearms = [](const std::vector<Opening>& openings) {
+        const auto bones = possible_coverages(GarmentType::jacket, openings).front().bones;
+        return std::count(bones.begin(), bones.end(), lradius) > 0;
+    };
+    const auto with_cuffs = [](std::vector<Opening> openings, double tube_length) {
+        openings.push_back(cuff_at(-0.5, tube_length));
+        openings.push_back(cuff_at(0.5, tube_length));
+        return openings;
+    };
+    EXPECT_FALSE(covers_forearms(with_cuffs(k_tube, 0.15)));
+    EXPECT_TRUE(covers_forearms(with_cuffs(k_tube, 0.45)));
+    EXPECT_TRUE(covers_forearms(k_tube)) << "the type says so, and no sleeve is seen";
+    EXPECT_TRUE(covers_forearms(with_cuffs(with_cuffs(k_tube, 0.1), 0.45))) << "slits in sleeves are no cuffs";
+}
+
 TEST(Coverage, ACoarseWordLeavesTheKindsOfItsGroup)
 {
     using enum CoverageKind;
