@@ -77,8 +77,12 @@ std::string_view name_of(Verdict verdict)
 
 bool is_drawn_out(const Dressing& dressing, std::size_t garment)
 {
-    return garment < dressing.overstretches.size()
-        && dressing.overstretches[garment].longer * dressing.to_human_size > k_strand;
+    if (garment >= dressing.overstretches.size())
+        return false;
+    const Overstretch& stretch = dressing.overstretches[garment];
+    const bool is_tight = std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(),
+                                      [&](const TooTight& part) { return part.garment == int(garment); });
+    return stretch.longer * dressing.to_human_size > k_strand || (stretch.gained > k_drawn_area && !is_tight);
 }
 
 bool ends_in_spikes(const Dressing& dressing, std::size_t garment)

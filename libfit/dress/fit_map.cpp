@@ -11,6 +11,7 @@
 #include "parallel.h"
 #include "prepared_cloth.h"
 #include "skin_weights.h"
+#include "surface_measures.h"
 #include "tightness.h"
 #include "tuning.h"
 
@@ -79,11 +80,29 @@ std::vector<PartLoad> part_loads(const Skeleton& skeleton, const SkinWeights& we
     return result;
 }
 
+namespace {
+
+double area_gained(const WornGarment& worn)
+{
+    double gained = 0, all = 0;
+    for (Eigen::Index f = 0; f < worn.rest.triangles.rows(); ++f) {
+        const auto area_in
+            = [&](const Positions& positions) { return area_vector(positions, worn.rest.triangles, f).norm(); };
+        const double before = area_in(worn.rest.positions), now = area_in(worn.positions);
+        all += before;
+        gained += now > 2 * before ? now - before : 0;
+    }
+    return all > 0 ? gained / all : 0;
+}
+
+}  // namespace
+
 Overstretch overstretch(const SkinWeights& weights, const Positions& body, const WornGarment& worn, double limit)
 {
     const auto edges = edges_of(worn.rest.triangles);
     Overstretch result;
     result.limit = limit;
+    result.gained = area_gained(worn);
     Vec3 place = Vec3::Zero();
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1);

@@ -84,10 +84,13 @@ TEST(FitMap, NamesThePartAtWhichEdgesAreOverstretched)
     EXPECT_EQ(fine.edges, 0);
     EXPECT_NEAR(fine.largest, 0.1, 1e-9);
     EXPECT_EQ(fine.part, "");
+    EXPECT_EQ(fine.gained, 0);
     worn.positions.row(100) += Eigen::RowVector3d(0, 0.05, 0);  // of an edge of 2 cm
     const Overstretch caught = overstretch(weights, body.positions, worn);
     EXPECT_GT(caught.edges, 1);
     EXPECT_GT(caught.largest, 2);
+    EXPECT_GT(caught.gained, 0);
+    EXPECT_LT(caught.gained, 0.05) << "that of the six triangles round one vertex";
     EXPECT_EQ(caught.part, "left upper arm");
 }
 

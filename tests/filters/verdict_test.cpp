@@ -96,6 +96,14 @@ TEST(FitVerdict, OfSpikesIsNeverTooSmall)
     EXPECT_EQ(outcome_of(strand), Outcome::not_certified);
     EXPECT_EQ(explain(strand, { "top" }),
               "top could not be certified: its cloth is drawn out to several times its length, so it is caught");
+    Dressing web = worn();
+    web.overstretches = { { 400, 3, "right forearm", 0.5, 0.05, 0.03 } };
+    EXPECT_TRUE(ends_in_spikes(web, 0));
+    web.too_tight = small.too_tight;
+    EXPECT_FALSE(ends_in_spikes(web, 0)) << "it is too small";
+    web.too_tight.clear();
+    web.overstretches[0].gained = 0.01;
+    EXPECT_FALSE(ends_in_spikes(web, 0));
     cloth.garments[0].certificate.strain.p95 = 2.5;
     EXPECT_EQ(outcome_of(cloth), Outcome::not_certified);
     EXPECT_FALSE(is_too_small(cloth, 0));

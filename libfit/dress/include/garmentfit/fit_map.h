@@ -51,6 +51,7 @@ struct Overstretch {
     std::string part;  ///< of the body, next to that edge, as in TooTight; empty where nothing is overstretched
     double limit = k_overstretched;  ///< l / l0 - 1 beyond which an edge counts
     double longer = 0;  ///< m, the most by which an edge is longer than at rest
+    double gained = 0;  ///< area gained by triangles that more than doubled, as a share of all cloth at rest
 };
 
 /// @param body   the vertices of the weights, in the pose in which the garment is worn. Cost O(n log n + m).
