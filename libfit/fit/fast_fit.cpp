@@ -144,17 +144,6 @@ void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::v
         = probability_of(all, [&](const Hypothesis& other) { return other.up().dot(chosen.up()) > k_same_direction; });
 }
 
-// Sleeves are as long on both sides, and legs, too: a lower bone is covered only where its twin is.
-std::vector<Bone> alike_on_both_sides(std::vector<Bone> covered)
-{
-    const auto has = [all = covered](int bone) { return std::find(all.begin(), all.end(), bone) != all.end(); };
-    std::erase_if(covered, [&](Bone bone) {
-        const bool is_lower = bone == lradius || bone == rradius || bone == ltibia || bone == rtibia;
-        return is_lower && !has(mirror_of(bone)) && has(parent_of(mirror_of(bone)));
-    });
-    return covered;
-}
-
 // The pose of a hypothesis. @throws InvalidInput when no body fits in like that; SolverFailure when bones pass through
 // cloth in the end
 // @param moves  whether bones that pass through cloth are looked for another place
@@ -165,9 +154,8 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool m
     const Attempt& attempt = *hypothesis.attempt;
     const Posture& start = hypothesis.wearing.posture;
     // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
-    const BoneMetric metric(
-        attempt.energy().metric().cloth(),
-        limb_radii_of(attempt.rig(), alike_on_both_sides(bones_inside(attempt.energy(), start, k_partly_inside))));
+    const BoneMetric metric(attempt.energy().metric().cloth(),
+                            limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
     const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues()),
         thick(attempt.rig(), attempt.limits(), metric, attempt.cues(), k_bone_thickness);
     const bool keeps_input = hypothesis.wearing.is_in_place && !find_crossing(thick, start);
