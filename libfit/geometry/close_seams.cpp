@@ -152,7 +152,7 @@ TriangleMesh close_seams(const TriangleMesh& mesh, const MeshTopology& topology,
 {
     SeamClosing closing(mesh, topology);
     for (const Tie& tie : ties)
-        if (tie.is_seam)
+        if (tie.is_seam && !tie.is_own)
             closing.add(tie);
     return std::move(closing).close();
 }

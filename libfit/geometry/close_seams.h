@@ -15,7 +15,7 @@ namespace garmentfit {
 /// others are inserted into the edges of the opposite border. Borders of pieces that are folded back on each other,
 /// such as the hems of cloth and lining, stay open. So do ends of a border that reach beyond the other one.
 /// @param topology  of mesh.triangles
-/// @param ties      of the mesh (find_sewn_pieces); those that are no seams are ignored
+/// @param ties      of the mesh (find_sewn_pieces); those that are no seams between pieces are ignored
 /// @return the mesh with more triangles; some may be degenerate, and some vertices have none
 /// Cost O(n log n).
 TriangleMesh close_seams(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<Tie>& ties);

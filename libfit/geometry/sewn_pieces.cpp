@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "barycentric.h"
 #include "disjoint_sets.h"
@@ -96,8 +97,6 @@ std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& t
                 piece.box.extend(Vec3(rest.positions.row(v)));
             }
     }
-    if (pieces.size() == 1)
-        return pieces;
     for (Piece& piece : pieces)
         piece.euler_characteristic = int(piece.vertices.size() + piece.triangles.size());
     for (const int a : topology.edges().col(0))
@@ -208,11 +207,106 @@ std::vector<Tie> ties_on_border(const std::vector<Foot>& feet)
     return ties;
 }
 
+/// m, from a border to one that it is sewn to.
+double seam_reach(double border_edge)
+{
+    return std::clamp(k_seam_edges * border_edge, k_seam_distance, k_lining_distance);
+}
+
+/// Marks what is within a few edges of a vertex. The same object serves many vertices.
+class EdgesAround {
+public:
+    explicit EdgesAround(const MeshTopology& topology, std::size_t vertices) :
+        topology_(topology), is_near_(vertices, 0)
+    {
+    }
+
+    void look_at(int vertex)
+    {
+        for (const int v : near_)
+            is_near_[v] = 0;
+        near_ = { vertex };
+        is_near_[vertex] = 1;
+        std::size_t next = 0;
+        for (int ring = 0; ring < k_own_seam_rings; ++ring)
+            for (const std::size_t end = near_.size(); next < end; ++next)
+                for (const int n : topology_.neighbours(near_[next]))
+                    if (!std::exchange(is_near_[n], 1))
+                        near_.push_back(n);
+    }
+    bool has(int vertex) const { return is_near_[vertex] != 0; }
+
+private:
+    const MeshTopology& topology_;
+    std::vector<char> is_near_;
+    std::vector<int> near_;
+};
+
+/// The direction from a border edge into the cloth.
+Vec3 way_in(const GarmentMesh& rest, const MeshTopology& topology, int edge)
+{
+    const auto at = [&](int v) { return Vec3(rest.positions.row(v)); };
+    const Vec3 low = at(topology.edges()(edge, 0)), along = (at(topology.edges()(edge, 1)) - low).stableNormalized(),
+               middle = rest.positions(rest.triangles.row(topology.sides_at(edge)[0] / 3), Eigen::all).colwise().mean();
+    const Vec3 in = middle - low;
+    return (in - in.dot(along) * along).stableNormalized();
+}
+
+/// Whether cloth leaves a border vertex to the side to which it leaves an edge: sheets that lie on each other.
+bool is_folded_back(const GarmentMesh& rest, const MeshTopology& topology, int vertex, int edge)
+{
+    const Vec3 there = way_in(rest, topology, edge);
+    for (const int n : topology.neighbours(vertex))
+        if (const int own = topology.edge_between(vertex, n);
+            topology.is_border(own) && way_in(rest, topology, own).dot(there) > k_folded_back)
+            return true;
+    return false;
+}
+
+/// Ties along the seams of a piece with itself, as between front and back where the sleeves join them: borders that are
+/// near to each other and far along the cloth. None where these are few.
+std::vector<Tie> find_own_seams(const GarmentMesh& rest, const MeshTopology& topology, const Piece& piece)
+{
+    if (piece.thickness > 0 || piece.border.empty())
+        return {};
+    const double reach = seam_reach(piece.border_edge);
+    const auto at = [&](int v) { return Vec3(rest.positions.row(v)); };
+    const NearestPoint border(rest.positions(piece.border, Eigen::all));
+    EdgesAround around(topology, std::size_t(rest.positions.rows()));
+    std::vector<Tie> ties;
+    for (const int v : piece.border) {
+        around.look_at(v);
+        int best = -1;
+        double least = reach;
+        for (const int i : border.within(at(v), reach + 2 * piece.border_edge, k_own_seam_candidates)) {
+            const int a = piece.border[i];
+            for (const int b : topology.neighbours(a)) {
+                const int edge = topology.edge_between(a, b);
+                if (around.has(a) || around.has(b) || !topology.is_border(edge))
+                    continue;
+                if (const double distance = distance_to_segment(at(v), at(a), at(b)); distance <= least) {
+                    least = distance;
+                    best = edge;
+                }
+            }
+        }
+        if (best < 0 || is_folded_back(rest, topology, v, best))
+            continue;
+        const auto corners = rest.triangles.row(topology.sides_at(best)[0] / 3);
+        const Vec3 foot = nearest_on_segment(at(v), at(topology.edges()(best, 0)), at(topology.edges()(best, 1)));
+        ties.push_back({ v,
+                         { corners[0], corners[1], corners[2] },
+                         barycentric(foot, at(corners[0]), at(corners[1]), at(corners[2])),
+                         true,
+                         true });
+    }
+    return ties.size() < k_least_own_seam ? std::vector<Tie>() : ties;
+}
+
 /// Ties along a seam between two pieces, on both of their borders; none where there is no seam.
 std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q)
 {
-    const double usual = std::clamp(k_seam_edges * std::min(pieces[p].border_edge, pieces[q].border_edge),
-                                    k_seam_distance, k_lining_distance),
+    const double usual = seam_reach(std::min(pieces[p].border_edge, pieces[q].border_edge)),
                  reach = std::max(usual, panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)));
     std::vector<Tie> ties = ties_on_border(feet.find(pieces[p].border, q, reach));
     const std::vector<Tie> back = ties_on_border(feet.find(pieces[q].border, p, reach));
@@ -336,14 +430,14 @@ private:
 SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology, const std::vector<int>& garments)
 {
     const std::vector<Piece> pieces = collect_pieces(rest, topology, garments);
-    if (pieces.size() < 2)
-        return { {}, { int(pieces.size()), 0, 0, 0 } };
+    Sewing sewing(pieces.size(), rest.positions.rows());
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+        sewing.add_seam(p, p, find_own_seams(rest, topology, pieces[p]));
     std::vector<char> is_on_border(std::size_t(rest.positions.rows()), 0);
     for (const Piece& piece : pieces)
         for (const int v : piece.border)
             is_on_border[v] = 1;
     Feet feet(rest, topology, pieces);
-    Sewing sewing(pieces.size(), rest.positions.rows());
     for (std::size_t p = 1; p < pieces.size(); ++p) {
         const double reach = pieces[p].size() <= k_small_piece ? k_small_piece_distance : k_lining_distance;
         std::vector<std::vector<Foot>> on_pieces;

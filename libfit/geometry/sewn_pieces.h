@@ -6,7 +6,7 @@
 // Clothes come in pieces that share no vertex: panels with unwelded seams, pockets, flaps, buttons, collars, linings.
 // A piece is sewn to a larger one of the same garment in one of two ways (lengths in tuning.h):
 //
-// Seam  its border lies along the border of the other. Both borders are tied.
+// Seam  its border lies along the border of the other. Both borders are tied. A piece may have seams with itself.
 // Held  its border lies on the surface of the other, or its back does: nearly all of a piece that is small, or all of a
 //       larger one much closer. What lies on the other is tied. Patches (discs, such as pockets) are
 //       held by half of their border, and from further away: no limb passes through them, so nothing else holds them.
@@ -24,12 +24,13 @@
 
 namespace garmentfit {
 
-/// A vertex of one piece and the nearest point of a triangle of another.
+/// A vertex of one piece and the nearest point of a triangle of another, or in a seam of a piece with itself, of its own.
 struct Tie {
     int vertex;
     std::array<int, 3> corners;  ///< of the triangle
     std::array<double, 3> weights;  ///< barycentric
     bool is_seam = false;  ///< both are on borders
+    bool is_own = false;  ///< of one piece
 };
 
 struct SewnPieces {

@@ -109,6 +109,11 @@ inline constexpr double k_seam_distance = 1e-3, k_seam_edges = 0.1;
 /// fitted: guess.
 inline constexpr double k_seam_share = 0.05;
 inline constexpr std::size_t k_least_seam = 3;
+/// Edges within which a border is no seam with itself, how many vertices near by are looked at, and the least number that
+/// it ties. fitted: guess, between a sweater of a shop whose front and back are joined at the armpits alone (300 vertices)
+/// and garments with slits that end in a point.
+inline constexpr int k_own_seam_rings = 3, k_own_seam_candidates = 32;
+inline constexpr std::size_t k_least_own_seam = 12;
 /// Mean edges of the border: from a border to the surface that it is sewn on, if that is more than k_seam_distance; and
 /// the fraction of the border that has to lie there. A square flap has a quarter of it at its seam.
 /// fitted: guess, on the wild data. Layers of one outfit touch each other with up to 15 % of a border (house data).

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "cloth_motion.h"
@@ -57,6 +59,33 @@ Vec3 point_of(const Positions& positions, const Tie& tie)
     for (int k = 0; k < 3; ++k)
         point += tie.weights[k] * positions.row(tie.corners[k]).transpose();
     return point;
+}
+
+/// A sheet of 38 cm rolled into a tube that is open by `gap` from end to end, or folded onto itself by as much.
+GarmentMesh rolled(double gap, bool is_folded = false)
+{
+    GarmentMesh cloth = garment_of({ flat(20, 0.02, Vec3::Zero()) });
+    const double length = 0.38, radius = length / (2 * std::numbers::pi), from = gap / (2 * radius);
+    for (auto row : cloth.positions.rowwise()) {
+        const double angle = from + row.x() / length * (2 * std::numbers::pi - 2 * from);
+        if (is_folded)
+            row << std::min(row.x(), length - row.x()), row.x() < length / 2 ? 0 : gap, row.z();
+        else
+            row << radius * std::cos(angle), radius * std::sin(angle), row.z();
+    }
+    return cloth;
+}
+
+TEST(SewnPieces, APieceHasSeamsWithItself)
+{
+    const SewnPieces tube = sewn(rolled(5e-4));
+    EXPECT_GE(tube.ties.size(), 36u) << "the vertices of both borders, but for corners";
+    for (const Tie& tie : tube.ties)
+        EXPECT_TRUE(tie.is_seam && tie.is_own);
+    EXPECT_EQ(tube.counts.count, 1);
+    EXPECT_EQ(tube.counts.seamed, 0);
+    EXPECT_TRUE(sewn(rolled(0.01)).ties.empty());
+    EXPECT_TRUE(sewn(rolled(5e-4, true)).ties.empty()) << "sheets that lie on each other have no seam at their hem";
 }
 
 /// How far the ends of ties have moved apart or together.
