@@ -346,6 +346,26 @@ inline Rig simple_rig(const Person& person)
     return rig;
 }
 
+/// A mesh whose vertices hang on the bone that they lie nearest to.
+inline Rig nearest_rig(const Person& person)
+{
+    Rig rig = simple_rig(person);
+    rig.weights.weights.setZero();
+    rig.weights.weights.col(0).setOnes();
+    for (Eigen::Index v = 0; v < person.mesh.positions.rows(); ++v) {
+        double nearest = 1e9;
+        for (int b = 0; b < bone_count; ++b) {
+            const double d
+                = segment_distance(person.mesh.positions.row(v), person.skeleton.head(b), person.skeleton.tail(b));
+            if (d < nearest - 1e-9) {
+                nearest = d;
+                rig.weights.bones(v, 0) = b;
+            }
+        }
+    }
+    return rig;
+}
+
 /// An open tube about a bone's line, between two distances (metres) from the bone's head.
 inline GarmentMesh sleeve_round(const Skeleton& skeleton, Bone bone, double radius, double from, double to)
 {

@@ -158,7 +158,6 @@ private:
 
     void place_limbs()
     {
-        skeleton_.root = place(JointKind::pelvis, 0, "pelvis");
         for (const int side : { 0, 1 }) {
             skeleton_.tails[side ? rhipjoint : lhipjoint] = place(JointKind::hip, side + 1, "hip");
             skeleton_.tails[side ? rfemur : lfemur] = place(JointKind::knee, side + 1, "knee");
@@ -167,6 +166,8 @@ private:
             skeleton_.tails[side ? rhumerus : lhumerus] = place(JointKind::elbow, side + 1, "elbow");
             skeleton_.tails[side ? rradius : lradius] = place(JointKind::wrist, side + 1, "wrist");
         }
+        const Vec3* pelvis = find(JointKind::pelvis, 0);  // some figures hang their legs on the chest or on nothing
+        skeleton_.root = pelvis ? *pelvis : Vec3(0.5 * (skeleton_.tail(lhipjoint) + skeleton_.tail(rhipjoint)));
     }
 
     /// Rigs have one to five joints in the spine and one or two in the neck. Those of Skeleton are placed evenly

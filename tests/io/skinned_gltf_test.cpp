@@ -209,32 +209,12 @@ TEST_F(SkinnedGltf, ComesBackAsItWasWritten)
     EXPECT_LT((read.weights.weights - rig.weights.weights).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-/// A mesh whose vertices hang on the bone that they lie nearest to.
-Rig nearest_rig(const fixtures::Person& person)
-{
-    Rig rig = fixtures::simple_rig(person);
-    rig.weights.weights.setZero();
-    rig.weights.weights.col(0).setOnes();
-    for (Eigen::Index v = 0; v < person.mesh.positions.rows(); ++v) {
-        double nearest = 1e9;
-        for (int b = 0; b < bone_count; ++b) {
-            const double d = fixtures::segment_distance(person.mesh.positions.row(v), person.skeleton.head(b),
-                                                        person.skeleton.tail(b));
-            if (d < nearest - 1e-9) {
-                nearest = d;
-                rig.weights.bones(v, 0) = b;
-            }
-        }
-    }
-    return rig;
-}
-
 /// Body and rig with joints whose names say nothing.
 class UnnamedSkeleton : public SkinnedGltf {
 protected:
     void write(BoneNames names, const std::function<std::string(int, const std::string&)>& name) const
     {
-        const Rig near = nearest_rig(person);
+        const Rig near = fixtures::nearest_rig(person);
         write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { names });
         save("rigged.glb", edited(load(glb), [&](json& document) {
                  for (json& skin : document["skins"])
@@ -281,7 +261,7 @@ void take_out(json& document, const std::string& name)
 
 TEST_F(SkinnedGltf, TakesJointsWithoutSkinFromTheNodesBetweenOthers)
 {
-    const Rig near = nearest_rig(person);
+    const Rig near = fixtures::nearest_rig(person);
     write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::mixamo });
     save("rigged.glb", edited(load(glb), [](json& document) {
              take_out(document, "mixamorig:Neck");
@@ -294,7 +274,7 @@ TEST_F(SkinnedGltf, TakesJointsWithoutSkinFromTheNodesBetweenOthers)
 
 TEST_F(SkinnedGltf, APelvisBelowTheHipsIsRaisedToThem)
 {
-    Rig low = nearest_rig(person);
+    Rig low = fixtures::nearest_rig(person);
     const auto between_hips = [](const Skeleton& s) { return Vec3(0.5 * (s.tail(lhipjoint) + s.tail(rhipjoint))); };
     low.skeleton.root = between_hips(low.skeleton) - Vec3(0, 0.12, 0);
     write_outfit_glb(glb, low, { { "body", person.mesh, low.weights } }, { BoneNames::mixamo });
@@ -306,6 +286,23 @@ TEST_F(SkinnedGltf, APelvisBelowTheHipsIsRaisedToThem)
     high.skeleton.root = between_hips(low.skeleton) + Vec3(0, 0.06, 0);
     write_outfit_glb(glb, high, { { "body", person.mesh, high.weights } }, { BoneNames::mixamo });
     EXPECT_LT((read_skinned_gltf(glb).skeleton.root - high.skeleton.root).norm(), 1e-5);
+}
+
+TEST_F(SkinnedGltf, APelvisThatTheFileLacksLiesBetweenTheHips)
+{
+    const Rig near = fixtures::nearest_rig(person);
+    write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::mixamo });
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             document["nodes"][std::size_t(node_called(document, "mixamorig:Hips"))]["name"] = "Box";
+             for (const char* toes : { "mixamorig:LeftToeBase", "mixamorig:RightToeBase" })  // as for no human's tree
+                 document["nodes"][std::size_t(node_called(document, toes))]["name"] = "Box";
+             for (const char* hand : { "mixamorig:LeftHand", "mixamorig:RightHand" })
+                 take_out(document, hand);
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    const Vec3 between_hips = 0.5 * (rig.skeleton.tail(lhipjoint) + rig.skeleton.tail(rhipjoint));
+    EXPECT_LT((read.skeleton.root - between_hips).norm(), 0.05);
+    EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
 }
 
 constexpr const char* k_ends[]
@@ -328,7 +325,7 @@ TEST_F(SkinnedGltf, TakesHandsFeetAndHeadWithoutSkinFromTheNodesBelowJoints)
 
 TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
 {
-    const Rig near = nearest_rig(person);
+    const Rig near = fixtures::nearest_rig(person);
     write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
     save("rigged.glb", edited(load(glb), [](json& document) {
              for (const char* end : k_ends) {
@@ -345,7 +342,7 @@ TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
 
 TEST_F(SkinnedGltf, TakesNoMeshForAJointBelowOthers)
 {
-    const Rig near = nearest_rig(person);
+    const Rig near = fixtures::nearest_rig(person);
     write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
     save("rigged.glb", edited(load(glb), [](json& document) {
              take_out(document, "lfoot");
@@ -359,7 +356,7 @@ TEST_F(SkinnedGltf, TakesNoMeshForAJointBelowOthers)
 
 TEST_F(SkinnedGltf, TakesTheLowerOfTwoNecks)
 {
-    const Rig near = nearest_rig(person);
+    const Rig near = fixtures::nearest_rig(person);
     write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::mixamo });
     save("rigged.glb", edited(load(glb), [](json& document) {
              take_out(document, "mixamorig:Spine2");  // so that it is not the first in the skin
