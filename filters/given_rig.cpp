@@ -83,7 +83,7 @@ Rig rig_on(Rig rig, const Positions& own, const std::string& called)
 std::string doubt_about(const Rig& rig, const BodyMesh& body)
 {
     try {
-        check_skeleton(body, rig.skeleton);
+        check_skeleton(body, rig.skeleton, rig.weights);
     } catch (const InvalidInput& error) {
         return error.what();
     }

@@ -168,6 +168,28 @@ bool is_pelvis_far(const Skeleton& skeleton)
     return !((skeleton.root - between_hips).norm() < k_farthest_pelvis * (skeleton.tail(thorax) - between_hips).norm());
 }
 
+/// How far the skin of a forearm goes on beyond the wrist, along the forearm.
+double hand_length(const BodyMesh& body, const Skeleton& skeleton, const SkinWeights& weights, int forearm)
+{
+    const Vec3 wrist = skeleton.tail(forearm), along = skeleton.direction(forearm);
+    double length = 0;
+    for (Eigen::Index v = 0; v < weights.weights.rows(); ++v)
+        for (int k = 0; k < 4; ++k)
+            if (weights.bones(v, k) == forearm && weights.weights(v, k) > 0.5)
+                length = std::max(length, (Vec3(body.surface.positions.row(v)) - wrist).dot(along));
+    return length;
+}
+
+/// Joints that are named one too early: the elbow is called a wrist, and all that follows a hand. What a hand holds is
+/// longer than an arm, too, but the bones of that arm have usual lengths.
+bool is_arm_too_early(const BodyMesh& body, const Skeleton& skeleton, const SkinWeights& weights, bool is_right)
+{
+    const int upper = is_right ? rhumerus : lhumerus, lower = is_right ? rradius : lradius;
+    const double ratio = skeleton.length(upper) / skeleton.length(lower);
+    return !(ratio >= k_upper_arm_to_forearm.least && ratio <= k_upper_arm_to_forearm.most)
+        && hand_length(body, skeleton, weights, lower) > skeleton.length(upper) + skeleton.length(lower);
+}
+
 /// Isoperimetric quotient: 1 for a ball.
 double compactness(const TriangleMesh& closed)
 {
@@ -185,7 +207,7 @@ double compactness(const TriangleMesh& closed)
 
 }  // namespace
 
-void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
+void check_skeleton(const BodyMesh& body, const Skeleton& skeleton, const SkinWeights& weights)
 {
     const auto refuse = [](const std::string& what) {
         throw InvalidInput(ErrorCode::rig_mismatch, what + "; give the skeleton of this body in its bind pose");
@@ -203,6 +225,9 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton)
                shoulders = skeleton.tail(lclavicle) - skeleton.tail(rclavicle);
     if (!(hips.dot(shoulders) > 0))
         refuse("the left hip and the left shoulder lie on different sides");
+    if (weights.weights.rows() == skin.rows() && is_arm_too_early(body, skeleton, weights, false)
+        && is_arm_too_early(body, skeleton, weights, true))
+        refuse("the hands are longer than the arms, so the elbows seem to be taken for wrists");
     if (is_pelvis_far(skeleton))
         refuse("the pelvis does not lie at the hips");
     if (const FeetBackwards feet = feet_backwards(skeleton); feet.is_one())

@@ -257,7 +257,7 @@ void read_own_skeleton(Session& session)
     if (session.body.own.rig)
         try {
             const Rig rig = take_skinned(session, session.body.path, *session.body.own.rig);
-            check_skeleton(*session.scene.body, rig.skeleton);
+            check_skeleton(*session.scene.body, rig.skeleton, rig.weights);
             session.scene.rig = rig;
             session.skeleton = "file";
         } catch (const InvalidInput& error) {

@@ -141,6 +141,17 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
     Person heel = person;
     heel.skeleton.tips[lfoot_tip] -= 2 * Vec3(0, 0, (heel.skeleton.tips[lfoot_tip] - heel.skeleton.tail(ltibia)).z());
     expect_invalid([&] { check_skeleton(body, heel.skeleton); }, "a foot points backwards");
+    Person early = person;  // upper arm to forearm 0.4, and all that follows is a hand
+    for (const auto& [upper, lower] : { std::pair(lhumerus, lradius), { rhumerus, rradius } }) {
+        const Vec3 shoulder = person.skeleton.head(upper), elbow = person.skeleton.tail(upper);
+        early.skeleton.tails[upper] = shoulder + 0.25 * (elbow - shoulder);
+        early.skeleton.tails[lower] = shoulder + 0.85 * (elbow - shoulder);
+    }
+    const SkinWeights of_early = fixtures::nearest_rig(early).weights,
+                      of_person = fixtures::nearest_rig(person).weights;
+    EXPECT_NO_THROW(check_skeleton(body, early.skeleton));
+    expect_invalid([&] { check_skeleton(body, early.skeleton, of_early); }, "elbows");
+    EXPECT_NO_THROW(check_skeleton(body, person.skeleton, of_person));
     Person in_chest = person;
     in_chest.skeleton.root = person.skeleton.tail(upperback);
     expect_invalid([&] { check_skeleton(body, in_chest.skeleton); }, "pelvis");

@@ -54,6 +54,7 @@ GARMENTFIT_API Rig rig_body(const BodyMesh& body, const RigOptions& options = {}
 /// Checks that a skeleton that another program made, such as that of a skinned file, is this body's: bones of some
 /// length, as long on the left as on the right, joints in or near the body. Proportions may be those of a cartoon.
 /// O(joints * triangles). @throws InvalidInput (rig_mismatch) that names the failed test, with numbers.
-GARMENTFIT_API void check_skeleton(const BodyMesh& body, const Skeleton& skeleton);
+/// @param weights  of the body's vertices; without them the skin of the hands is not looked at
+GARMENTFIT_API void check_skeleton(const BodyMesh& body, const Skeleton& skeleton, const SkinWeights& weights = {});
 
 }  // namespace garmentfit
