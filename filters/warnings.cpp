@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/filters/warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -102,6 +103,12 @@ void warn_of_left_out(std::vector<std::string>& warnings, const std::string& nam
                            + "); taken for no cloth, left out, and drawn into one point of the cloth");
 }
 
+bool is_upside_down(const Skeleton& skeleton)
+{
+    const double hips = skeleton.root.y();
+    return std::min(skeleton.tail(ltibia).y(), skeleton.tail(rtibia).y()) > hips && skeleton.tips[head_top].y() < hips;
+}
+
 std::string overstretched_edges(const std::string& name, const Overstretch& stretch)
 {
     std::ostringstream text;
@@ -163,6 +170,10 @@ std::vector<std::string> warnings_about_rig(const Scene& scene, const HowToSet& 
     std::vector<std::string> warnings;
     if (!scene.rig)
         return warnings;
+    if (is_upside_down(scene.rig->skeleton))
+        warnings.push_back("the feet of the body are above its hips and its head is below; if it does not stand on its "
+                           "head, "
+                           + set("up"));
     if (scene.rig->side_confidence < k_low_confidence)
         warnings.push_back(std::string("which side of the body is left") + k_guess + "; if it is wrong, "
                            + set("swap_sides"));

@@ -98,7 +98,7 @@ double uprightness(const Samples& samples, const Vec3& up)
     const double soles = std::log((flat_end(samples, -up) + k_least_sole) / (flat_end(samples, up) + k_least_sole));
     const Vec3 centre = samples.centres.transpose() * samples.areas;
     const double above_middle = up.dot(centre - samples.box.center()) / samples.box.sizes().dot(up.cwiseAbs());
-    return soles + k_top_heavy_weight * above_middle;
+    return soles + std::clamp(k_top_heavy_weight * above_middle, -k_most_top_heavy, k_most_top_heavy);
 }
 
 /// The logarithm of a likelihood, 0 for certain, from evidence for (positive) or against (negative).

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
+
 namespace garmentfit {
 namespace {
 
@@ -59,6 +61,23 @@ TEST(Warnings, SayThatASkeletonIsProbablyWrongWhereItIsHardlyAHumans)
         (Lines { "the skeleton is probably wrong, as the body is hardly like a human (probability below 0.1%): the "
                  "ratio trunk to leg is 2.64, a human has 0.40 to 1.25; correct its joints (joints), or set "
                  "humanlike strict to have such bodies refused" }));
+}
+
+TEST(Warnings, SayThatABodyIsUpsideDownWhereItsFeetAreAboveItsHead)
+{
+    Scene scene;
+    scene.rig = fixtures::simple_rig(fixtures::capsule_person());
+    scene.rig->side_confidence = 1;
+    EXPECT_EQ(warnings_about_rig(scene, set_by_name), Lines());
+    Skeleton& skeleton = scene.rig->skeleton;
+    skeleton.root.y() *= -1;
+    for (Vec3& tail : skeleton.tails)
+        tail.y() *= -1;
+    for (Vec3& tip : skeleton.tips)
+        tip.y() *= -1;
+    EXPECT_EQ(warnings_about_rig(scene, set_by_name),
+              (Lines { "the feet of the body are above its hips and its head is below; if it does not stand on its "
+                       "head, set up" }));
 }
 
 TEST(Warnings, SayThatTheWayUpIsUncertain)

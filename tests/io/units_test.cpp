@@ -109,6 +109,27 @@ TEST(Units, FindsABodyOnItsHeadOrItsSide)
     }
 }
 
+/// A cone, wide and open below, with a ball on top and two soles: most of the surface is below.
+TriangleMesh person_in_a_gown()
+{
+    const auto distance = [](const Vec3& p) {
+        const double gown = std::hypot(p.x(), p.z()) - (0.08 + 0.22 * (1.4 - p.y()));
+        const Vec3 from_sole = (p - Vec3(p.x() < 0 ? -0.12 : 0.12, 0, 0.05)).cwiseAbs() - Vec3(0.05, 0.04, 0.13);
+        return std::min({ std::max(std::abs(gown) - 0.02, std::abs(p.y() - 0.7) - 0.7),
+                          (p - Vec3(0, 1.55, 0.02)).norm() - 0.13, from_sole.maxCoeff() });
+    };
+    return fixtures::polygonise(distance, Vec3(-0.5, -0.1, -0.5), Vec3(0.5, 1.8, 0.5), 0.03);
+}
+
+TEST(Units, ABodyInAGownIsNotTakenForOneOnItsHead)
+{
+    const TriangleMesh mesh = person_in_a_gown();
+    for (const char* up : { "+y", "+z" }) {
+        const FrameGuess guess = guess_body_frame(frame_of("m", up).to_file(mesh.positions), mesh.triangles);
+        EXPECT_EQ(guess.frame.up, axis_of(up)) << guess.why;
+    }
+}
+
 TEST(Units, ThePlaceOfABodyDoesNotMatter)
 {
     const TriangleMesh& mesh = standing_person();
