@@ -20,6 +20,7 @@ struct BodyGraph {
     std::vector<int> head;  ///< from where the arms leave to the crown
     std::vector<int> trunk;  ///< from the pelvis to where the arms leave
     bool headless = false;  ///< the head's curve is only the node where the arms leave
+    bool has_covered_legs = false;  ///< the trunk's curve goes down to a hem, and the legs' begin there
     double size = 0;  ///< m, roughly the stature, from lengths along the curves
     double spread = 0;  ///< of the logarithms of the lengths between the ends from a human's: their standard deviation
     double size_by_legs = 0;  ///< m, the same from the lengths between head and feet alone

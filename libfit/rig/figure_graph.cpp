@@ -96,6 +96,7 @@ Candidates candidates_of(const CurveTree& tree, const CurveSkeleton& skeleton, c
 /// Rows of Candidates; head is -1 where there is none.
 struct Choice {
     int head = -1, hand[2] {}, foot[2] {};
+    bool covered = false;  ///< the legs do not show; both feet may be one end then, the hem
     double arm = 0, leg = 0;  ///< m, means of the pairs
     double size = 0;  ///< m, along the curves from the feet to the top
     double cost = std::numeric_limits<double>::max();
@@ -155,9 +156,19 @@ void rate(const Candidates& c, double most, Choice& choice)
     const double head = 0.5 * (head0 + head1);
     choice.leg = 0.5 * (leg0 + leg1);
     choice.arm = 0.5 * (arm0 + arm1);
-    const double trunk = (choice.head >= 0 ? c.distance(f0, top) - leg0 - head : c.distance(f0, h0) - leg0 - arm0);
+    double trunk = (choice.head >= 0 ? c.distance(f0, top) - leg0 - head : c.distance(f0, h0) - leg0 - arm0);
+    const Vec3 feet = 0.5 * (c.places[f0] + c.places[f1]),
+               above = choice.head >= 0 ? c.places[choice.head] : Vec3(0.5 * (c.places[h0] + c.places[h1]));
+    const double upright = (above - feet).normalized().y();
+    if (choice.covered) {
+        const double whole = trunk + choice.leg;
+        if (choice.head < 0 || trunk < k_covered_trunk * whole || upright < k_covered_upright)
+            return;
+        trunk = k_trunk_curve_length / (k_trunk_curve_length + k_leg_curve) * whole;
+        choice.leg = whole - trunk;
+    }
     choice.size = choice.leg + std::max(trunk, 0.0) + head;
-    if (std::min({ leg0, leg1, arm0, arm1 }) < k_shortest_limb * choice.size
+    if (std::min({ choice.covered ? choice.leg : std::min(leg0, leg1), arm0, arm1 }) < k_shortest_limb * choice.size
         || trunk < -k_pair_fork_spread * choice.size)
         return;  // no limb, or arms below the legs
     if (c.beyond(h0, h1, f0) < k_own_share * arm0 || c.beyond(h1, h0, f0) < k_own_share * arm1)
@@ -165,11 +176,12 @@ void rate(const Candidates& c, double most, Choice& choice)
     const auto ratio = [&](double length, double to, double usual, double spread) {
         return squared(std::log(std::max(length, 0.02 * choice.size) / to / usual) / spread);
     };
-    const Vec3 feet = 0.5 * (c.places[f0] + c.places[f1]),
-               above = choice.head >= 0 ? c.places[choice.head] : Vec3(0.5 * (c.places[h0] + c.places[h1]));
-    double cost = cost_of_pair(c, choice.hand, arm0, arm1) + cost_of_pair(c, choice.foot, leg0, leg1);
-    cost += cost_of_places(c, choice.hand, above, choice.size) + cost_of_places(c, choice.hand, feet, choice.size)
-        + cost_of_places(c, choice.foot, above, choice.size);
+    double cost = cost_of_pair(c, choice.hand, arm0, arm1);
+    cost += cost_of_places(c, choice.hand, above, choice.size) + cost_of_places(c, choice.hand, feet, choice.size);
+    if (f0 != f1)
+        cost += cost_of_pair(c, choice.foot, leg0, leg1) + cost_of_places(c, choice.foot, above, choice.size);
+    else
+        cost += 2 * k_no_feet_cost;
     cost += squared((head0 - head1) / choice.size / k_pair_fork_spread);
     cost += ratio(choice.arm, choice.leg, k_arm_curve / k_leg_curve, k_arm_ratio_spread);
     cost += ratio(trunk, choice.leg, k_trunk_curve_length / k_leg_curve, k_trunk_ratio_spread);
@@ -178,13 +190,15 @@ void rate(const Candidates& c, double most, Choice& choice)
                             : ratio(head, choice.leg, usual_head,
                                     head < usual_head * choice.leg ? k_small_head_spread : k_head_ratio_spread);
     const double arms_thick = c.thickness[h0] + c.thickness[h1], legs_thick = c.thickness[f0] + c.thickness[f1];
-    cost += squared(std::log(std::max(arms_thick, k_no_length) / std::max(legs_thick, k_no_length) / k_arm_thickness)
-                    / k_thickness_spread);
+    cost += choice.covered
+        ? 2 * k_covered_cost
+        : squared(std::log(std::max(arms_thick, k_no_length) / std::max(legs_thick, k_no_length) / k_arm_thickness)
+                  / k_thickness_spread);
     double lowest = feet.y();
     for (const Vec3& place : c.places)
         lowest = std::min(lowest, place.y());
     cost += std::min(squared((feet.y() - lowest) / choice.size / k_lowest_spread), k_most_lowest_cost);
-    cost += k_lying_cost * (1 - (above - feet).normalized().y());
+    cost += k_lying_cost * (1 - upright);
     if (0.5 * cost < most)  // the rest takes most of the time
         choice.cost = 0.5 * (cost + cost_of_rest(c, choice));
 }
@@ -196,16 +210,20 @@ Choice best_choice(const Candidates& c)
     for (int h0 = 0; h0 < n; ++h0)
         for (int h1 = 0; h1 < h0; ++h1)
             for (int f0 = 0; f0 < n; ++f0)
-                for (int f1 = 0; f1 < f0; ++f1) {
+                for (int f1 = 0; f1 <= f0; ++f1) {
                     if (f0 == h0 || f0 == h1 || f1 == h0 || f1 == h1)
                         continue;
                     for (int head = -1; head < n; ++head) {
                         if (head == h0 || head == h1 || head == f0 || head == f1)
                             continue;
-                        Choice choice { head, { h0, h1 }, { f0, f1 } };
-                        rate(c, best.cost, choice);
-                        if (choice.cost < best.cost)
-                            best = choice;
+                        for (const bool covered : { false, true }) {
+                            if (f0 == f1 && !covered)
+                                continue;
+                            Choice choice { head, { h0, h1 }, { f0, f1 }, covered };
+                            rate(c, best.cost, choice);
+                            if (choice.cost < best.cost)
+                                best = choice;
+                        }
                     }
                 }
     return best;
@@ -219,6 +237,7 @@ Figure figure_of(const CurveTree& tree, const Candidates& c, const Choice& choic
         tree,
         { node(choice.head), node(choice.hand[0]), node(choice.hand[1]), node(choice.foot[0]), node(choice.foot[1]) },
         skeleton);
+    figure.graph.has_covered_legs = choice.covered;
     figure.arm_size = choice.arm / k_arm_curve;
     figure.leg_size = choice.leg / k_leg_curve;
     figure.graph.size = figure.graph.size_by_legs

@@ -13,6 +13,7 @@ struct Figure {
     double cost = 0;  ///< of the names: half the sum of squared deviations, in standard deviations
 };
 
+/// Legs that a gown hides down to the ground are taken for a human's length, where arms and head are a human's to that.
 /// Opens loops, and of all choices of head, hands and feet among the longest ends takes the most likely one: limbs of a
 /// pair are as long and as thick as each other and leave the trunk at one height, no long end is left over, proportions
 /// differ from a human's by factors, and the trunk rather stands. A head may be missing. O(ways * n^5), n <= 9 ends.

@@ -17,6 +17,9 @@ using namespace rig_tuning;
 constexpr double k_elbow_at = 0.37, k_wrist_at = 0.74, k_knee_at = 0.40, k_ankle_at = 0.80;
 constexpr double k_neck_base_share = 0.16, k_skull_base_share = 0.45;  // of the way from the shoulders to the crown
 
+// derived: means of a man, a woman and a child of the house data, whose joints are known; shares of the stature
+constexpr double k_neck_to_ankle = 0.80, k_neck_to_hips = 0.32, k_ankle_height = 0.043;
+
 struct Shares {
     double middle, end;
 };
@@ -100,6 +103,34 @@ void spread_hips(std::array<LimbJoints, 2>& legs, const Vec3& up)
     legs[1].root -= 0.5 * missing * across;
 }
 
+/// Legs in a gown: straight down from a human's hips to the hem. Feet that show say where they point.
+std::array<LimbJoints, 2> place_covered_legs(const LabelledSurface& surface, const Vec3& up)
+{
+    const auto node = [&](int n) { return surface.skeleton.nodes[n]; };
+    const BodyGraph& g = surface.graph;
+    const Vec3 shoulders = node(g.trunk.back());
+    std::array<Vec3, 2> feet { node(g.legs[0].back()), node(g.legs[1].back()) };
+    double ground = shoulders.dot(up);
+    for (Eigen::Index v = 0; v < surface.mesh.positions.rows(); ++v)
+        if (const int n = surface.skeleton.node_of_vertex[std::size_t(v)]; n >= 0 && g.place_of_node[n].curve > 1)
+            ground = std::min(ground, surface.mesh.positions.row(v).dot(up));
+    const double stature = (shoulders.dot(up) - ground) / (k_neck_to_ankle + k_ankle_height);
+    const Vec3 apart = node(g.arms[0].back()) - node(g.arms[1].back());
+    const Vec3 across = (apart - apart.dot(up) * up).normalized();
+    if ((feet[0] - feet[1]).dot(across) < 0)
+        std::swap(feet[0], feet[1]);
+    std::array<LimbJoints, 2> legs;
+    for (const int i : { 0, 1 }) {
+        LimbJoints& leg = legs[i];
+        leg.root = shoulders - k_neck_to_hips * stature * up + (i == 0 ? 0.5 : -0.5) * k_hip_width * stature * across;
+        leg.end = leg.root - (k_neck_to_ankle - k_neck_to_hips) * stature * up;
+        leg.middle = 0.5 * (leg.root + leg.end);
+        leg.tip = g.legs[0].back() == g.legs[1].back() ? Vec3(leg.end - k_ankle_height * stature * up) : feet[i];
+        leg.whole = leg.widens = false;
+    }
+    return legs;
+}
+
 }  // namespace
 
 BodyJoints label_figure(const TriangleMesh& proxy, const CurveSkeleton& skeleton, const Figure& figure)
@@ -119,9 +150,13 @@ BodyJoints label_figure(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     BodyJoints joints;
     joints.size = figure.leg_size;
     joints.crown = find_crown(whole, up);
-    joints.legs = place_pair(of_legs, slicer, 2, { k_knee_at, k_ankle_at },
-                             [&](const auto& lines) { return place_legs(of_legs, lines, up, figure.leg_size); });
-    spread_hips(joints.legs, up);
+    if (figure.graph.has_covered_legs) {
+        joints.legs = place_covered_legs(whole, up);
+    } else {
+        joints.legs = place_pair(of_legs, slicer, 2, { k_knee_at, k_ankle_at },
+                                 [&](const auto& lines) { return place_legs(of_legs, lines, up, figure.leg_size); });
+        spread_hips(joints.legs, up);
+    }
     joints.pelvis = 0.5 * (joints.legs[0].root + joints.legs[1].root);
     joints.arms = place_pair(of_arms, slicer, 0, { k_elbow_at, k_wrist_at }, [&](const auto& lines) {
         std::array<LimbJoints, 2> arms = place_arms(of_arms, lines, up, figure.arm_size);

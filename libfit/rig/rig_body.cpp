@@ -88,6 +88,9 @@ VisibleBones visible_bones(const CurveSkeleton& curves, const BodyGraph& graph, 
     for (const int node : curves.node_of_vertex) {
         const int curve = node < 0 ? -1 : graph.place_of_node[node].curve;
         visible.push_back(bones_of_curve(curve, sides));
+        if (graph.has_covered_legs && (curve < 0 || curve == k_trunk_curve))
+            for (const int bone : { lfemur, ltibia, rfemur, rtibia })
+                visible.back()[bone] = true;
     }
     return visible;
 }
@@ -287,6 +290,7 @@ Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Copies& copies
     });
 }
 
+constexpr const char* k_covered_legs = "its legs do not show, as in a gown, and are placed by a human's proportions";
 constexpr const char* k_other_lengths = "the lengths between head, hands and feet are not a human's";
 
 /// @param cost  of the names of the limbs, half a sum of squares
@@ -337,6 +341,8 @@ public:
             if (best_ && score <= score_)
                 return;
             say_how_human(human, figure.cost, found.rig);
+            if (figure.graph.has_covered_legs && human.furthest.empty())
+                found.rig.not_human = k_covered_legs;
             score_ = score;
             best_ = std::move(found);
             proxy_ = body.proxy;

@@ -244,6 +244,10 @@ inline constexpr double k_place_spread = 0.1, k_most_place_cost = 4;
 inline constexpr double k_lowest_spread = 0.15, k_most_lowest_cost = 9;
 /// fitted: guesses. Costs of a missing head, and of lying down.
 inline constexpr double k_no_head_cost = 8, k_lying_cost = 2;
+/// fitted: guesses, on one woman in a gown and six made-up ones. Of a figure whose legs do not show: the least share of
+/// the way from the shoulders to the ground above where the legs part (a human has 0.4, short-legged figures 0.65), and
+/// what it costs, costs where no feet show either, and the least cosine of its tilt.
+inline constexpr double k_covered_trunk = 0.72, k_covered_cost = 1, k_no_feet_cost = 1, k_covered_upright = 0.9;
 /// fitted: guesses. Longest finger, a share of the diagonal, and share of an arm that is not the other one's too.
 inline constexpr double k_longest_finger = 0.045, k_own_share = 0.7;
 /// fitted: guess. Shortest limb, a share of the figure's length.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -110,6 +112,42 @@ TEST(Slow, CartoonsAreRiggedAndSaidToBeFarFromHuman)
             EXPECT_LT(found.human_probability, k_clearly_human);
             EXPECT_FALSE(found.not_human.empty());
         }
+    }
+}
+
+/// With the feet below the hem, or on the floor all round.
+TriangleMesh person_in_a_gown(const fixtures::Person& person, double hem)
+{
+    const auto gown = [&](const Vec3& p) {
+        const double cone = std::hypot(p.x(), p.z() / 0.8) - (0.15 + 0.2 * (1.05 - p.y()));
+        return std::min(fixtures::person_distance(person.skeleton, p),
+                        std::max({ 0.9 * cone, p.y() - 1.05, hem - p.y() }));
+    };
+    return fixtures::polygonise(gown, Vec3(-1, -0.2, -0.5), Vec3(1, 2, 0.5), 0.025);
+}
+
+TEST(Slow, LegsInAGownArePlacedAsAHumans)
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 45 });
+    for (const double hem : { 0.06, -0.01 }) {
+        const TriangleMesh mesh = person_in_a_gown(person, hem);
+        const bool shows_feet = hem > 0;
+        const RigOptions options { .front = shows_feet ? std::optional<Vec3>() : Vec3::UnitZ() };
+        const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles), options);
+        for (const int bone : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius })
+            for (const int side : { bone, mirror_of(bone) })
+                EXPECT_LT((rig.skeleton.tail(side) - person.skeleton.tail(side)).norm(), 0.1)
+                    << bone_name(side) << " " << hem;
+        EXPECT_LT(rig.human_probability, k_clearly_human);
+        EXPECT_NE(rig.not_human.find("legs do not show"), std::string::npos) << rig.not_human;
+        for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+            if (const Vec3 skin = mesh.positions.row(v);
+                skin.y() > 0.1 && skin.y() < 0.3 && std::abs(skin.x()) > 0.15) {
+                const int bone = rig.weights.bones(v, 0);
+                EXPECT_EQ(bone, skin.x() > 0 ? ltibia : rtibia) << skin.transpose() << " " << bone_name(bone);
+            }
+        if (shows_feet)
+            fixtures::expect_invalid([&] { rig_body(make_body(mesh.positions, mesh.triangles), k_strict); }, "body");
     }
 }
 
