@@ -122,6 +122,17 @@ Posture ascend_fully(const FitEnergy& energy, const Posture& start, const Triang
     return ascend_where_wide(energy, *posture, *paper);
 }
 
+// Trousers that are longer than the legs of the body, and hold none of them: it is too wide for them, and its hips lie
+// over their waist or between their legs. Briefs hold no leg either, but they are short.
+bool leaves_legs_empty(const Attempt& attempt, const std::vector<Bone>& covered)
+{
+    const auto is_of_leg = [](Bone b) { return b == lfemur || b == ltibia || b == rfemur || b == rtibia; };
+    const ClearanceField& cloth = attempt.energy().metric().cloth();
+    const Skeleton& joints = attempt.rig().skeleton;
+    return attempt.coverage().kind == CoverageKind::legs && std::none_of(covered.begin(), covered.end(), is_of_leg)
+        && (cloth.high() - cloth.low()).y() > joints.length(lfemur) + joints.length(ltibia);
+}
+
 // The sum over the hypotheses that agree with one in something.
 template <class Agrees>
 double probability_of(const std::vector<Hypothesis>& all, const Agrees& agrees)
@@ -173,6 +184,8 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool m
     result.up = hypothesis.up();
     result.front = hypothesis.wearing.front;
     result.covered = bones_inside(energy, fitted, k_mostly_inside);
+    if (leaves_legs_empty(attempt, result.covered))
+        throw refusal_of_empty_legs();
     result.pose = pose_of(attempt.rig().skeleton, rotate(fitted, attempt.garment().turn.conjugate()));
     result.scores = energy.bone_scores(fitted);
     result.clearance = metric.clearance_shares(place_bones(attempt.rig().skeleton, fitted).joints);

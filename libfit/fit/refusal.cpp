@@ -103,4 +103,13 @@ InvalidInput refusal_of(const Hypothesis& best, const FitOptions& options)
     return because(bones_text(best));
 }
 
+InvalidInput refusal_of_empty_legs()
+{
+    return {
+        ErrorCode::no_fit,
+        "garment: this body does not fit into it: both its legs stay empty, as the body's legs are too far apart or "
+        "too short for them. Choose a wider garment, or scale it (garment_scale)"
+    };
+}
+
 }  // namespace garmentfit

@@ -23,4 +23,7 @@ std::optional<double> wearer_share(const Skeleton& joints, const std::vector<Ope
 /// @param best  the most probable way of wearing it
 InvalidInput refusal_of(const Hypothesis& best, const FitOptions& options);
 
+/// Of trousers in a pose with no leg of the body inside.
+InvalidInput refusal_of_empty_legs();
+
 }  // namespace garmentfit

@@ -605,6 +605,30 @@ TEST(FitSkeleton, LegsThatAreMuchTooShortForTrousersAreFoundAWay)
     }
 }
 
+TEST(FitSkeleton, TrousersWhoseLegsStayEmptyAreRefused)
+{
+    int refused = 0;
+    for (const double apart : { 0.05, 0.1, 0.15, 0.2 }) {  // wider than the waist in the end
+        Rig rig = with_short_legs({ .arm_angle = 60 }, 0.4);
+        for (const int bone : { lhipjoint, lfemur, ltibia }) {
+            rig.skeleton.tails[bone].x() += apart;
+            rig.skeleton.tails[mirror_of(bone)].x() -= apart;
+        }
+        rig.skeleton.tips[lfoot_tip].x() += apart;
+        rig.skeleton.tips[rfoot_tip].x() -= apart;
+        try {
+            const std::vector<Bone> covered = fit_skeleton(rig, trousers(), { .type = GarmentType::trousers }).covered;
+            EXPECT_TRUE(std::find(covered.begin(), covered.end(), lfemur) != covered.end()) << apart;
+            EXPECT_TRUE(std::find(covered.begin(), covered.end(), rfemur) != covered.end()) << apart;
+        } catch (const InvalidInput&) {
+            ++refused;
+        } catch (const SolverFailure&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 0);
+}
+
 TEST(FitSkeleton, TipsAreShortenedUntilTheyAreClear)
 {
     const Skeleton joints = person_skeleton({});
