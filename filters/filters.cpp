@@ -281,6 +281,16 @@ const ClothOptions& Filter::cloth(const Parameters& parameters) const
     return has(Stage::drape) ? parameters.drape.cloth : parameters.recover.cloth;
 }
 
+Filter Filter::on_known_rig() const
+{
+    Filter filter = *this;
+    filter.stages.erase(std::remove(filter.stages.begin(), filter.stages.end(), Stage::rig), filter.stages.end());
+    filter.outputs.erase(std::remove(filter.outputs.begin(), filter.outputs.end(), Data::rig), filter.outputs.end());
+    if (!filter.reads(Data::rig))
+        filter.inputs.push_back(Data::rig);
+    return filter;
+}
+
 void Filter::run(Scene& scene, const Parameters& parameters, const Progress& progress) const
 {
     require_inputs(*this, scene);

@@ -71,22 +71,22 @@ Session read(Call& call)
 }
 
 /// Which filters to run: a rig that was read is not computed again.
-std::vector<std::string_view> filters_for(const Call& call, const Session& session)
+std::vector<Filter> filters_for(const Call& call, const Session& session)
 {
     if (call.filter->name == "fit" && !session.scene.rig)
-        return { "rig", "fit" };
+        return { filter_of("rig"), filter_of("fit") };
     if (call.filter->name == "dress" && session.scene.rig)
-        return { "fit", "drape", "recover" };
+        return { call.filter->on_known_rig() };
     if (call.filter->name == "rig" && session.scene.rig)
         return {};
-    return { call.filter->name };
+    return { *call.filter };
 }
 
 /// Runs a filter. Where the shape is refused after the file's own skeleton was, both reasons are told.
-void run_filter(std::string_view name, const Parameters& parameters, Session& session, const Progress& progress)
+void run_filter(const Filter& filter, const Parameters& parameters, Session& session, const Progress& progress)
 {
     try {
-        filter_of(name).run(session.scene, parameters, progress);
+        filter.run(session.scene, parameters, progress);
     } catch (const InvalidInput& error) {
         if (session.scene.rig || session.skeleton_refusal.empty())
             throw;
@@ -100,14 +100,12 @@ void compute(const Call& call, Session& session, const Deadline& deadline)
 {
     ProgressBar bar(isatty(STDERR_FILENO) && !call.quiet);
     const Progress progress = bar.progress().until(deadline);
-    const std::vector<std::string_view> names = filters_for(call, session);
+    const std::vector<Filter> filters = filters_for(call, session);
     Parameters parameters = call.parameters;
     parameters.recover.cloth = call.filter->cloth(parameters);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const double n = double(names.size());
-        run_filter(names[i], parameters, session, progress.part(double(i) / n, double(i + 1) / n));
-        if (session.scene.draped && !all_put_on(session.scene))
-            break;
+    for (std::size_t i = 0; i < filters.size(); ++i) {
+        const double n = double(filters.size());
+        run_filter(filters[i], parameters, session, progress.part(double(i) / n, double(i + 1) / n));
     }
 }
 

@@ -337,4 +337,16 @@ TEST(Documentation, ParameterTablesAreCurrent)
         EXPECT_EQ(page, current) << "run this test with GARMENTFIT_WRITE_DOCS=1 to write the tables anew";
 }
 
+TEST(Filters, OnAKnownRigADressingIsTheSameWithoutRigging)
+{
+    const Filter dress = filter_of("dress"), worn = dress.on_known_rig();
+    EXPECT_EQ(worn.stages, std::vector<Stage>(dress.stages.begin() + 1, dress.stages.end()));
+    EXPECT_TRUE(worn.reads(Data::rig));
+    EXPECT_FALSE(worn.makes(Data::rig));
+    Scene scene;
+    scene.body = make_body(fixtures::capsule_person().mesh.positions, fixtures::capsule_person().mesh.triangles);
+    scene.garments.resize(1);
+    fixtures::expect_invalid([&] { worn.run(scene, {}); }, "the body has no rig");
+}
+
 }  // namespace

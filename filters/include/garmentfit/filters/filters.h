@@ -131,6 +131,8 @@ struct Filter {
     bool makes(Data data) const;
     /// The options of the cloth: one set for putting on and for moving, where the filter does both.
     const ClothOptions& cloth(const Parameters& parameters) const;
+    /// The same for a body whose rig is known: it is read, and the other stages run as they do after rigging.
+    Filter on_known_rig() const;
 
     /// Checks inputs and ranges, then fills the outputs of each stage. Ends after draping where a garment could not be
     /// put on. At the time limit, draping and the return to the input pose end with their last certified state.
