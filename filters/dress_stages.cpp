@@ -145,6 +145,7 @@ void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& clo
 DrapeOptions options_for(const GarmentInput& garment, DrapeOptions options)
 {
     options.cloth.fabric = garment.fabric.value_or(options.cloth.fabric);
+    options.size = garment.size;
     if (!garment.has_unit)
         options.cloth.largest_enlargement = std::max(options.cloth.largest_enlargement, k_enlarged_without_unit);
     return options;
@@ -257,6 +258,27 @@ void run_with_stand_ins(RunStage& run, Stage stage, bool is_on_the_way, std::opt
 }
 
 }  // namespace
+
+bool enlarge_too_small(Scene& scene, const Parameters& parameters)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || outcome_of(*end) != Outcome::too_small || end->scale_reached < 1)
+        return false;
+    std::vector<double> sizes;
+    for (const WornGarment& garment : end->garments)
+        sizes.push_back(garment.size);
+    for (const TooTight& part : end->too_tight) {
+        const auto i = std::size_t(part.garment);
+        const double stretched = 1 + k_stretch_of_enlarged * end->fabric_stretches[i];
+        sizes[i] = std::max(sizes[i], end->garments[i].size * (1 + part.enlargement) / stretched);
+    }
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        if (sizes[i] > 1 + options_for(scene.garments[i], parameters.drape).cloth.largest_enlargement)
+            return false;
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        scene.garments[i].size = sizes[i];
+    return true;
+}
 
 void drape_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {

@@ -32,6 +32,8 @@ constexpr std::array<StageRow, k_stage_count> k_stages { {
     { "recover", "recovering the pose", recover_stage, 0.4 },
 } };
 
+constexpr int k_enlarging_rounds = 2;  // unit: cloth that is larger lies elsewhere, and may be a little too small there
+
 const StageRow& row(Stage stage) { return k_stages[static_cast<int>(stage)]; }
 
 void require(bool given, const Filter& filter, const char* what)
@@ -122,6 +124,9 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
         return;
     run_changed(give_up_stand_ins, stages, scene, parameters, progress.part(1, 1));
     run_changed(find_linings, stages, scene, parameters, progress.part(1, 1));
+    for (int k = 0; k < k_enlarging_rounds; ++k)
+        run_changed([&](Scene& other) { return enlarge_too_small(other, parameters); }, stages, scene, parameters,
+                    progress.part(1, 1));
 }
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)

@@ -23,4 +23,8 @@ void drape_on_the_way_stage(Scene& scene, const Parameters& parameters, const Pr
 /// Moves the dressed body to its input pose.
 void recover_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
+/// Enlarges the garments that are put on, but found too small in the end, until their fabric allows the rest. @return whether
+/// there are any, and all may be enlarged so far
+bool enlarge_too_small(Scene& scene, const Parameters& parameters);
+
 }  // namespace garmentfit

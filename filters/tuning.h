@@ -102,6 +102,9 @@ inline constexpr double k_normalised = 0.002, k_normalised_odds = 60;
 /// it is too small then: shoulders and sleeves say how tall its wearer is, not how stout. fitted: guess; five of 34
 /// clothes of web shops needed .08 to .17.
 inline constexpr double k_enlarged_without_unit = 0.2;
+/// Share of what its fabric gives by which a garment that is enlarged is stretched then. derived: as
+/// k_enlarged_stretch_share of the room dress
+inline constexpr double k_stretch_of_enlarged = 0.5;
 /// Strain, the 95th percentile, that fine cloth may have beyond that of the stand-in that it follows; with more, it moves
 /// as it is. fitted: guess; fine clothes of web shops that follow well have .01 to .03, a jumpsuit that is a child's too
 /// long .25.

@@ -84,6 +84,13 @@ public:
     {
     }
 
+    void enlarge(ClothMotion& motion, double size)
+    {
+        size_ = size;
+        motion.set_rest(garment());
+        tightness_.set_rest(garment().positions);
+    }
+
     bool is_tight(const ClothMotion& motion) const { return stretch_of(motion) > allowed_; }
 
     /// Enlarges the garment where the body stretches it too far. @return false if that takes more than is allowed
@@ -95,9 +102,7 @@ public:
         const double larger = size_ * (1 + stretch) / (1 + k_enlarged_stretch_share * allowed_);
         if (larger > 1 + largest_enlargement_)
             return false;
-        size_ = larger;
-        motion.set_rest(garment());
-        tightness_.set_rest(garment().positions);
+        enlarge(motion, larger);
         return true;
     }
 
@@ -225,6 +230,9 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
     const PieceCounts pieces = start.cloth.sewn.counts;
     ClothMotion motion(std::move(start.cloth),
                        { { inside.at(start.scale), inside.full.triangles }, int(inside.body_vertices) }, options.cloth);
+
+    if (options.size > 1)
+        grading.enlarge(motion, options.size);
 
     DrapeResult result;
     const Growth growth = grow_body(motion, start, grading, options.growing_steps, progress.part(0, 0.7));

@@ -225,6 +225,9 @@ TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
     EXPECT_GT(size, 1.05);
     EXPECT_LT(size, 1.5);
     EXPECT_EQ(result.garments[0].rest.positions, size * small.positions);
+    options.size = size + 0.1;
+    EXPECT_EQ(drape_garment(d.rig, d.body, {}, small, options).garments[0].size, options.size);
+    options.size = 1;
     options.cloth.largest_enlargement = 0.5 * (size - 1);
     EXPECT_LT(drape_garment(d.rig, d.body, {}, small, options).scale_reached, 1);
 }

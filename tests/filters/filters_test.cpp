@@ -51,7 +51,8 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, enlargement]
         = ClothOptions();
     EXPECT_EQ(count_of(ClothOptions()), 9u);
-    [[maybe_unused]] const auto [drape_cloth, growing, settling] = DrapeOptions();
+    // the size from the start is for Dress Body to say
+    [[maybe_unused]] const auto [drape_cloth, growing, settling, size] = DrapeOptions();
     EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
     [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, frames]
         = RecoverOptions();

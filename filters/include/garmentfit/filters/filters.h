@@ -50,6 +50,7 @@ struct GarmentInput {
     std::optional<Fabric> fabric = {};  ///< empty: as in Parameters
     /// Moves in its place (stand_in.h). Draping looks for one where there is none; without a mesh: it needs none.
     std::optional<std::optional<StandIn>> stand_in = {};
+    double size = 1;  ///< DrapeOptions::size
     bool has_unit = true;  ///< Frame::has_unit; a garment without one may be made larger where it is too small
 };
 

@@ -29,6 +29,7 @@ struct DrapeOptions {
     ClothOptions cloth;
     int growing_steps = 24;  ///< in which the body grows from its bones to full size
     int settling_steps = 20;  ///< time steps under gravity
+    double size = 1;  ///< by which the garment is enlarged from the start, where it is known to be too small as given
 };
 
 /// Where a garment is too small.
