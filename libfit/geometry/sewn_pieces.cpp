@@ -303,21 +303,34 @@ std::vector<Tie> find_own_seams(const GarmentMesh& rest, const MeshTopology& top
     return ties.size() < k_least_own_seam ? std::vector<Tie>() : ties;
 }
 
-/// Ties along a seam between two pieces, on both of their borders; none where there is no seam.
-std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q)
+/// Ties between two pieces, on both of their borders, where they are this near; none where they are on less than this
+/// share of both.
+std::vector<Tie> ties_within(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q, double reach,
+                             double share)
 {
-    const double usual = seam_reach(std::min(pieces[p].border_edge, pieces[q].border_edge)),
-                 reach = std::max(usual, panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)));
     std::vector<Tie> ties = ties_on_border(feet.find(pieces[p].border, q, reach));
     const std::vector<Tie> back = ties_on_border(feet.find(pieces[q].border, p, reach));
-    const auto is_long = [&](std::size_t tied, const Piece& piece) {
-        return double(tied) >= k_seam_share * double(piece.border.size()) && tied > 0;
+    const auto is_long = [share](std::size_t tied, const Piece& piece) {
+        return double(tied) >= share * double(piece.border.size()) && tied > 0;
     };
     if (ties.size() + back.size() < k_least_seam
         || !(is_long(ties.size(), pieces[p]) || is_long(back.size(), pieces[q])))
         return {};
     ties.insert(ties.end(), back.begin(), back.end());
     return ties;
+}
+
+/// Ties along a seam between two pieces; none where there is no seam. A seam that gapes is known by its length.
+std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::size_t p, std::size_t q)
+{
+    const double edge = std::min(pieces[p].border_edge, pieces[q].border_edge);
+    const double reach
+        = std::max(seam_reach(edge), panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)));
+    const double wide = std::min(k_gaping_edges * edge, k_gaping_distance);
+    if (wide > reach)
+        if (std::vector<Tie> ties = ties_within(feet, pieces, p, q, wide, k_gaping_share); !ties.empty())
+            return ties;
+    return ties_within(feet, pieces, p, q, reach, k_seam_share);
 }
 
 /// Of each vertex of a piece the nearest foot on larger pieces. Pieces that are nearest to few of the vertices are left

@@ -109,6 +109,9 @@ inline constexpr double k_seam_distance = 1e-3, k_seam_edges = 0.1;
 /// fitted: guess.
 inline constexpr double k_seam_share = 0.05;
 inline constexpr std::size_t k_least_seam = 3;
+/// Mean edges and m: the same of seams that gape, and the fraction of the border that these have at least: the fronts of a
+/// jacket share a quarter. fitted: guess, on a skirt of a shop, two panels of which .55 are up to .35 edges apart.
+inline constexpr double k_gaping_edges = 0.4, k_gaping_distance = 0.015, k_gaping_share = 0.4;
 /// Edges within which a border is no seam with itself, how many vertices near by are looked at, and the least number that
 /// it ties. fitted: guess, between a sweater of a shop whose front and back are joined at the armpits alone (300 vertices)
 /// and garments with slits that end in a point.

@@ -76,6 +76,30 @@ GarmentMesh rolled(double gap, bool is_folded = false)
     return cloth;
 }
 
+/// A tube of two panels with edges of 2 cm, apart by these gaps on either side, m.
+GarmentMesh tube_of_two(double left, double right)
+{
+    constexpr double radius = 0.12;
+    const double first = left / radius, second = right / radius;
+    const auto panel = [](double from, double to) {
+        TriangleMesh mesh = flat(20, 0.02, Vec3::Zero());
+        for (auto row : mesh.positions.rowwise()) {
+            const double angle = from + row.x() / 0.38 * (to - from);
+            row << radius * std::cos(angle), radius * std::sin(angle), row.z();
+        }
+        return mesh;
+    };
+    return garment_of({ panel(first / 2, std::numbers::pi - second / 2),
+                        panel(std::numbers::pi + second / 2, 2 * std::numbers::pi - first / 2) });
+}
+
+TEST(SewnPieces, SeamsMayGapeThatAreHalfOfABorder)
+{
+    EXPECT_EQ(count_pieces_held(tube_of_two(0.006, 0.006)).seamed, 1);
+    EXPECT_EQ(count_pieces_held(tube_of_two(0.012, 0.012)).seamed, 0) << "too far apart";
+    EXPECT_EQ(count_pieces_held(tube_of_two(0.006, 0.05)).seamed, 0) << "as the fronts of a jacket";
+}
+
 TEST(SewnPieces, APieceHasSeamsWithItself)
 {
     const SewnPieces tube = sewn(rolled(5e-4));

@@ -25,7 +25,8 @@ struct Sheets {
     SideBySide beside;
 
     explicit Sheets(int n) :
-        mesh(two_sheets(n)), topology(mesh.triangles, int(mesh.positions.rows())), beside(mesh.positions, topology, mesh.positions)
+        mesh(two_sheets(n)), topology(mesh.triangles, int(mesh.positions.rows())),
+        beside(mesh.positions, topology, mesh.positions)
     {
     }
 };
