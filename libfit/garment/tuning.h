@@ -250,9 +250,9 @@ inline constexpr double k_armhole_normal = 0.15;
 inline constexpr double k_armhole_length = 0.25;
 /// Length in girths: a sleeve to the elbow has 0.5, to the wrist 1.4.
 inline constexpr double k_long_sleeve = 0.9;
-/// Length in girths of sleeves that leave the forearm bare, whatever the type. fitted: guess, between jackets of the
-/// catalogue whose sleeves have 0.52 (0.61 girths) and 0.61 of an arm (0.84 girths).
-inline constexpr double k_short_sleeve = 0.7;
+/// Length in girths of sleeves that leave the forearm bare, whatever the type. fitted: guess, between a blouse of a shop
+/// with short sleeves (0.47 girths) and a jacket of the catalogue with sleeves of half an arm (0.61 girths).
+inline constexpr double k_short_sleeve = 0.55;
 /// Relative distance from a limit at which the confidence of a decision is 1 (a reciprocal).
 inline constexpr double k_confidence_slope = 2;
 /// Height of a jumpsuit in lengths of its legs; length in girths of the legs of trousers.

@@ -255,7 +255,7 @@ GarmentMesh trousers_with_patch(const Skeleton& skeleton, double distance)
     result.positions.conservativeResize(first + 4, 3);
     for (int corner = 0; corner < 4; ++corner)
         result.positions.row(first + corner) = middle + distance * beside.normalized()
-            + 0.01 * ((corner % 2 ? 1 : -1) * along + (corner / 2 ? 1 : -1) * across.normalized());
+            + 0.02 * ((corner % 2 ? 1 : -1) * along + (corner / 2 ? 1 : -1) * across.normalized());  // no speck
     result.triangles.conservativeResize(result.triangles.rows() + 2, 3);
     result.triangles.bottomRows(2) << first, first + 1, first + 2, first + 1, first + 3, first + 2;
     return result;
