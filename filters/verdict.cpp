@@ -15,6 +15,12 @@ double fabric_stretch(const Dressing& dressing, std::size_t garment)
                                                       : material_of(Fabric::cotton).largest_stretch;
 }
 
+bool is_too_tight(const Dressing& dressing, std::size_t garment)
+{
+    return std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(),
+                       [&](const TooTight& part) { return part.garment == int(garment); });
+}
+
 bool is_too_tight_at(const Dressing& dressing, std::size_t garment, const std::string& place)
 {
     return std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(),
@@ -80,9 +86,8 @@ bool is_drawn_out(const Dressing& dressing, std::size_t garment)
     if (garment >= dressing.overstretches.size())
         return false;
     const Overstretch& stretch = dressing.overstretches[garment];
-    const bool is_tight = std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(),
-                                      [&](const TooTight& part) { return part.garment == int(garment); });
-    return stretch.longer * dressing.to_human_size > k_strand || (stretch.gained > k_drawn_area && !is_tight);
+    return stretch.longer * dressing.to_human_size > k_strand
+        || (stretch.gained > k_drawn_area && !is_too_tight(dressing, garment));
 }
 
 bool ends_in_spikes(const Dressing& dressing, std::size_t garment)
@@ -96,8 +101,7 @@ bool is_too_small(const Dressing& dressing, std::size_t garment)
     if (ends_in_spikes(dressing, garment))
         return false;
     return (garment == dressing.outermost && dressing.scale_reached < 1 && !dressing.out_of_time)
-        || std::any_of(dressing.too_tight.begin(), dressing.too_tight.end(),
-                       [&](const TooTight& part) { return part.garment == int(garment); });
+        || is_too_tight(dressing, garment);
 }
 
 std::optional<Fabric> fabric_that_would_do(const Dressing& dressing, std::size_t garment)

@@ -41,7 +41,8 @@ struct SewnPieces {
 /// @param rest      welded
 /// @param topology  of rest.triangles
 /// @param garments  of each vertex its garment, where `rest` has several: these are not sewn to each other. Empty: one.
-/// Cost O(n log n) for each pair of pieces that are close to each other, O(n) for a single piece.
+/// Cost O(n log n) for each pair of pieces that are close to each other, O(n + b log b) for a single piece with b vertices
+/// on its border.
 SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topology,
                             const std::vector<int>& garments = {});
 
