@@ -2,6 +2,7 @@
 #include "fast_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <optional>
 #include <string>
@@ -155,22 +156,42 @@ void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::v
         = probability_of(all, [&](const Hypothesis& other) { return other.up().dot(chosen.up()) > k_same_direction; });
 }
 
+// Below upper arms or thighs that are covered on both sides: the forearms or shins of which one is inside and the other
+// is not, unless they are inside by their mean. Sleeves are alike: with one cuff in front of the middle of its forearm
+// and the other behind it, the arms come out unlike, and pass through cloth where they go.
+std::vector<Bone> unlike_bones(const FitEnergy& energy, const Posture& posture)
+{
+    const Skeleton joints = place_bones(energy.rest(), posture).joints;
+    const auto count = [&](Bone b) { return energy.metric().samples_inside(joints.head(b), joints.tail(b)); };
+    const auto is_inside = [&](Bone b) { return energy.metric().covers(b) && count(b) >= k_mostly_inside; };
+    std::vector<Bone> unlike;
+    for (const auto& [left, right, upper_left, upper_right] :
+         { std::array { lradius, rradius, lhumerus, rhumerus }, std::array { ltibia, rtibia, lfemur, rfemur } })
+        if (is_inside(upper_left) && is_inside(upper_right) && energy.metric().covers(left)
+            && energy.metric().covers(right) && is_inside(left) != is_inside(right)
+            && count(left) + count(right) < 2 * k_mostly_inside)
+            unlike.insert(unlike.end(), { left, right });
+    return unlike;
+}
+
 // The pose of a hypothesis. @throws InvalidInput when no body fits in like that; SolverFailure when bones pass through
 // cloth in the end
 // @param moves  whether bones that pass through cloth are looked for another place
-FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool moves)
+// @param inside  the bones that are taken to be covered
+FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool moves, const std::vector<Bone>& inside)
 {
-    if (!hypothesis.is_possible())
-        throw refusal_of(hypothesis, options);
     const Attempt& attempt = *hypothesis.attempt;
     const Posture& start = hypothesis.wearing.posture;
-    // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
-    const BoneMetric metric(attempt.energy().metric().cloth(),
-                            limb_radii_of(attempt.rig(), bones_inside(attempt.energy(), start, k_partly_inside)));
+    const BoneMetric metric(attempt.energy().metric().cloth(), limb_radii_of(attempt.rig(), inside));
     const FitEnergy energy(attempt.rig(), attempt.limits(), metric, attempt.cues()),
         thick(attempt.rig(), attempt.limits(), metric, attempt.cues(), k_bone_thickness);
     const bool keeps_input = hypothesis.wearing.is_in_place && !find_crossing(thick, start);
     Posture fitted = keeps_input ? start : ascend_fully(energy, start, attempt.garment().outward);
+    if (const std::vector<Bone> unlike = unlike_bones(energy, fitted); !keeps_input && !unlike.empty()) {
+        std::vector<Bone> alike = inside;
+        std::erase_if(alike, [&](Bone b) { return std::find(unlike.begin(), unlike.end(), b) != unlike.end(); });
+        return finish(hypothesis, options, moves, alike);
+    }
     // The ascent may end with a bone that all but touches the cloth: no body can grow from there.
     if (find_crossing(thick, fitted))
         fitted = refine_posture(thick, fitted);
@@ -191,6 +212,15 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool m
     result.clearance = metric.clearance_shares(place_bones(attempt.rig().skeleton, fitted).joints);
     result.scores_before = energy.bone_scores(start_at_barycentre(energy));
     return result;
+}
+
+// The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
+FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool moves)
+{
+    if (!hypothesis.is_possible())
+        throw refusal_of(hypothesis, options);
+    return finish(hypothesis, options, moves,
+                  bones_inside(hypothesis.attempt->energy(), hypothesis.wearing.posture, k_partly_inside));
 }
 
 // The most probable hypothesis in which a body fits, FitOptions::skipped of those left out.

@@ -292,6 +292,19 @@ TEST(FitSkeleton, ShortSleevesHaveBothArmsWhateverTheType)
     }
 }
 
+// Cuffs near the middle of the forearms: one arm must not count as covered and the other as bare.
+TEST(FitSkeleton, ForearmsAreCoveredOnBothSidesOrOnNone)
+{
+    for (const double sleeve : { 1.4, 1.45 })
+        for (const double arm_angle : { 20, 80 }) {
+            const Rig rig = rig_of({ .arm_angle = arm_angle });
+            const FitResult result
+                = fit_skeleton(rig, shirt({ .arm_angle = 45 }, sleeve), { .type = GarmentType::longsleeve });
+            const auto covers = [&](Bone b) { return std::count(result.covered.begin(), result.covered.end(), b); };
+            EXPECT_EQ(covers(lradius), covers(rradius)) << "sleeve " << sleeve << ", arms " << arm_angle;
+        }
+}
+
 TEST(FitSkeleton, TheGarmentMayLieAnywhere)
 {
     const PersonOptions input { .arm_angle = 45 };
