@@ -157,6 +157,25 @@ bool are_sleeves(const Opening& a, const Opening& b, const Piece& piece)
     return are_narrow(a, b, piece) && ((are_pair(a, b) && face_apart(a, b)) || are_hanging_sleeves(a, b, piece));
 }
 
+/// Whether two openings end long tubes that are alike and lead to two places apart, wherever they end: arms of somebody
+/// who stands in a pose. Neck and hem are two more openings, or one with an open front; trousers with one leg lifted have
+/// a waist only.
+bool are_posed_sleeves(const Opening& a, const Opening& b, const Piece& piece)
+{
+    const auto are_similar = [](double x, double y) { return std::max(x, y) < k_pair_girths * std::min(x, y); };
+    Vec3 apart = b.tube_end - a.tube_end;
+    apart.y() = 0;
+    const auto is_tall = [&](const Opening& opening) {
+        return &opening != &a && &opening != &b && opening.high.y() - opening.low.y() > k_open_front * piece.height;
+    };
+    const bool has_neck_and_hem
+        = piece.others.size() >= 4 || std::any_of(piece.others.begin(), piece.others.end(), is_tall);
+    return has_neck_and_hem && is_long_tube(a) && is_long_tube(b) && are_similar(a.girth, b.girth)
+        && are_similar(a.tube_length, b.tube_length) && are_narrow(a, b, piece)
+        && std::min(a.tube_end.y(), b.tube_end.y()) > piece.middle
+        && apart.norm() > k_shoulders_apart * std::max(a.tube_girth, b.tube_girth);
+}
+
 /// Of pairs that may be sleeves, those with the longest tubes: slits in them are pairs, too.
 void take_sleeves(Piece& piece)
 {
@@ -170,6 +189,10 @@ void take_sleeves(Piece& piece)
                 longest = { i, j };
                 length = shorter;
             }
+    for (std::size_t i = 0; i < all.size() && !longest; ++i)
+        for (std::size_t j = i + 1; j < all.size() && !longest; ++j)
+            if (are_posed_sleeves(all[i], all[j], piece))
+                longest = { i, j };
     if (longest)
         piece.sleeves = take_pair(all, longest->first, longest->second);
     for (std::size_t i = 0; i < all.size() && piece.sleeves.empty(); ++i)
@@ -314,6 +337,17 @@ double uprightness(const Piece& piece)
     const double height = 0.5 * (piece.sleeves[0].centre.y() + piece.sleeves[1].centre.y());
     const bool points_down = facing < -k_level || (facing < k_level && height > piece.middle);
     return points_down && piece.height > depth_of(piece) ? 1 : 0;
+}
+
+/// From one leg to the other, or from one sleeve to the other, level. Hands may be anywhere: between the shoulders, where
+/// the sleeves are long enough to tell them.
+Vec3 across_of(const Piece& piece)
+{
+    const std::vector<Opening>& pair = piece.legs.empty() ? piece.sleeves : piece.legs;
+    const bool are_long_sleeves = piece.legs.empty() && is_long_tube(pair[0]) && is_long_tube(pair[1]);
+    Vec3 across = are_long_sleeves ? Vec3(pair[1].tube_end - pair[0].tube_end) : Vec3(pair[1].centre - pair[0].centre);
+    across.y() = 0;
+    return across;
 }
 
 /// Direction in which elbows bend: sum of the sleeves' normals, horizontal, without the part across.
@@ -511,8 +545,7 @@ GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Ve
         const auto& pair = piece.legs.empty() ? piece.sleeves : piece.legs;
         if (!pair.empty() && piece.height > tallest) {
             tallest = piece.height;
-            cues.across = pair[1].centre - pair[0].centre;
-            cues.across.y() = 0;
+            cues.across = across_of(piece);
         }
         if (sleeves_of(piece) != Sleeves::none && length_of(piece.sleeves) > longest) {
             longest = length_of(piece.sleeves);

@@ -2,10 +2,12 @@
 #include "coverage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "garmentfit/error.h"
+#include "type_guess.h"
 
 namespace {
 
@@ -154,6 +156,33 @@ TEST(Coverage, LongSleevesThatHangBesideTheHemAreSleeves)
     EXPECT_TRUE(holds_arms(1.3 * hem, 0.45));
     EXPECT_FALSE(holds_arms(1.3 * hem, 0.1)) << "short tubes may be anything";
     EXPECT_FALSE(holds_arms(0.9 * hem, 0.45)) << "legs hang below the waist, not beside it";
+}
+
+// A shirt modelled with one arm hanging and the other bent, its hand in front of the belly.
+TEST(Coverage, SleevesOfAPosedWearerAreSleeves)
+{
+    const auto posed = [](std::vector<Opening> openings, double tube_length) {
+        Opening hanging = cuff_at(-0.3, tube_length), bent = cuff_at(0, tube_length);
+        for (Opening* cuff : { &hanging, &bent })
+            cuff->tube_end = Vec3(cuff == &bent ? 0.22 : -0.22, 0.42, 0);
+        bent.centre = Vec3(0.05, 0.25, 0.3);
+        bent.facing = Vec3(-0.6, 0, 0.8);
+        bent.rim.rowwise() += bent.centre.transpose();
+        bent.low = bent.rim.colwise().minCoeff();
+        bent.high = bent.rim.colwise().maxCoeff();
+        openings.insert(openings.end(), { hanging, bent });
+        return openings;
+    };
+    const auto has_arms = [](const std::vector<Opening>& openings) { return cues_of(openings).has_arms; };
+    EXPECT_TRUE(has_arms(posed(k_tube, 0.45)));
+    EXPECT_FALSE(has_arms(posed(k_tube, 0.1))) << "short tubes may be anything";
+    EXPECT_FALSE(has_arms(posed({ opening_at(0.5, 1) }, 0.45))) << "trousers with one leg lifted have a waist only";
+    Opening front = opening_at(0.25, 0);
+    front.low.y() = 0;
+    front.high.y() = 0.5;
+    EXPECT_TRUE(has_arms(posed({ front }, 0.45))) << "an open front is neck and hem";
+    const Vec3 across = cues_of(posed(k_tube, 0.45)).across.normalized();
+    EXPECT_GT(std::abs(across.x()), 0.99) << "from shoulder to shoulder, wherever the hands are";
 }
 
 }  // namespace
