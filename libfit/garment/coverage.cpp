@@ -59,11 +59,12 @@ double name_probability(double confidence)
         / (1 + std::exp(-(garment_tuning::k_name_log_odds + garment_tuning::k_name_confidence_log_odds * confidence)));
 }
 
-// The sleeves are those of the openings.
+// The sleeves are those of the openings; and so are bare shoulders, but in tops: ponchos have no openings for arms.
 Coverage coverage_of(CoverageKind kind, const std::vector<Opening>& openings)
 {
     Coverage coverage { kind, GarmentType::automatic, {}, false, name_probability(0) };
-    for (const Bone bone : bones_covered_by(GarmentType::suit, openings))
+    const GarmentType whole = kind == CoverageKind::top ? GarmentType::suit : GarmentType::jumpsuit;
+    for (const Bone bone : bones_covered_by(whole, openings))
         if (covers(kind, bone))
             coverage.bones.push_back(bone);
     coverage.type = name_coverage(kind, coverage.bones, openings);

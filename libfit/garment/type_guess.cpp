@@ -482,6 +482,12 @@ std::vector<Bone> bones_covered_by(GarmentType type)
     return {};
 }
 
+// A top and a hem, or legs, and nothing else: no opening for an arm, and no strap.
+bool is_strapless(const Piece& piece)
+{
+    return piece.sleeves.empty() && piece.others.size() == (piece.legs.empty() ? 2 : 1);
+}
+
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings)
 {
     std::vector<Bone> bones = bones_covered_by(type);
@@ -489,13 +495,16 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
     if (openings.empty())
         return bones;
     Sleeves longest = Sleeves::none;
-    bool are_short = false;
+    bool are_short = false, are_strapless = type == GarmentType::dress || type == GarmentType::jumpsuit;
     for (const Piece& piece : pieces_of(openings)) {
+        are_strapless &= is_strapless(piece);
         longest = std::max(longest, sleeves_of(piece));
         are_short |= !piece.sleeves.empty() && length_in_girths(piece.sleeves) < k_short_sleeve;
     }
     const auto is_uncovered = [&](Bone b) {
         const bool upper = b == lhumerus || b == rhumerus, fore = b == lradius || b == rradius;
+        if (are_strapless && (b == lclavicle || b == rclavicle))
+            return true;
         return any_sleeves ? (upper && longest == Sleeves::none) || (fore && longest != Sleeves::whole_arm)
                            : fore && are_short && longest != Sleeves::whole_arm;
     };

@@ -17,7 +17,8 @@ TypeGuess guess_type(const std::vector<Opening>& openings);
 double uprightness(const std::vector<Opening>& openings);
 
 /// The bones that a garment covers. Where the type does not determine the sleeves, the openings do; sleeves that are
-/// clearly short leave the forearms bare, whatever the type.
+/// clearly short leave the forearms bare, whatever the type. Dresses and jumpsuits without openings for arms have no
+/// straps, and leave the shoulders bare.
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
 
 /// Evidence of the openings on how the garment is worn.

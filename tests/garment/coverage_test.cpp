@@ -185,4 +185,24 @@ TEST(Coverage, SleevesOfAPosedWearerAreSleeves)
     EXPECT_GT(std::abs(across.x()), 0.99) << "from shoulder to shoulder, wherever the hands are";
 }
 
+TEST(Coverage, DressesWithoutOpeningsForArmsLeaveTheShouldersBare)
+{
+    const auto covers_shoulders = [](GarmentType given, const std::vector<Opening>& openings, CoverageKind kind) {
+        for (const Coverage& coverage : possible_coverages(given, openings))
+            if (coverage.kind == kind)
+                return std::count(coverage.bones.begin(), coverage.bones.end(), lclavicle) > 0;
+        ADD_FAILURE() << "no such coverage";
+        return false;
+    };
+    std::vector<Opening> with_arms = k_tube;
+    with_arms.push_back(cuff_at(-0.5, 0.45));
+    with_arms.push_back(cuff_at(0.5, 0.45));
+    for (const GarmentType given : { GarmentType::dress, GarmentType::automatic }) {
+        EXPECT_FALSE(covers_shoulders(given, k_tube, CoverageKind::dress));
+        EXPECT_TRUE(covers_shoulders(given, with_arms, CoverageKind::dress));
+    }
+    EXPECT_FALSE(covers_shoulders(GarmentType::automatic, k_tube, CoverageKind::jumpsuit));
+    EXPECT_TRUE(covers_shoulders(GarmentType::automatic, k_tube, CoverageKind::top)) << "a poncho";
+}
+
 }  // namespace
