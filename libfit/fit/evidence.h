@@ -51,6 +51,10 @@ enum Evidence {
     skirt_arms_evidence,
     dress_arms_evidence,
     jumpsuit_arms_evidence,
+    legs_taper_evidence,  ///< how much wider the top opening is than the cloth below it (taper_of)
+    skirt_taper_evidence,
+    dress_taper_evidence,
+    jumpsuit_taper_evidence,
     type_evidence,  ///< 1 where it is that of the type guessed by the openings; tops, too
     // The facing
     input_front_evidence,  ///< cosine of the held garment's front to that of the input body: most share a frame
@@ -62,6 +66,7 @@ enum Evidence {
     cuffs_evidence,
     seat_evidence,  ///< of trousers and skirts
     lap_evidence,  ///< of trousers
+    rise_evidence,  ///< of trousers and skirts
     bow_evidence,  ///< of tops
     bare_evidence,  ///< of tops, dresses and jumpsuits
     near_input_evidence,  ///< 1 where the covered joints lie where a place of the input body has them, 0 a tenth of a leg
@@ -72,9 +77,17 @@ enum Evidence {
     evidence_count
 };
 /// Evidence that tells the facings of one coverage apart, and nothing else (log_odds).
-inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, seat_evidence,
-                                               lap_evidence,   bow_evidence,   bare_evidence };
+inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, seat_evidence, lap_evidence,
+                                               rise_evidence,  bow_evidence,   bare_evidence };
 using WearEvidence = std::array<double, evidence_count>;
+/// Logarithm of the girth of the highest wide opening over that of the cloth a quarter of a leg below it, in tenths,
+/// at most k_max_taper either way: a waist is narrower than hips, the rim of a strapless dress no narrower than a
+/// waist. Girths are of convex hulls, because of folds and uneven rims. 0 where there are sleeves or armholes: necks
+/// are narrow.
+/// @param leg  m
+double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings, const GarmentCues& cues,
+                double leg);
+
 /// "energy", "clearance", ... in the order of Evidence.
 const std::array<std::string_view, evidence_count>& evidence_names();
 

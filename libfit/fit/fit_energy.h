@@ -74,8 +74,8 @@ public:
     /// Of the cloth from the nearest covered limb, m; larger distances than the cutoff count as that.
     double mean_coverage_distance(const Posture& posture) const;
 
-    /// The value of a metre of height of the root, m/m: positive for garments that hang from the shoulders, negative for
-    /// those that are pulled up. A strapless bodice does neither: it sits where it is as wide as the chest.
+    /// The value of a metre of height of the root, m/m: positive for garments that hang from the shoulders, negative
+    /// for those that are pulled up. A strapless bodice does neither: it sits where it is as wide as the chest.
     double hang_slope() const
     {
         return hangs_from_shoulders_ ? weights_.hang : metric_.covers(thorax) ? 0 : -weights_.hang;

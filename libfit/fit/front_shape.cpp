@@ -70,15 +70,6 @@ Vec3 mean_of(const std::vector<Vec3>& points)
     return sum / double(points.size());
 }
 
-const Opening* highest(const std::vector<Opening>& openings, double width)
-{
-    const Opening* top = nullptr;
-    for (const Opening& opening : openings)
-        if (opening.girth > k_wide_rim * width && (!top || opening.centre.y() > top->centre.y()))
-            top = &opening;
-    return top;
-}
-
 std::vector<Vec3> low_centres(const std::vector<Opening>& openings, double middle_height)
 {
     std::vector<Vec3> centres;
@@ -149,6 +140,21 @@ double bow_of(const std::vector<std::vector<Point>>& slices)
         * (middle_of(slices[0]) + middle_of(slices[last]) - middle_of(slices[half - 1]) - middle_of(slices[half]));
 }
 
+// Of the rear quarter of an opening's rim above its front quarter, m.
+double rise_of(const Opening& opening, const Vec3& front)
+{
+    const Eigen::VectorXd forwards = opening.rim * front;
+    const double quarter = 0.25 * (forwards.maxCoeff() - forwards.minCoeff());
+    std::vector<double> behind, before;
+    for (int i = 0; i < forwards.size(); ++i) {
+        if (forwards[i] <= forwards.minCoeff() + quarter)
+            behind.push_back(opening.rim(i, 1));
+        if (forwards[i] >= forwards.maxCoeff() - quarter)
+            before.push_back(opening.rim(i, 1));
+    }
+    return quantile(behind, 0.5) - quantile(before, 0.5);
+}
+
 // Cloth behind less cloth in front of the middle of its slice, as a share of all of it, about the plane of symmetry.
 double bare_of(const std::vector<std::vector<Point>>& slices, double width)
 {
@@ -175,6 +181,15 @@ std::vector<std::vector<Point>> slices_of(const std::vector<Point>& points, doub
 }
 
 }  // namespace
+
+const Opening* highest_opening(const std::vector<Opening>& openings, double least_girth)
+{
+    const Opening* top = nullptr;
+    for (const Opening& opening : openings)
+        if (opening.girth > least_girth && (!top || opening.centre.y() > top->centre.y()))
+            top = &opening;
+    return top;
+}
 
 FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings,
                        const GarmentCues& cues, const Vec3& front)
@@ -204,9 +219,10 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
     shape.bow = in_tenths(bow_of(slices));
     shape.bare = std::clamp(bare_of(slices_of(points, low, low + tall, k_bare_slices), width) / k_tenth, -k_max_bare,
                             k_max_bare);
-    const Opening* neck = highest(openings, width);
+    const Opening* neck = highest_opening(openings, k_wide_rim * width);
     if (!neck)
         return shape;
+    shape.rise = in_tenths(rise_of(*neck, front));
     const std::vector<Vec3> hems = low_centres(openings, low + 0.5 * tall);
     if (!hems.empty())
         shape.hems = in_tenths(front.dot(mean_of(hems) - neck->centre));

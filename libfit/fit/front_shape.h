@@ -19,10 +19,14 @@ struct FrontShape {
     double cuffs = 0;  ///< of the sleeves' ends against the highest opening: elbows bend forwards
     double seat = 0;  ///< of the middle between front and back, a third of a width below the top, against the top
     double lap = 0;  ///< breadth of the front half against the rear one, at the lap: thighs are in front of the seat
+    double rise = 0;  ///< of the highest opening behind against in front, upwards: waists are higher behind
     double bow = 0;  ///< of the top and the bottom against the heights between them: backs bend, shirts hang from them
     double bare
         = 0;  ///< tenths of the cloth in the middle by which more is behind, at most 0.6: necklines are deep in front
 };
+
+/// Of those with more than this girth, m; null if there is none.
+const Opening* highest_opening(const std::vector<Opening>& openings, double least_girth);
 
 /// @param front  unit, horizontal. Cost O(n log n) of the cloth's patches.
 FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence.h"
 
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,8 @@ TEST(Evidence, EachKindHasItsName)
     EXPECT_EQ(evidence_names()[jumpsuit_evidence], "jumpsuit");
     EXPECT_EQ(evidence_names()[jumpsuit_divided_evidence], "jumpsuit_divided");
     EXPECT_EQ(evidence_names()[jumpsuit_arms_evidence], "jumpsuit_arms");
+    EXPECT_EQ(evidence_names()[jumpsuit_taper_evidence], "jumpsuit_taper");
+    EXPECT_EQ(evidence_names()[rise_evidence], "rise");
     EXPECT_EQ(evidence_names()[input_front_evidence], "input_front");
 }
 
@@ -53,6 +56,35 @@ TEST(Evidence, AClearShapeOutweighsTheFileItCameIn)
     opposite[openings_evidence] = 1;
     opposite[bare_evidence] = 1;
     EXPECT_GT(log_odds(opposite), log_odds(same));
+}
+
+// A tube 0.5 m high with its rim at 0; it is `factor` times as wide 21 cm below the rim as there.
+TEST(Evidence, AWaistIsNarrowerThanTheClothBelow)
+{
+    constexpr double leg = 0.85;
+    const auto taper = [](double factor, bool has_arms) {
+        std::vector<ClothPatch> cloth;
+        Opening waist, hem;
+        waist.rim.resize(50, 3);
+        for (int i = 0; i < 50; ++i) {
+            const double angle = i * 2 * M_PI / 50;
+            waist.rim.row(i) << 0.1 * std::sin(angle), 0, 0.1 * std::cos(angle);
+            for (double depth = 0; depth < 0.5; depth += 0.01) {
+                const double radius = 0.1 * (1 + (factor - 1) * depth / (0.25 * leg));
+                const Vec3 centre(radius * std::sin(angle), -depth, radius * std::cos(angle));
+                cloth.push_back({ centre.cast<float>(), Eigen::Vector3f::UnitX() });
+            }
+        }
+        waist.girth = 0.63;
+        hem.girth = 3;
+        hem.centre.y() = -0.5;
+        GarmentCues cues;
+        cues.has_arms = has_arms;
+        return taper_of(cloth, { hem, waist }, cues, leg);
+    };
+    EXPECT_NEAR(taper(1.3, false), -10 * std::log(1.3), 0.3);
+    EXPECT_NEAR(taper(0.9, false), -10 * std::log(0.9), 0.3);
+    EXPECT_EQ(taper(1.3, true), 0) << "necks are narrow";
 }
 
 }  // namespace

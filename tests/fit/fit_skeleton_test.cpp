@@ -533,6 +533,17 @@ TEST(FitSkeleton, ASkirtsWaistIsUp)
     EXPECT_LT(angle(fit_skeleton(rig, rotate(garment, over)).up, -Vec3::UnitY()), 1);
 }
 
+TEST(FitSkeleton, TheGirthAtTheTopTellsSkirtsFromStraplessDresses)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    for (const double length : { 0.8, 0.9 }) {
+        EXPECT_EQ(fit_skeleton(rig, skirt(0.13, 0.2, 0.26, length)).type, GarmentType::skirt) << length;
+        const FitResult dress = fit_skeleton(rig, skirt(0.19, 0.18, 0.26, length));
+        EXPECT_EQ(dress.type, GarmentType::dress) << length;
+        EXPECT_EQ(std::count(dress.covered.begin(), dress.covered.end(), lclavicle), 0) << "no strap holds it";
+    }
+}
+
 TEST(FitSkeleton, WithoutClothBetweenTheLegsALongDressIsNoJumpsuit)
 {
     const Rig rig = rig_of({ .arm_angle = 45 });

@@ -63,4 +63,18 @@ TEST(FrontShape, ThighsMakeTheLapBroaderThanTheBack)
     EXPECT_LT(shape_of(trousers, -Vec3::UnitZ()).lap, -0.5);
 }
 
+TEST(FrontShape, AWaistIsHigherBehind)
+{
+    Opening waist;
+    waist.girth = 1;
+    waist.rim.resize(64, 3);
+    for (int i = 0; i < 64; ++i) {
+        const double angle = i * M_PI / 32;
+        waist.rim.row(i) << 0.2 * std::sin(angle), -0.02 * std::cos(angle), 0.13 * std::cos(angle);
+    }
+    const auto trousers = tube([](double) { return 0.0; });
+    EXPECT_NEAR(front_shape(trousers, { waist }, {}, Vec3::UnitZ()).rise, 1, 0.2) << "4 cm on a width of 40 cm";
+    EXPECT_NEAR(front_shape(trousers, { waist }, {}, -Vec3::UnitZ()).rise, -1, 0.2);
+}
+
 }  // namespace
