@@ -192,7 +192,7 @@ inline constexpr int k_wearings_of_a_facing = 3;  ///< where the best leads thro
 inline constexpr double k_max_inside_evidence = 0.2;  ///< share of vertices; likewise. guess
 /// share of the widest opening's girth; the hem of a circle skirt has seven times that of the waist. guess
 inline constexpr double k_wide_top = 0.1;
-inline constexpr double k_taper_depth = 0.25;  ///< legs below a rim: from a waist to the hips. guess
+inline constexpr double k_taper_depth = 0.25;  ///< legs below a rim: from a waist to the hips. guess, 29 seen files
 inline constexpr double k_taper_slice = 0.03;  ///< legs, half the height of the slice there. guess
 inline constexpr double k_max_taper = 4;  ///< tenths of a logarithm; more say no more. guess
 inline constexpr double k_max_opening_evidence = 2;  ///< dimensionless; likewise. guess

@@ -222,8 +222,8 @@ inline constexpr double k_leg_normal = -0.5, k_hem_between_legs = -0.8, k_waist_
 /// Distance between two short sleeves that hang, in widths of the widest other opening; long ones need 1, the derived
 /// limit: two draped sweaters have 1.44.
 inline constexpr double k_arms_beyond = 1.5;
-/// Distance between the shoulders' ends of two long sleeves that end anywhere, in girths of a sleeve: chests have one or
-/// more, the two tubes of a strap or of a hood less. A guess, chosen on two seen shirts with one arm bent.
+/// Distance between the shoulders' ends of two long sleeves that end anywhere, in girths of a sleeve: chests have one
+/// or more, the two tubes of a strap or of a hood less. A guess, chosen on two seen shirts with one arm bent.
 inline constexpr double k_shoulders_apart = 0.5;
 /// Girth of an arm's opening as a share of the widest other opening.
 inline constexpr double k_narrow = 0.9;
