@@ -209,7 +209,7 @@ const std::array<std::string_view, evidence_count>& evidence_names()
 double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings, const GarmentCues& cues,
                 double leg)
 {
-    if (cues.has_arms)
+    if (!cues.is_strapless)
         return 0;
     double widest = 0;
     for (const Opening& opening : openings)
@@ -226,7 +226,7 @@ double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>
             below.push_back(p);
     if (below.size() < k_min_slice)
         return 0;
-    return std::clamp(std::log(level_girth(rim) / level_girth(below)) / k_tenth, -k_max_taper, k_max_taper);
+    return std::clamp(std::log(level_girth(rim) / level_girth(below)) / k_tenth, -k_max_taper, k_max_widening);
 }
 
 std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,

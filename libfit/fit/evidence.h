@@ -81,9 +81,9 @@ inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, s
                                                rise_evidence,  bow_evidence,   bare_evidence };
 using WearEvidence = std::array<double, evidence_count>;
 /// Logarithm of the girth of the highest wide opening over that of the cloth a quarter of a leg below it, in tenths,
-/// at most k_max_taper either way: a waist is narrower than hips, the rim of a strapless dress no narrower than a
-/// waist. Girths are of convex hulls, because of folds and uneven rims. 0 where there are sleeves or armholes: necks
-/// are narrow.
+/// from -k_max_taper to k_max_widening: a waist is narrower than hips, the rim of a strapless dress no narrower than a
+/// waist. Girths are of convex hulls, because of folds and uneven rims. 0 where there are openings for arms, or
+/// any others: necks are narrow.
 /// @param leg  m
 double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings, const GarmentCues& cues,
                 double leg);

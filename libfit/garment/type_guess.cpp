@@ -339,6 +339,12 @@ double uprightness(const Piece& piece)
     return points_down && piece.height > depth_of(piece) ? 1 : 0;
 }
 
+/// A top and a hem, or legs, and nothing else: no opening for an arm, and no strap.
+bool is_strapless(const Piece& piece)
+{
+    return piece.sleeves.empty() && piece.others.size() == (piece.legs.empty() ? 2 : 1);
+}
+
 /// From one leg to the other, or from one sleeve to the other, level. Hands may be anywhere: between the shoulders, where
 /// the sleeves are long enough to tell them.
 Vec3 across_of(const Piece& piece)
@@ -482,12 +488,6 @@ std::vector<Bone> bones_covered_by(GarmentType type)
     return {};
 }
 
-// A top and a hem, or legs, and nothing else: no opening for an arm, and no strap.
-bool is_strapless(const Piece& piece)
-{
-    return piece.sleeves.empty() && piece.others.size() == (piece.legs.empty() ? 2 : 1);
-}
-
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings)
 {
     std::vector<Bone> bones = bones_covered_by(type);
@@ -546,8 +546,10 @@ GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Ve
     if (front)
         cues.front_given = Vec3(front->x(), 0, front->z()).normalized();
     double longest = 0, tallest = 0;
+    cues.is_strapless = !openings.empty();
     for (const Piece& piece : pieces_of(openings)) {
         cues.front += front_of(piece);
+        cues.is_strapless &= is_strapless(piece);
         cues.has_arms |= !piece.sleeves.empty();
         if (!piece.legs.empty())
             cues.hems = { piece.legs[0].centre, piece.legs[1].centre };

@@ -28,6 +28,7 @@ struct GarmentCues {
     std::optional<Vec3> front_given;  // horizontal: where the user says that the front is
     std::vector<Vec3> hems;  // centroids of the two leg openings, or empty
     bool has_arms = false;  // two openings are sleeves or armholes
+    bool is_strapless = false;  // each piece has a top and a hem, or legs, and no other opening
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
 };
 /// @param front  where the user says that the front of the held garment is: not vertical

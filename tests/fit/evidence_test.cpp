@@ -62,7 +62,7 @@ TEST(Evidence, AClearShapeOutweighsTheFileItCameIn)
 TEST(Evidence, AWaistIsNarrowerThanTheClothBelow)
 {
     constexpr double leg = 0.85;
-    const auto taper = [](double factor, bool has_arms) {
+    const auto taper = [](double factor, bool has_neck) {
         std::vector<ClothPatch> cloth;
         Opening waist, hem;
         waist.rim.resize(50, 3);
@@ -79,11 +79,12 @@ TEST(Evidence, AWaistIsNarrowerThanTheClothBelow)
         hem.girth = 3;
         hem.centre.y() = -0.5;
         GarmentCues cues;
-        cues.has_arms = has_arms;
+        cues.is_strapless = !has_neck;
         return taper_of(cloth, { hem, waist }, cues, leg);
     };
     EXPECT_NEAR(taper(1.3, false), -10 * std::log(1.3), 0.3);
-    EXPECT_NEAR(taper(0.9, false), -10 * std::log(0.9), 0.3);
+    EXPECT_NEAR(taper(0.95, false), -10 * std::log(0.95), 0.3);
+    EXPECT_NEAR(taper(0.7, false), 1, 1e-9) << "a flared hem held upwards is no bodice";
     EXPECT_EQ(taper(1.3, true), 0) << "necks are narrow";
 }
 
