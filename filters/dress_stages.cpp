@@ -223,38 +223,114 @@ std::vector<std::size_t> worn_from_inside_out(const Scene& scene, const Dressing
     return worn;
 }
 
-void recover(Scene& scene, const Parameters& p, const Progress& progress)
+/// All that is worn, in another pose.
+Dressing moved(const Scene& scene, const Dressing& dressing, const Pose& to, const RecoverOptions& options, Stage stage,
+               const Progress& progress)
 {
-    const std::vector<std::size_t> worn = worn_from_inside_out(scene, *scene.draped);
-    Dressing draped = select(*scene.draped, worn);
+    const std::vector<std::size_t> worn = worn_from_inside_out(scene, dressing);
+    Dressing from = select(dressing, worn);
     for (std::size_t k = 0; k < worn.size(); ++k)
-        draped.garments[k].fabric = scene.garments[worn[k]].fabric;
-    Dressing recovered = move_to_pose(scene, draped, worn, Pose(), p.recover, Stage::recover, progress);
-    measure(scene, recovered, p.recover.cloth);
-    for (const std::size_t i : recovered.worn())
-        recovered.certified &= !is_drawn_out(recovered, i);
-    recovered.certified &= all_put_on(scene);
-    scene.recovered = among_all(recovered, worn, scene.garments.size());
-    write_given(scene, *scene.recovered, p.recover.cloth);
+        from.garments[k].fabric = scene.garments[worn[k]].fabric;
+    Dressing result = move_to_pose(scene, from, worn, to, options, stage, progress);
+    measure(scene, result, options.cloth);
+    for (const std::size_t i : result.worn())
+        result.certified &= !is_drawn_out(result, i);
+    result = among_all(result, worn, scene.garments.size());
+    write_given(scene, result, options.cloth);
+    return result;
 }
 
-/// Runs a stage with stand-ins in the places of garments that need one.
-/// @param output         where it puts its dressing
-/// @param is_on_the_way  where it ends well, another stage goes on from there
-void run_with_stand_ins(RunStage& run, Stage stage, bool is_on_the_way, std::optional<Dressing> Scene::*output,
-                        Scene& scene, const Parameters& p, const ClothOptions& cloth, const Progress& progress)
+void recover(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    scene.recovered = moved(scene, *scene.draped, Pose(), p.recover, Stage::recover, progress);
+    scene.recovered->certified &= all_put_on(scene);
+}
+
+/// A stage that dresses, whose dressing may be that of stand-ins.
+struct DressingStage {
+    RunStage* run;
+    Stage stage;
+    std::optional<Dressing> Scene::*output;
+    bool is_on_the_way;  ///< where it ends well, another stage goes on from there
+};
+
+/// Whether nothing crosses at the end of the way. Parts of the body that rough cloth holds back may go on in finer cloth.
+bool has_arrived(const Dressing& dressing)
+{
+    return all_clean(dressing.garments) && dressing.scale_reached == 1 && dressing.pose_reached == 1
+        && !dressing.out_of_time;
+}
+
+/// From where garments followed rough stand-ins, to a rest of their own. As they followed, where that is not clean.
+void find_own_rest(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress)
+{
+    Dressing& led = *(scene.*stage.output);
+    RecoverOptions options = p.recover;
+    options.settling_steps = k_own_settling_steps;
+    options.frames = 0;
+    if (stage.stage == Stage::drape) {
+        options.quality = Quality::draft;
+        options.cloth = p.drape.cloth;
+        options.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // as the body grew, it was judged
+    }
+    Dressing own = moved(scene, led, led.pose, options, stage.stage, progress);
+    if (outcome_of(own) == Outcome::not_certified)
+        return;
+    for (WornGarment& garment : own.garments)
+        garment.stand_in.reset();
+    own.frames = std::move(led.frames);
+    own.frames_asked = led.frames_asked;
+    if (!own.frames.empty())
+        for (const std::size_t i : own.worn())
+            own.frames.back().garments[i] = own.garments[i].positions;
+    led = std::move(own);
+}
+
+/// What comes of it is judged once the garments have found a rest of their own.
+Parameters for_rough_cloth(Parameters p)
+{
+    p.recover.quality = Quality::draft;
+    p.recover.cloth.largest_stretch = std::numeric_limits<double>::infinity();
+    return p;
+}
+
+void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress);
+
+/// Stand-ins that may be led by rough ones in turn.
+std::optional<Dressing> run_leaders(const DressingStage& stage, const Scene& led, const Parameters& p,
+                                    const Progress& progress)
+{
+    DressingStage whole = stage;
+    whole.is_on_the_way = false;
+    Scene leaders = with_stand_ins_to_be_found(led);
+    run_with_stand_ins(whole, leaders, p, progress);
+    Scene as_they_are = leaders;
+    if (!progress.is_late() && give_up_stand_ins(as_they_are))
+        run_with_stand_ins(whole, leaders = std::move(as_they_are), p, progress.part(1, 1));
+    return std::move(leaders.*stage.output);
+}
+
+/// Runs a stage with stand-ins in the places of garments that need one, or are dressed faster with one.
+void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress)
 {
     if (!find_stand_ins(scene))
-        return run(scene, p, progress);
+        return stage.run(scene, p, progress);
     Scene led = lead(scene);
-    run(led, p, progress);
-    const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*output));
-    const bool led_well = (led.*output)->certified;
-    Dressing dressing
-        = follow_stand_ins({ scene, led, order, is_on_the_way && led_well }, *std::move(led.*output), cloth, progress);
+    const bool is_rough = is_led_roughly(scene);
+    if (is_rough)
+        stage.run(led, for_rough_cloth(p), progress.part(0, k_progress_of_leading));
+    else
+        led.*stage.output = run_leaders(stage, led, p, progress);
+    const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*stage.output));
+    const bool led_well = (led.*stage.output)->certified;
+    const ClothOptions& cloth = stage.stage == Stage::drape ? p.drape.cloth : p.recover.cloth;
+    Dressing dressing = follow_stand_ins({ scene, led, order, stage.is_on_the_way && led_well },
+                                         *std::move(led.*stage.output), cloth, progress);
     if (led_well && !dressing.certified && progress.is_late())
-        dressing.out_of_time = stage;
-    scene.*output = std::move(dressing);
+        dressing.out_of_time = stage.stage;
+    scene.*stage.output = std::move(dressing);
+    if (is_rough && !stage.is_on_the_way && has_arrived(*(scene.*stage.output)))
+        find_own_rest(stage, scene, p, progress.part(k_progress_of_leading, 1));
 }
 
 }  // namespace
@@ -282,17 +358,17 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
 
 void drape_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(drape_all, Stage::drape, false, &Scene::draped, scene, p, p.drape.cloth, progress);
+    run_with_stand_ins({ drape_all, Stage::drape, &Scene::draped, false }, scene, p, progress);
 }
 
 void drape_on_the_way_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(drape_all, Stage::drape, true, &Scene::draped, scene, p, p.drape.cloth, progress);
+    run_with_stand_ins({ drape_all, Stage::drape, &Scene::draped, true }, scene, p, progress);
 }
 
 void recover_stage(Scene& scene, const Parameters& p, const Progress& progress)
 {
-    run_with_stand_ins(recover, Stage::recover, false, &Scene::recovered, scene, p, p.recover.cloth, progress);
+    run_with_stand_ins({ recover, Stage::recover, &Scene::recovered, false }, scene, p, progress);
 }
 
 }  // namespace garmentfit

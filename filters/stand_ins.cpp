@@ -136,12 +136,17 @@ bool is_surely_clean(WornGarment worn, const Dressing& end, const Triangles& bod
     return certify_all(alone, { end.body, body });
 }
 
-/// Whether what follows its stand-in is not clean, or far more strained than that.
-bool follows_badly(const Dressing& end, std::size_t garment, const Triangles& body)
+/// Whether what follows its stand-in is not clean, or far more strained than that, or found no rest of its own where it
+/// should.
+bool follows_badly(const Dressing& end, std::size_t garment, bool is_rough, const Triangles& body)
 {
-    if (!end.is_worn(garment) || !end.certified)
+    if (!end.is_worn(garment))
         return true;
     const WornGarment& worn = end.garments[garment];
+    if (is_rough)
+        return worn.stand_in.has_value();
+    if (!end.certified)
+        return true;
     if (!worn.stand_in)
         return false;
     const double led = strain_of(worn.stand_in->rest, worn.stand_in->positions).p95;
@@ -153,15 +158,20 @@ bool follows_badly(const Dressing& end, std::size_t garment, const Triangles& bo
 bool give_up_stand_ins(Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
-    if (!end || outcome_of(*end) == Outcome::too_small)
+    if (!end)
         return false;
+    const bool is_too_small = outcome_of(*end) == Outcome::too_small;
     bool any = false;
-    for (std::size_t i = 0; i < scene.garments.size(); ++i)
-        if (has_stand_in(scene.garments[i]) && !(*scene.garments[i].stand_in)->is_needed
-            && follows_badly(*end, i, scene.body->surface.triangles)) {
-            scene.garments[i].stand_in = std::optional<StandIn>();
-            any = true;
-        }
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+        if (!has_stand_in(scene.garments[i]))
+            continue;
+        const StandIn& stand_in = **scene.garments[i].stand_in;
+        if (stand_in.is_needed || (is_too_small && !stand_in.is_rough)
+            || !follows_badly(*end, i, stand_in.is_rough, scene.body->surface.triangles))
+            continue;
+        scene.garments[i].stand_in = std::optional<StandIn>();
+        any = true;
+    }
     return any;
 }
 
@@ -187,6 +197,21 @@ bool find_stand_ins(Scene& scene)
     return std::any_of(scene.garments.begin(), scene.garments.end(), has_stand_in);
 }
 
+bool is_led_roughly(const Scene& scene)
+{
+    return std::none_of(scene.garments.begin(), scene.garments.end(), [](const GarmentInput& garment) {
+        return has_stand_in(garment) && !(*garment.stand_in)->is_rough;
+    });
+}
+
+Scene with_stand_ins_to_be_found(Scene led)
+{
+    for (GarmentInput& garment : led.garments)
+        if (has_stand_in(garment))
+            garment.stand_in.reset();
+    return led;
+}
+
 Scene lead(Scene scene)
 {
     for (std::size_t i = 0; i < scene.garments.size(); ++i) {
@@ -202,6 +227,9 @@ Scene lead(Scene scene)
             }
             worn.rest = std::move(stand_in->rest);
             worn.positions = std::move(stand_in->positions);
+            worn.stand_in.reset();
+            if (stand_in->is_clean)
+                worn.certificate = Certificate();
         }
         garment.mesh = (*garment.stand_in)->mesh;
     }

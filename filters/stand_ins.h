@@ -11,6 +11,12 @@ namespace garmentfit {
 /// Looks for the stand-ins of garments where nobody has. @return whether a garment has one
 bool find_stand_ins(Scene& scene);
 
+/// Whether all stand-ins are rough: the garments are to find a rest of their own after them.
+bool is_led_roughly(const Scene& scene);
+
+/// A scene of stand-ins, which may be led by coarser ones in turn.
+Scene with_stand_ins_to_be_found(Scene led);
+
 /// The scene with stand-ins in the places of their garments, also of those that are draped. A garment keeps its place,
 /// and has no stand-in there, where it is draped and its stand-in would cross the body.
 Scene lead(Scene scene);

@@ -109,6 +109,10 @@ inline constexpr double k_stretch_of_enlarged = 0.5;
 /// as it is. fitted: guess; fine clothes of web shops that follow well have .01 to .03, a jumpsuit that is a child's too
 /// long .25.
 inline constexpr double k_follower_strain = 0.1;
+/// Time steps that a garment hangs for where it followed a rough stand-in, before it seeks a rest of its own; and the share
+/// of the time that leading it takes, for the progress bar. fitted: guesses
+inline constexpr int k_own_settling_steps = 8;
+inline constexpr double k_progress_of_leading = 0.4;
 /// How usual the units are in mesh files, and by how much more the body's own.
 struct UsualUnit {
     std::string_view name;

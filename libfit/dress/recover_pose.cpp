@@ -342,8 +342,10 @@ RecoverResult recover_over(BridgeEnds ends, const Rig& rig, const BodyMesh& body
     recorder.record_start(departure.given.body.rows() > 0 ? departure.given.body
                                                           : skin(body.surface.positions, rig.weights,
                                                                  bone_transforms(rig.skeleton, departure.given.pose)));
-    const PathOutcome outcome
-        = follow_path(motion, path, weights, options, recorder, progress.part(0, k_progress_of_path));
+    const bool stays = is_same(start.pose, target) && options.frames == 0;
+    const PathOutcome outcome = stays
+        ? PathOutcome { 1, 1 }
+        : follow_path(motion, path, weights, options, recorder, progress.part(0, k_progress_of_path));
 
     RecoverResult result;
     if (outcome.ended_early()) {

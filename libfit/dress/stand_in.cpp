@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "crowding.h"
+#include "disjoint_sets.h"
 #include "embedded_motion.h"
 #include "exact_crossings.h"
 #include "given_crossings.h"
@@ -466,14 +467,25 @@ TriangleMesh welded(const GarmentMesh& garment)
 
 /// The same cloth with fewer vertices. None where it, or the coarser one, crosses itself: what follows would cross at new
 /// places.
-std::optional<GarmentMesh> coarser(const TriangleMesh& cloth)
+std::optional<GarmentMesh> coarser(const TriangleMesh& cloth, int vertices)
 {
     if (count_self_crossings(cloth) > 0)
         return {};
-    const std::optional<TriangleMesh> coarse = remeshed_cloth(cloth, k_coarse);
+    const std::optional<TriangleMesh> coarse = remeshed_cloth(cloth, vertices);
     if (!coarse || count_self_crossings(*coarse) > 0)
         return {};
     return GarmentMesh { coarse->positions, coarse->triangles };
+}
+
+/// Seams between pieces are told by distances that triangles of any size keep; larger ones might lose them.
+bool is_one_piece(const GarmentMesh& cloth)
+{
+    DisjointSets joined(int(cloth.positions.rows()));
+    Eigen::Index pieces = cloth.positions.rows();
+    for (const auto& corners : cloth.triangles.rowwise())
+        for (int k = 0; k < 2; ++k)
+            pieces -= joined.join(corners[k], corners[k + 1]);
+    return pieces == 1;
 }
 
 /// The sheet moved out to near the cloth: collars and cuffs would be as much tighter than they are. As it is where it
@@ -492,14 +504,15 @@ std::optional<StandIn> make_stand_in(const GarmentMesh& garment)
 {
     if (auto lining = lining_of(garment, crowding(garment) < k_crowded ? Lined::clothes_in_parts : Lined::all))
         return StandIn { widened(*std::move(lining)) };
-    if (garment.positions.rows() < k_fine)
+    if (garment.positions.rows() < k_led)
         return {};
     const TriangleMesh cloth = welded(garment);
-    if (cloth.positions.rows() < k_fine)
+    const bool is_fine = cloth.positions.rows() >= k_fine;
+    if (cloth.positions.rows() < k_led)
         return {};
-    if (auto coarse = coarser(cloth))
-        return StandIn { *std::move(coarse), false };
-    return make_lining(garment);
+    if (auto coarse = coarser(cloth, is_fine ? k_coarse : k_rough); coarse && (is_fine || is_one_piece(*coarse)))
+        return StandIn { *std::move(coarse), false, !is_fine };
+    return is_fine ? make_lining(garment) : std::nullopt;
 }
 
 std::optional<StandIn> make_lining(const GarmentMesh& garment)

@@ -144,15 +144,16 @@ TEST(StandIn, OfClothWithDetailsOfTinyEdgesIsOneSheetToo)
     EXPECT_LT(crowding(stand_in->mesh), 0.5);
 }
 
-/// A tube of cloth with many vertices, sewn along its side.
-TriangleMesh fine_tube()
+/// A tube of cloth with n times n vertices, sewn along its side.
+TriangleMesh sewn_tube(int n)
 {
-    constexpr int n = 150;
     TriangleMesh tube = strip(0.2, 0.6, 0, 2 * std::numbers::pi, n);
     for (int row = 0; row < n; ++row)
         tube.positions.row(row * n + n - 1) = tube.positions.row(row * n);
     return tube;
 }
+
+TriangleMesh fine_tube() { return sewn_tube(150); }
 
 TriangleMesh fine_tube_with_button()
 {
@@ -175,6 +176,25 @@ TEST(StandIn, OfFineClothIsTheSameSurfaceWithFewerVertices)
     EXPECT_EQ(MeshTopology(stand_in->mesh.triangles, int(stand_in->mesh.positions.rows())).border_loops().size(), 2u)
         << "those of the tube: the button has no shape in these triangles";
     EXPECT_FALSE(stand_in->is_needed);
+    EXPECT_FALSE(stand_in->is_rough);
+}
+
+TEST(StandIn, OfClothOfSomeThousandVerticesIsRough)
+{
+    const TriangleMesh tube = sewn_tube(80);
+    const auto stand_in = make_stand_in(make_garment(tube.positions, tube.triangles));
+    ASSERT_TRUE(stand_in);
+    EXPECT_LT(stand_in->mesh.positions.rows(), 3000);
+    EXPECT_TRUE(stand_in->is_rough);
+    EXPECT_FALSE(stand_in->is_needed);
+}
+
+TEST(StandIn, IsNotRoughWherePiecesMightComeApart)
+{
+    TriangleMesh lower = sewn_tube(80), upper = lower;
+    upper.positions.col(1).array() += 0.601;
+    const TriangleMesh both = joined(lower, upper);
+    EXPECT_FALSE(make_stand_in(make_garment(both.positions, both.triangles)));
 }
 
 TEST(StandIn, TakesFineClothAlongWithoutStrain)

@@ -88,6 +88,47 @@ TEST(StandIns, DressABodyInPanelsThatAreClosedSlabs)
     expect_worn(*scene.recovered, scene.garments[0].mesh);
 }
 
+/// A sample shirt of 8,219 vertices, and a body.
+Scene scene_of_shirt()
+{
+    const MeshFile body = MeshFile::read(GARMENTFIT_SAMPLES "/walking_woman.ply"),
+                   shirt = MeshFile::read(GARMENTFIT_SAMPLES "/shirt.ply");
+    Scene scene;
+    scene.body = make_body(body.positions(), body.triangles());
+    scene.garments = { { make_garment(shirt.positions(), shirt.triangles()), GarmentType::automatic, "shirt.ply" } };
+    return scene;
+}
+
+TEST(StandIns, ThatAreRoughLeadNearARestOfTheGarmentsOwn)
+{
+    Scene scene = scene_of_shirt();
+    Parameters parameters;
+    parameters.recover.frames = 2;
+    filter_of("dress").run(scene, parameters);
+    ASSERT_TRUE(scene.recovered);
+    const Dressing& end = *scene.recovered;
+    ASSERT_TRUE(end.certified) << explain(end, { "shirt.ply" });
+    ASSERT_TRUE(scene.garments[0].stand_in.value()) << "it was led";
+    EXPECT_TRUE(scene.garments[0].stand_in.value()->is_rough);
+    EXPECT_FALSE(end.garments[0].stand_in) << "and went on as it is";
+    EXPECT_EQ(end.garments[0].positions.rows(), scene.garments[0].mesh.positions.rows());
+    ASSERT_TRUE(end.residual);
+    EXPECT_TRUE(end.residual->is_at_rest());
+    ASSERT_FALSE(end.frames.empty());
+    EXPECT_EQ(end.frames.back().garments[0], end.garments[0].positions);
+}
+
+TEST(StandIns, ThatAreRoughAreFollowedByDrapingAlone)
+{
+    Scene scene = scene_of_shirt();
+    for (const char* filter : { "rig", "fit", "drape" })
+        filter_of(filter).run(scene, Parameters());
+    ASSERT_TRUE(scene.draped->certified) << explain(*scene.draped, { "shirt.ply" });
+    ASSERT_TRUE(scene.garments[0].stand_in.value());
+    EXPECT_FALSE(scene.draped->garments[0].stand_in);
+    EXPECT_LT(scene.draped->garments[0].certificate.strain.median, 0.02);
+}
+
 TEST(StandIns, AreNotLookedForWhereAGarmentIsOneLayer)
 {
     const MeshFile file = MeshFile::read(GARMENTFIT_SAMPLES "/tshirt.ply");
@@ -138,6 +179,22 @@ TEST(StandIns, AreGivenUpWhereTheyAreNotNeededAndFollowedBadly)
     Scene too_small = crossing;
     too_small.recovered->scale_reached = 0.9;
     EXPECT_FALSE(gives_up(too_small)) << "it is so in any triangles";
+}
+
+TEST(StandIns, ThatAreRoughAreGivenUpWhereNoRestIsFoundAfterThem)
+{
+    const Positions place = scene_that_followed(false, Positions::Zero(4, 3)).garments[0].mesh.positions;
+    Scene scene = scene_that_followed(false, place);
+    scene.garments[0].stand_in.value()->is_rough = true;
+    Scene as_followed = scene;
+    EXPECT_TRUE(give_up_stand_ins(as_followed));
+    scene.recovered->garments[0].stand_in.reset();
+    EXPECT_FALSE(give_up_stand_ins(scene)) << "it found one";
+    scene.recovered->certified = false;
+    scene.recovered->scale_reached = 0.9;
+    EXPECT_FALSE(give_up_stand_ins(scene)) << "too small in its own triangles";
+    scene.recovered->garments[0] = as_followed.recovered->garments[0];
+    EXPECT_TRUE(give_up_stand_ins(scene)) << "what is too small in rough triangles may fit in its own";
 }
 
 // Apart by less than the digits of a file of single precision.

@@ -24,13 +24,15 @@ namespace garmentfit {
 struct StandIn {
     GarmentMesh mesh;
     bool is_needed = true;  ///< else the garment may move as it is, which takes longer
+    bool is_rough = false;  ///< a garment that followed it is near a rest of its own, and is to find that
 };
 
 /// A stand-in, for clothes that cannot be read as one layer of cloth: panels that are closed slabs, sheets that lie on
 /// each other, cloth full of borders (docs/decisions/0032-wrapped-garments.md); for clothes with details whose edges
 /// are far shorter than those of the cloth, cords, zips and stitches, where contact has hundreds of pairs for a vertex
 /// (docs/decisions/0033-stand-ins.md); and, not needed, for cloth of 20,000 vertices and more: the same in larger
-/// triangles where it is a manifold and does not cross itself, else the inner sheet of a wrap. None for all others.
+/// triangles where it is a manifold and does not cross itself, else the inner sheet of a wrap. For such a manifold of
+/// 5,000 vertices and more, in one piece, the same in so few triangles that it is rough. None for all others.
 /// Cost: 4 to 8 s where there is a wrap, whatever the size of the garment; else O(n log n).
 /// @param garment  on a body of human size
 GARMENTFIT_API std::optional<StandIn> make_stand_in(const GarmentMesh& garment);
