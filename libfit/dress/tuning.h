@@ -171,9 +171,9 @@ inline constexpr double k_own_reach = 1.1, k_same_surface = 0.1;
 /// Vertices from which on cloth without crossings follows a coarser copy of itself, and about how many that has; it gets
 /// a quarter more. fitted: by time: a coat of 46,000 takes 134 s as it is, 26, 24 and 16 s with 8,000, 5,500 and 3,500
 inline constexpr int k_fine = 20000, k_coarse = 8000;
-/// The same for cloth that then finds a rest of its own; what has fewer is not put on faster so. fitted: guesses, on six
-/// pairs of the house data: in draft quality the three of 8,200 to 15,600 vertices take two thirds of the processor time,
-/// in standard quality .65 to .9 of it, the two of 4,200 and 4,600 no less
+/// The same for cloth that then finds a rest of its own; what has fewer is not put on faster so. fitted: guesses: in
+/// standard quality four garments of the house data, 8,200 to 15,600 vertices, on three bodies take .79 of the processor
+/// time, in draft quality two thirds; two of 4,200 and 4,600 vertices no less
 inline constexpr int k_led = 5000, k_rough = 2000;
 /// An edge of the garment is torn where it goes with its stand-in to this many times its length and this much more, m;
 /// what lies between torn edges is no island from this share of its piece's largest part on. fitted: guess, on a chef's
