@@ -116,9 +116,16 @@ function judge(result) {
 
 const profile = fs.mkdtempSync(path.join(os.tmpdir(), "outfit-"));
 let browser, timer;
+function remove_profile() {
+    try {
+        fs.rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+    } catch (error) {
+        console.error(`${profile} is left: ${error.message}`);  // says nothing of the outfit
+    }
+}
 function end() {
     clearTimeout(timer);
-    browser.kill("SIGKILL");
+    if (browser.pid) process.kill(-browser.pid, "SIGKILL");  // its children, too, which write to the profile
     server.closeAllConnections();
     server.close();
 }
@@ -143,8 +150,8 @@ const server = http.createServer((request, response) => {
 server.listen(0, "127.0.0.1", () => {
     const flags = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                    "--no-first-run", `--user-data-dir=${profile}`];
-    browser = spawn(chromium, [...flags, `http://127.0.0.1:${server.address().port}/`], { stdio: "ignore" });
-    browser.on("exit", () => fs.rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 }));
+    browser = spawn(chromium, [...flags, `http://127.0.0.1:${server.address().port}/`], { stdio: "ignore", detached: true });
+    browser.on("exit", remove_profile);
     browser.on("error", (error) => { fail(error.message); end(); });
     timer = setTimeout(() => { fail(`Chromium said nothing for ${k_seconds} s`); end(); }, 1000 * k_seconds);
 });
