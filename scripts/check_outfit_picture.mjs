@@ -104,7 +104,8 @@ function judge(result) {
     if (result.error) return fail(result.error);
     if (picture) fs.writeFileSync(picture, Buffer.from(result.image.split(",")[1], "base64"));
     if (!result.arm) fail("no joint of a left upper arm was found");
-    for (const [pose, { covered, unlike, dark }] of Object.entries({ "at rest": result.at_rest, turned: result.turned })) {
+    for (const [pose, picture_of] of [["at rest", result.at_rest], ["turned", result.turned]]) {
+        const { covered, unlike, dark } = picture_of;
         if (covered < 2000) fail(`${pose}: only ${covered} pixels of 512 x 512 are covered`);
         if (unlike > k_most_unlike) fail(`${pose}: ${(100 * unlike).toFixed(2)} % of the silhouette differ`);
         if (dark > 0.9) fail(`${pose}: the picture is black`);
@@ -150,8 +151,9 @@ const server = http.createServer((request, response) => {
 server.listen(0, "127.0.0.1", () => {
     const flags = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                    "--no-first-run", `--user-data-dir=${profile}`];
-    browser = spawn(chromium, [...flags, `http://127.0.0.1:${server.address().port}/`], { stdio: "ignore", detached: true });
+    const address = `http://127.0.0.1:${server.address().port}/`;
+    browser = spawn(chromium, [...flags, address], { stdio: "ignore", detached: true });
     browser.on("exit", remove_profile);
-    browser.on("error", (error) => { fail(error.message); end(); });
+    browser.on("error", (error) => { fail(error.message); end(); remove_profile(); });
     timer = setTimeout(() => { fail(`Chromium said nothing for ${k_seconds} s`); end(); }, 1000 * k_seconds);
 });
