@@ -150,7 +150,7 @@ const server = http.createServer((request, response) => {
 });
 server.listen(0, "127.0.0.1", () => {
     const flags = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                   "--no-first-run", `--user-data-dir=${profile}`];
+                   "--no-first-run", "--disable-dev-shm-usage", `--user-data-dir=${profile}`];
     const address = `http://127.0.0.1:${server.address().port}/`;
     browser = spawn(chromium, [...flags, address], { stdio: "ignore", detached: true });
     browser.on("exit", remove_profile);
