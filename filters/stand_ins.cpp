@@ -189,19 +189,23 @@ bool find_linings(Scene& scene)
     return any;
 }
 
-bool find_stand_ins(Scene& scene)
-{
-    for (GarmentInput& garment : scene.garments)
-        if (!garment.stand_in)
-            garment.stand_in = make_stand_in(garment.mesh);
-    return std::any_of(scene.garments.begin(), scene.garments.end(), has_stand_in);
-}
-
 bool is_led_roughly(const Scene& scene)
 {
     return std::none_of(scene.garments.begin(), scene.garments.end(), [](const GarmentInput& garment) {
         return has_stand_in(garment) && !(*garment.stand_in)->is_rough;
     });
+}
+
+bool find_stand_ins(Scene& scene)
+{
+    for (GarmentInput& garment : scene.garments)
+        if (!garment.stand_in)
+            garment.stand_in = make_stand_in(garment.mesh);
+    if (!is_led_roughly(scene))
+        for (GarmentInput& garment : scene.garments)
+            if (has_stand_in(garment) && (*garment.stand_in)->is_rough)
+                garment.stand_in = std::optional<StandIn>();
+    return std::any_of(scene.garments.begin(), scene.garments.end(), has_stand_in);
 }
 
 Scene with_stand_ins_to_be_found(Scene led)

@@ -8,7 +8,8 @@
 
 namespace garmentfit {
 
-/// Looks for the stand-ins of garments where nobody has. @return whether a garment has one
+/// Looks for the stand-ins of garments where nobody has. Beside stand-ins that are not rough there are none that are: what
+/// follows the others has no rest of its own, so there is none for all to find. @return whether a garment has one
 bool find_stand_ins(Scene& scene);
 
 /// Whether all stand-ins are rough: the garments are to find a rest of their own after them.

@@ -197,6 +197,17 @@ TEST(StandIns, ThatAreRoughAreGivenUpWhereNoRestIsFoundAfterThem)
     EXPECT_TRUE(give_up_stand_ins(scene)) << "what is too small in rough triangles may fit in its own";
 }
 
+TEST(StandIns, AreNotRoughBesideOthers)
+{
+    Scene scene = scene_that_followed(true, Positions::Zero(4, 3));
+    scene.garments.push_back(scene.garments[0]);
+    scene.garments[1].stand_in.value()->is_needed = false;
+    scene.garments[1].stand_in.value()->is_rough = true;
+    ASSERT_TRUE(find_stand_ins(scene));
+    EXPECT_TRUE(scene.garments[0].stand_in.value());
+    EXPECT_FALSE(scene.garments[1].stand_in.value());
+}
+
 // Apart by less than the digits of a file of single precision.
 TEST(StandIns, AreGivenUpWhereAFileWouldHoldNewCrossings)
 {
