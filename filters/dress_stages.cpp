@@ -268,6 +268,7 @@ void find_own_rest(const DressingStage& stage, Scene& scene, const Parameters& p
     RecoverOptions options = p.recover;
     options.settling_steps = k_own_settling_steps;
     options.frames = 0;
+    options.only_rests = true;
     if (stage.stage == Stage::drape) {
         options.quality = Quality::draft;
         options.cloth = p.drape.cloth;

@@ -342,7 +342,7 @@ RecoverResult recover_over(BridgeEnds ends, const Rig& rig, const BodyMesh& body
     recorder.record_start(departure.given.body.rows() > 0 ? departure.given.body
                                                           : skin(body.surface.positions, rig.weights,
                                                                  bone_transforms(rig.skeleton, departure.given.pose)));
-    const bool stays = is_same(start.pose, target) && options.frames == 0;
+    const bool stays = options.only_rests && is_same(start.pose, target);
     const PathOutcome outcome = stays
         ? PathOutcome { 1, 1 }
         : follow_path(motion, path, weights, options, recorder, progress.part(0, k_progress_of_path));

@@ -32,6 +32,7 @@ struct RecoverOptions {
     /// States along the path to return, evenly spread, both ends included; 1: the end alone; 0: none. A frame is where
     /// a step ends, so there are at least frames - 1 steps.
     int frames = 0;
+    bool only_rests = false;  ///< a body that is in the target pose already makes no steps to it
 };
 
 /// A state along the path, in which nothing crosses either.
