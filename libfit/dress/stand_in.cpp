@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "crowding.h"
-#include "disjoint_sets.h"
 #include "embedded_motion.h"
 #include "exact_crossings.h"
+#include "garmentfit/pieces.h"
 #include "given_crossings.h"
 #include "nearest.h"
 #include "outward_cloth.h"
@@ -477,16 +477,8 @@ std::optional<GarmentMesh> coarser(const TriangleMesh& cloth, int vertices)
     return GarmentMesh { coarse->positions, coarse->triangles };
 }
 
-/// Seams between pieces are told by distances that triangles of any size keep; larger ones might lose them.
-bool is_one_piece(const GarmentMesh& cloth)
-{
-    DisjointSets joined(int(cloth.positions.rows()));
-    Eigen::Index pieces = cloth.positions.rows();
-    for (const auto& corners : cloth.triangles.rowwise())
-        for (int k = 0; k < 2; ++k)
-            pieces -= joined.join(corners[k], corners[k + 1]);
-    return pieces == 1;
-}
+/// Larger triangles might lose the seams between pieces.
+bool is_one_piece(const GarmentMesh& cloth) { return count_pieces_held(cloth).count == 1; }
 
 /// The sheet moved out to near the cloth: collars and cuffs would be as much tighter than they are. As it is where it
 /// would cross itself there.

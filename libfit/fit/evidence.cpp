@@ -145,8 +145,6 @@ double level_girth(const std::vector<Vec3>& points)
     return std::max(double(EIGEN_PI) * sum / directions, 1e-9);
 }
 
-double rim_height(const Opening& opening) { return opening.rim.col(1).mean(); }
-
 bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.front) > k_same_direction; }
 
 }  // namespace
@@ -220,7 +218,7 @@ double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>
     std::vector<Vec3> rim, below;
     for (int i = 0; i < top->rim.rows(); ++i)
         rim.push_back(top->rim.row(i).transpose());
-    const double height = rim_height(*top) - k_taper_depth * leg;
+    const double height = top->rim.col(1).mean() - k_taper_depth * leg;
     for (const ClothPatch& patch : cloth)
         if (const Vec3 p = patch.centre.cast<double>(); std::abs(p.y() - height) < k_taper_slice * leg)
             below.push_back(p);
