@@ -54,7 +54,8 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     // the size from the start is for Dress Body to say
     [[maybe_unused]] const auto [drape_cloth, growing, settling, size] = DrapeOptions();
     EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
-    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, frames]
+    // whether cloth only rests is for Dress Body to say
+    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, frames, rests]
         = RecoverOptions();
     EXPECT_EQ(count_of(RecoverOptions()), 8u + 6u);  // all of the cloth but how much larger it may be made
 }
