@@ -49,8 +49,7 @@ void SideBySide::spread(std::vector<char>& marks, int links) const
     }
 }
 
-Eigen::MatrixXd SideBySide::evened(const Eigen::MatrixXd& field, const std::vector<char>& marks,
-                                   const Eigen::VectorXd& hold) const
+Eigen::MatrixXd SideBySide::evened(const Eigen::MatrixXd& field, const std::vector<char>& marks, double hold) const
 {
     std::vector<int> index(marks.size(), -1), marked;
     for (int v = 0; v < int(marks.size()); ++v)
@@ -71,7 +70,7 @@ Eigen::MatrixXd SideBySide::evened(const Eigen::MatrixXd& field, const std::vect
             else
                 pull.row(i) += link.weight * field.row(link.to);
         }
-        const double own = hold[v] * std::max(sum, 1.0);  // also of a vertex without links
+        const double own = hold * std::max(sum, 1.0);  // also of a vertex without links
         pull.row(i) += own * field.row(v);
         entries.emplace_back(i, i, sum + own);
     }

@@ -26,10 +26,9 @@ public:
     /// Makes a field as even as it can be at marked vertices: there it is harmonic on the links, which count by 1 /
     /// length. All others keep their values. Cost: a sparse factor of the marked vertices.
     /// @param field  n x k
-    /// @param hold   n; how much a marked vertex's own value counts, in shares of all its links. Where no link leads from
-    ///               marked vertices to others, one of them has to be above 0
-    Eigen::MatrixXd evened(const Eigen::MatrixXd& field, const std::vector<char>& marks,
-                           const Eigen::VectorXd& hold) const;
+    /// @param hold   how much a marked vertex's own value counts, in shares of all its links. Has to be above 0 where no
+    ///               link leads from marked vertices to others
+    Eigen::MatrixXd evened(const Eigen::MatrixXd& field, const std::vector<char>& marks, double hold) const;
 
 private:
     struct Link {

@@ -16,6 +16,7 @@
 #include "parallel.h"
 #include "remeshed_cloth.h"
 #include "side_by_side.h"
+#include "spread_ways.h"
 #include "topology.h"
 #include "tuning.h"
 #include "untangle.h"
@@ -129,7 +130,6 @@ std::size_t mark_faults(const Parts& cloth, const Positions& positions, std::vec
 Positions moved_alike(const Parts& cloth, const Progress& progress)
 {
     const Eigen::MatrixXd led = affine_motions(cloth);
-    const Eigen::VectorXd hold = Eigen::VectorXd::Constant(led.rows(), k_evening_hold);
     Positions positions = cloth.led.positions;
     Best best { positions };
     std::vector<char> evened(led.rows(), 0);
@@ -141,7 +141,7 @@ Positions moved_alike(const Parts& cloth, const Progress& progress)
         cloth.beside.spread(marks, round * k_evening_links);
         for (std::size_t v = 0; v < marks.size(); ++v)
             evened[v] |= marks[v];
-        positions = moved_by(cloth.beside.evened(led, evened, hold), cloth.rest.positions);
+        positions = moved_by(cloth.beside.evened(led, evened, k_evening_hold), cloth.rest.positions);
     }
 }
 
@@ -253,10 +253,11 @@ Positions ways_out(const Parts& cloth, const Positions& positions, const std::ve
     return ways;
 }
 
-/// Pushes what meets something away from the body, and what lies beside it along with it: sheets keep their order. Where
+/// Pushes what meets something away from the body, and the space round it along with it: sheets keep their order. Where
 /// something goes on to meet, it is where the least does.
 Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress)
 {
+    const double reach = k_pushing_reach * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
     Best best { positions };
     std::vector<char> marks(positions.rows());
     for (int round = 0;; ++round) {
@@ -264,12 +265,7 @@ Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles&
                    obstacles.mark_meeting({ positions, cloth.rest.triangles }, cloth.topology.edges(), marks));
         if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes || !progress.goes_on(1))
             return best.positions;
-        const Positions ways = ways_out(cloth, positions, marks, obstacles, round);
-        const Eigen::VectorXd hold
-            = Eigen::Map<const Eigen::Vector<char, Eigen::Dynamic>>(marks.data(), Eigen::Index(marks.size()))
-                  .cast<double>();
-        cloth.beside.spread(marks, k_pushing_links);
-        positions += cloth.beside.evened(ways, marks, hold);
+        positions += spread_ways(positions, ways_out(cloth, positions, marks, obstacles, round), reach);
     }
 }
 

@@ -191,9 +191,14 @@ inline constexpr int k_most_links = 8;
 inline constexpr int k_evening_rounds = 6, k_futile_evenings = 3, k_evening_links = 3;
 inline constexpr double k_evening_hold = 1e-3;
 /// How often what meets the body is pushed out of it, at most, and in vain; how far round these places cloth goes along,
-/// in links; and how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
-inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8, k_pushing_links = 8;
-inline constexpr double k_pushing_step = 1e-3;
+/// in mean edges; and how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
+/// and, the reach, on four others
+inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8;
+inline constexpr double k_pushing_reach = 5, k_pushing_step = 1e-3;
+/// By how much ways grow less from place to place, on the mean, in shares of the distance; how many ways are blended.
+/// unit: below 1, sheets keep their order
+inline constexpr double k_steepest_way = 0.3;
+inline constexpr int k_most_ways = 64;
 /// Where edges are looked at, in shares of them, that may pass through the body between two vertices outside. fitted: guess
 inline constexpr std::array<double, 3> k_places_between { 0.25, 0.5, 0.75 };
 /// Crossings that such a garment is given with, up to which all are untangled; of more, a few fewer than given are left.

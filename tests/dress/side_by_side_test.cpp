@@ -49,7 +49,6 @@ TEST(SideBySide, EvensAFieldBetweenWhatIsNotMarked)
 {
     constexpr int n = 9, middle = n * n / 2;
     const Sheets sheets(n);
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * n * n);
     Eigen::MatrixXd along = sheets.mesh.positions.leftCols(1);
     std::vector<char> marks(2 * n * n, 0);
     marks[middle] = 1;
@@ -58,34 +57,15 @@ TEST(SideBySide, EvensAFieldBetweenWhatIsNotMarked)
     for (int v = 0; v < 2 * n * n; ++v)
         if (marks[v])
             noisy(v) += 0.01 * std::sin(7 * v);
-    const Eigen::MatrixXd evened = sheets.beside.evened(noisy, marks, none);
+    const Eigen::MatrixXd evened = sheets.beside.evened(noisy, marks, 0);
     EXPECT_LT((evened - along).cwiseAbs().maxCoeff(), 1e-12) << "what grows evenly is harmonic";
-}
-
-TEST(SideBySide, TakesTheSheetBesideAlong)
-{
-    constexpr int n = 21, middle = n * n / 2;
-    const Sheets sheets(n);
-    Eigen::MatrixXd push = Eigen::MatrixXd::Zero(2 * n * n, 1);
-    push(middle) = 1;
-    std::vector<char> marks(2 * n * n, 0);
-    marks[middle] = 1;
-    Eigen::VectorXd hold = Eigen::VectorXd::Zero(2 * n * n);
-    hold[middle] = 1;
-    sheets.beside.spread(marks, 8);
-    const Eigen::MatrixXd pushed = sheets.beside.evened(push, marks, hold);
-    EXPECT_GT(pushed(middle), 0.5);
-    EXPECT_GT(pushed(n * n + middle), 0.7 * pushed(middle)) << "of the other sheet, a millimetre away";
-    EXPECT_LT(pushed(middle + 4), 0.5 * pushed(middle)) << "of the same sheet, 16 mm away";
-    EXPECT_EQ(pushed(0), 0);
 }
 
 TEST(SideBySide, KeepsWhatAllIsMarkedOfByItsHold)
 {
     const Sheets sheets(5);
     const Eigen::MatrixXd field = Eigen::MatrixXd::Constant(50, 2, 3);
-    const Eigen::MatrixXd evened
-        = sheets.beside.evened(field, std::vector<char>(50, 1), Eigen::VectorXd::Constant(50, 1e-3));
+    const Eigen::MatrixXd evened = sheets.beside.evened(field, std::vector<char>(50, 1), 1e-3);
     EXPECT_LT((evened - field).cwiseAbs().maxCoeff(), 1e-9);
 }
 

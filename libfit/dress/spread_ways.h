@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Takes along what lies round places that have to move: as if it were in soft rubber, whatever part it belongs to.
+
+#include "garmentfit/types.h"
+
+namespace garmentfit {
+
+/// The ways of places, n x 3: nearly their own for those that have one, blended ones for those near them, fading with the
+/// distance. It is one smooth motion of the space that they are in, which grows by less from place to place than they are
+/// apart: sheets of cloth between which there is an order keep it, however near they are to each other and whatever
+/// triangles they are made of, as long as edges are short against `reach`.
+/// Cost O(n log n).
+/// @param places  n x 3, metres
+/// @param ways    n x 3, metres; 0 where something is only taken along
+/// @param reach   m, how far from a place its way is felt at least; further where ways are long
+Positions spread_ways(const Positions& places, const Positions& ways, double reach);
+
+}  // namespace garmentfit
