@@ -11,19 +11,15 @@
 
 namespace garmentfit {
 
-Positions spread_ways(const Positions& places, const Positions& ways, double reach)
+Positions spread_ways(const Positions& places, const Positions& ways, double radius)
 {
     std::vector<int> moved;
-    double longest = 0;
     for (int v = 0; v < int(places.rows()); ++v)
-        if (const double way = ways.row(v).norm(); way > 0) {
+        if (!ways.row(v).isZero(0))
             moved.push_back(v);
-            longest = std::max(longest, way);
-        }
     Positions spread = Positions::Zero(places.rows(), 3);
     if (moved.empty())
         return spread;
-    const double radius = std::max(reach, longest / k_steepest_way);
     const Positions from = places(moved, Eigen::all);
     const NearestPoint tree(from);
     parallel_for(places.rows(), [&](Eigen::Index v) {

@@ -8,13 +8,13 @@
 namespace garmentfit {
 
 /// The ways of places, n x 3: nearly their own for those that have one, blended ones for those near them, fading with the
-/// distance. It is one smooth motion of the space that they are in, which grows by less from place to place than they are
-/// apart: sheets of cloth between which there is an order keep it, however near they are to each other and whatever
-/// triangles they are made of, as long as edges are short against `reach`.
+/// distance. If `radius` is three times the longest way, it is a motion of space that grows by less from place to place
+/// than they are apart: sheets of cloth between which there is an order keep it, however near they are to each other and
+/// whatever triangles they are made of, as long as edges are short against `radius`.
 /// Cost O(n log n).
 /// @param places  n x 3, metres
 /// @param ways    n x 3, metres; 0 where something is only taken along
-/// @param reach   m, how far from a place its way is felt at least; further where ways are long
-Positions spread_ways(const Positions& places, const Positions& ways, double reach);
+/// @param radius  m, how far from a place its way is felt
+Positions spread_ways(const Positions& places, const Positions& ways, double radius);
 
 }  // namespace garmentfit

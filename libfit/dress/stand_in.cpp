@@ -254,10 +254,12 @@ Positions ways_out(const Parts& cloth, const Positions& positions, const std::ve
 }
 
 /// Pushes what meets something away from the body, and the space round it along with it: sheets keep their order. Where
-/// something goes on to meet, it is where the least does.
+/// something goes on to meet, it is where the least does. Between two limbs ways out cancel each other: where pushing is in
+/// vain, less of the space is taken along.
 Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress)
 {
     const double reach = k_pushing_reach * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
+    double softness = 1;
     Best best { positions };
     std::vector<char> marks(positions.rows());
     for (int round = 0;; ++round) {
@@ -265,7 +267,11 @@ Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles&
                    obstacles.mark_meeting({ positions, cloth.rest.triangles }, cloth.topology.edges(), marks));
         if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes || !progress.goes_on(1))
             return best.positions;
-        positions += spread_ways(positions, ways_out(cloth, positions, marks, obstacles, round), reach);
+        const Positions ways = ways_out(cloth, positions, marks, obstacles, round);
+        const double longest = ways.rowwise().norm().maxCoeff();
+        if (best.futile > k_patient_pushes)
+            softness *= k_harder_push;
+        positions += spread_ways(positions, ways, softness * std::max(reach, longest / k_steepest_way));
     }
 }
 

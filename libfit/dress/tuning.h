@@ -195,9 +195,14 @@ inline constexpr double k_evening_hold = 1e-3;
 /// and, the reach, on four others
 inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8;
 inline constexpr double k_pushing_reach = 5, k_pushing_step = 1e-3;
-/// By how much ways grow less from place to place, on the mean, in shares of the distance; how many ways are blended.
-/// unit: below 1, sheets keep their order
+/// By how much ways grow less from place to place, on the mean, in shares of the distance. unit: below a half, sheets keep
+/// their order
 inline constexpr double k_steepest_way = 0.3;
+/// By how much less space is taken along in each round after so many in vain. fitted: guess; of 1, .85, .7 and .5 on six
+/// clothes
+inline constexpr double k_harder_push = 0.85;
+inline constexpr int k_patient_pushes = 2;
+/// Ways that are blended, the nearest. unit: more change them by little
 inline constexpr int k_most_ways = 64;
 /// Where edges are looked at, in shares of them, that may pass through the body between two vertices outside. fitted: guess
 inline constexpr std::array<double, 3> k_places_between { 0.25, 0.5, 0.75 };
