@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <functional>
+#include <queue>
 #include <utility>
 
 #include <Eigen/SVD>
@@ -12,6 +15,7 @@
 #include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "proximity.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -79,8 +83,11 @@ public:
     Motion(const GarmentMesh& stand_in, const Positions& worn) :
         rest_(stand_in), worn_(worn), topology_(stand_in.triangles, int(stand_in.positions.rows())),
         turns_(rotations(stand_in, worn)), sheet_({ stand_in.positions, stand_in.triangles }),
-        edge_(mean_edge_length(stand_in.positions, topology_.edges()))
+        faces_at_(stand_in.positions.rows()), edge_(mean_edge_length(stand_in.positions, topology_.edges()))
     {
+        for (int f = 0; f < int(stand_in.triangles.rows()); ++f)
+            for (const int v : stand_in.triangles.row(f))
+                faces_at_[v].push_back(f);
     }
 
     LedPlaces apply(const Positions& garment, const MeshTopology& topology) const
@@ -89,6 +96,8 @@ public:
         parallel_for(garment.rows(), [&](Eigen::Index v) { bindings[v] = *sheet_.nearest_triangle(garment.row(v)); });
         const double reach = reach_for(garment, bindings);
         LedPlaces places = move(garment, bindings, reach);
+        if (bind_along_the_cloth(garment, topology, places.positions, bindings))
+            places = move(garment, bindings, reach);
         if (bind_as_neighbours(garment, topology, places.positions, bindings))
             places = move(garment, bindings, reach);
         return places;
@@ -96,6 +105,14 @@ public:
 
 private:
     using Binding = TriangleTree::Nearest;  // where a vertex hangs on the stand-in
+
+    /// Along an edge of the garment, or from a vertex to itself.
+    struct Step {
+        double doubt;  ///< m, at its end: the way from where bindings are sure
+        int from, to;
+
+        auto operator<=>(const Step&) const = default;
+    };
 
     /// How far from the nearest point of the stand-in the motions are blended, m. A garment that is the stand-in's own
     /// surface keeps the stand-in's folds; sheets that lie beside it, and each other, have to move alike.
@@ -154,6 +171,75 @@ private:
         return { foot, sum / weights, turn / weights };
     }
 
+    /// How much nearer to each vertex its binding is than what of the stand-in would take it elsewhere, m; k_doubted at
+    /// most.
+    std::vector<double> margins_of(const Positions& garment, const Positions& moved,
+                                   const std::vector<Binding>& bindings) const
+    {
+        const NearestPoint tree(rest_.positions);
+        std::vector<double> margins(garment.rows());
+        parallel_for(garment.rows(), [&](Eigen::Index v) {
+            const Vec3 place = garment.row(v), went = moved.row(v);
+            const double own = (place - bindings[v].point).norm();
+            double other = own + k_doubted;
+            for (const int u : tree.within(place, other, k_most_doubted)) {
+                const Vec3 from = place - rest_.positions.row(u).transpose(),
+                           there = worn_.row(u).transpose() + turns_[u] * from;
+                if ((there - went).norm() > k_apart)
+                    other = std::min(other, from.norm());
+            }
+            margins[v] = std::max(0., other - own);
+        });
+        return margins;
+    }
+
+    /// The point of the stand-in nearest to a place, of those within reach of another point over its surface.
+    Binding nearest_from(const Vec3& place, const Binding& from, double reach, Neighbourhood& neighbourhood) const
+    {
+        Binding best = from;
+        double least = INFINITY;
+        for (const int v : neighbourhood.around(from.point, rest_.triangles.row(from.triangle), reach))
+            for (const int f : faces_at_[v]) {
+                const Eigen::RowVector3i corners = rest_.triangles.row(f);
+                const Corners x { place, rest_.positions.row(corners[0]), rest_.positions.row(corners[1]),
+                                  rest_.positions.row(corners[2]) };
+                if (const ClosestPoints at = closest_points(PairKind::vertex_face, x); at.distance < least) {
+                    least = at.distance;
+                    best = { place - separation(at.weights, x), f };
+                }
+            }
+        return best;
+    }
+
+    /// Where a sleeve hangs on the trunk, some of its vertices are nearest to the stand-in's trunk. Each vertex keeps its
+    /// own binding, or is bound beside a neighbour that is so much surer of its own. @return whether there are any
+    bool bind_along_the_cloth(const Positions& rest, const MeshTopology& topology, const Positions& moved,
+                              std::vector<Binding>& bindings) const
+    {
+        const std::vector<double> margins = margins_of(rest, moved, bindings);
+        std::priority_queue<Step, std::vector<Step>, std::greater<>> steps;
+        for (int v = 0; v < int(rest.rows()); ++v)
+            steps.push({ k_way_to_surer * (k_doubted - margins[v]), v, v });
+        std::vector<char> is_bound(rest.rows(), 0);
+        bool is_changed = false;
+        Neighbourhood neighbourhood(rest_.positions, topology_);
+        while (!steps.empty()) {
+            const auto [doubt, from, v] = steps.top();
+            steps.pop();
+            if (std::exchange(is_bound[v], 1))
+                continue;
+            if (from != v) {
+                const double reach = (rest.row(from) - rest.row(v)).norm() + edge_;
+                bindings[v] = nearest_from(rest.row(v), bindings[from], reach, neighbourhood);
+                is_changed = true;
+            }
+            for (const int n : topology.neighbours(v))
+                if (!is_bound[n])
+                    steps.push({ doubt + (rest.row(v) - rest.row(n)).norm(), v, n });
+        }
+        return is_changed;
+    }
+
     /// Where a sleeve hangs beside the trunk, some of its vertices are nearest to the stand-in's trunk and are torn off:
     /// islands between edges that grow far longer. They go with their neighbours. @return whether there are any
     static bool bind_as_neighbours(const Positions& rest, const MeshTopology& topology, const Positions& moved,
@@ -194,6 +280,7 @@ private:
     const MeshTopology topology_;
     const std::vector<Eigen::Matrix3d> turns_;
     const TriangleTree sheet_;
+    std::vector<std::vector<int>> faces_at_;  // by vertex
     const double edge_;  // m, mean
 };
 

@@ -175,6 +175,11 @@ inline constexpr int k_fine = 20000, k_coarse = 8000;
 /// standard quality four garments of the house data, 8,200 to 15,600 vertices, on three bodies take .79 of the processor
 /// time, in draft quality two thirds; two of 4,200 and 4,600 vertices no less
 inline constexpr int k_led = 5000, k_rough = 2000;
+/// A vertex is sure of what of its stand-in it lies on if the rest is so much further away, m, of which so many vertices
+/// are looked at; it is bound as one that is surer by this share of the way to it. fitted: guesses, on three clothes of
+/// web shops whose sleeves hang on the trunk
+inline constexpr double k_doubted = 0.04, k_way_to_surer = 20;
+inline constexpr int k_most_doubted = 200;
 /// An edge of the garment is torn where it goes with its stand-in to this many times its length and this much more, m;
 /// what lies between torn edges is no island from this share of its piece's largest part on. fitted: guess, on a chef's
 /// jacket of a web shop, whose sleeves hang beside the trunk

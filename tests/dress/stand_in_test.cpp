@@ -242,6 +242,20 @@ TEST(StandIn, TakesAlongASleeveThatHangsBesideTheTrunk)
     EXPECT_GT(moved.col(0).minCoeff(), 0.09);
 }
 
+TEST(StandIn, TakesAlongMostOfASleeveThatIsNearerToTheTrunk)
+{
+    const auto at = [](double height) { return [height](double, double) { return height; }; };
+    const TriangleMesh parts = joined(sheet(41, 0.01, at(0)), sheet(41, 0.01, at(0.02)));
+    Positions lifted = parts.positions;
+    lifted.bottomRows(41 * 41).col(1).array() += 0.5;
+    // three quarters of it sag to the trunk
+    const TriangleMesh sagging
+        = sheet(81, 0.005, [](double x, double) { return x < 0.1 ? 0.02 : std::max(0.008, 0.02 - (x - 0.1)); });
+    const Positions followed = follow({ parts.positions, parts.triangles }, lifted,
+                                      { sagging.positions, sagging.triangles }, { k_far_body });
+    EXPECT_GT((followed - sagging.positions).col(1).minCoeff(), 0.49);
+}
+
 TEST(StandIn, TakesThePartsAlong)
 {
     const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 80);
