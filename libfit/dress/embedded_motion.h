@@ -2,7 +2,8 @@
 #pragma once
 
 // How a stand-in takes along what is near it: each place goes with the blended motions of the stand-in's vertices round
-// the point nearest to it (embedded deformation [sumner_2007_embedded_deformation]).
+// the point nearest to it (embedded deformation [sumner_2007_embedded_deformation]), on the limb to which it and its
+// neighbours belong most surely.
 
 #include <vector>
 

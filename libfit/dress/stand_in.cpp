@@ -355,12 +355,26 @@ Positions moved_clear(const Parts& cloth, const Positions& from, Positions to, c
     return from;
 }
 
-/// How to move apart what meets and did not as given, by a step in the direction in which it lay from each other at rest;
-/// cloth beside it goes half as far.
+/// In which direction the edge of a crossing lay from the triangle at rest, unit. What lay right on it goes to the side on
+/// which most of the edge is now.
+Vec3 way_apart(const Parts& cloth, const Positions& positions, const Crossing& crossing)
+{
+    const Edges& edges = cloth.topology.edges();
+    const Eigen::RowVector3i corners = cloth.rest.triangles.row(crossing.second);
+    const Vec3 offset = offset_at_rest(cloth.rest, edges, positions, crossing);
+    if (offset.norm() > k_least_offset)
+        return rotation_of(corners, cloth.rest.positions, positions) * offset.normalized();
+    const auto corner = [&](int k) { return Vec3(positions.row(corners[k])); };
+    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
+    const auto height
+        = [&](int end) { return normal.dot(Vec3(positions.row(edges(crossing.first, end))) - corner(0)); };
+    return height(0) + height(1) > 0 ? normal : -normal;
+}
+
+/// How to move apart what meets and did not as given, by a step; cloth beside it goes half as far.
 Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& fresh, const Positions& positions,
                                double step)
 {
-    const TriangleMesh& rest = cloth.rest;
     const Edges& edges = cloth.topology.edges();
     Positions motion = Positions::Zero(positions.rows(), 3);
     Eigen::VectorXd count = Eigen::VectorXd::Zero(positions.rows());
@@ -369,12 +383,10 @@ Positions towards_gaps_of_rest(const Parts& cloth, const std::vector<Crossing>& 
         count[v] += 1;
     };
     for (const Crossing& crossing : fresh) {
-        const Eigen::RowVector3i corners = rest.triangles.row(crossing.second);
-        const Vec3 apart = offset_at_rest(rest, edges, positions, crossing).stableNormalized(),
-                   by = step * (rotation_of(corners, rest.positions, positions) * apart);
+        const Vec3 by = step * way_apart(cloth, positions, crossing);
         for (const int v : edges.row(crossing.first))
             push(v, by);
-        for (const int v : corners)
+        for (const int v : cloth.rest.triangles.row(crossing.second))
             push(v, -by);
     }
     motion.array().colwise() /= count.array().max(1);

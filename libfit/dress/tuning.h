@@ -225,6 +225,8 @@ inline constexpr std::array<double, 3> k_units_of_files { 1, 0.7, 0.3 };
 /// Step in which what meets and did not as given is moved apart, in mean edges of the garment; how many of them at most,
 /// and how many in vain halve it. fitted: on five clothes of web shops (docs/decisions/0033)
 inline constexpr double k_gap_step = 0.1;
+/// m; what lay nearer to each other at rest lay on each other. unit: some digits of single precision
+inline constexpr double k_least_offset = 1e-6;
 inline constexpr int k_gap_rounds = 60, k_futile_gap_rounds = 6;
 
 /// Share of the progress that the way takes, and settling of the rest of it.

@@ -316,11 +316,12 @@ TEST(StandIn, DoesNotHoldWhatOnlyTouchedItself)
     EXPECT_EQ(certify(k_far_body, garment, followed).self_crossings, 0);
 }
 
-TEST(StandIn, MovesSheetsApartThatFilesWouldLetCross)
+/// @param gap  m, between the sheets; their file has fewer digits
+void expect_to_be_moved_apart(double gap)
 {
     const auto at = [](double height) { return [height](double, double) { return height; }; };
     const TriangleMesh plane = sheet(11, 0.05, at(0)),
-                       both = joined(sheet(6, 0.1, at(0.01)), sheet(5, 0.125, at(0.01 + 1e-8)));
+                       both = joined(sheet(6, 0.1, at(0.01)), sheet(5, 0.125, at(0.01 + gap)));
     const GarmentMesh garment { both.positions, both.triangles };
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()).toRotationMatrix().transpose();
     const auto crossings_in_file = [&](const Positions& positions) {
@@ -332,6 +333,10 @@ TEST(StandIn, MovesSheetsApartThatFilesWouldLetCross)
     EXPECT_EQ(crossings_in_file(followed), 0);
     EXPECT_LT((followed - garment.positions * turn).rowwise().norm().maxCoeff(), 0.05);
 }
+
+TEST(StandIn, MovesSheetsApartThatFilesWouldLetCross) { expect_to_be_moved_apart(1e-8); }
+
+TEST(StandIn, MovesSheetsApartThatLayOnEachOther) { expect_to_be_moved_apart(0); }
 
 TEST(StandIn, DoesNotCrossItselfInFoldsThatHaveNoRoom)
 {
