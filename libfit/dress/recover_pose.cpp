@@ -175,7 +175,7 @@ struct MovedWeights {
 struct PathOutcome {
     double share = 0;  ///< of the path that was gone: 1, or less where the body got stuck
     double in_place = 0;  ///< the last share at which the whole body was in its place
-    Positions state_in_place;  ///< of the motion, there
+    Positions state_in_place {};  ///< of the motion, there
     bool out_of_time = false;  ///< the deadline passed before the end of the path
 
     bool ended_early() const { return share < 1 || out_of_time; }
