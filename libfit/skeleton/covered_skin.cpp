@@ -2,7 +2,6 @@
 #include "garmentfit/covered_skin.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "edge_distances.h"
 #include "garmentfit/error.h"
 #include "garmentfit/mesh.h"
+#include "hidden_by_cloth.h"
 #include "keyframes.h"
 #include "parallel.h"
 #include "surface_measures.h"
@@ -25,18 +25,8 @@ using namespace skeleton_tuning;
 
 using Directions = std::vector<Vec3>;
 
-/// Evenly over half a sphere, other ones for each pose: every so many directions of one Fibonacci lattice.
-Directions directions_of_pose(int pose, int poses)
-{
-    Directions directions;
-    const int count = k_pictures_of_a_pose * poses;
-    for (int i = pose; i < count; i += poses) {
-        const double height = (i + 0.5) / count, radius = std::sqrt(1 - height * height);
-        const double turn = 2 * std::numbers::pi * i / std::numbers::phi;
-        directions.emplace_back(radius * std::cos(turn), height, radius * std::sin(turn));
-    }
-    return directions;
-}
+/// Other ones for each pose.
+Directions directions_of_pose(int pose, int poses) { return viewing_directions(k_pictures_of_a_pose, pose, poses); }
 
 /// A ring round each direction.
 Directions directions_around(const Directions& directions, double angle)
@@ -106,17 +96,16 @@ public:
     {
         const auto& [body, cloth] = dressed;
         const PictureFrame frame(direction, pixel, body.positions);
-        width_ = frame.width();
         rays_.assign(frame.pixels(), Ray());
         paint_triangles(frame, frame.project(cloth.positions), cloth.triangles,
                         [&](std::size_t at, float depth, int, bool) {
                             Depths& depths = rays_[at].cloth;
                             depths = { std::min(depths.first, depth), std::max(depths.last, depth) };
                         });
-        skin_ = frame.project(body.positions);
-        paint_triangles(frame, skin_, body.triangles, [&](std::size_t at, float depth, int face, bool is_front) {
-            (is_front ? rays_[at].front : rays_[at].back).add(depth, face);
-        });
+        paint_triangles(frame, frame.project(body.positions), body.triangles,
+                        [&](std::size_t at, float depth, int face, bool is_front) {
+                            (is_front ? rays_[at].front : rays_[at].back).add(depth, face);
+                        });
     }
 
     /// Calls mark(face) for each face that has to stay.
@@ -132,17 +121,7 @@ public:
                     mark(face);
     }
 
-    /// Whether cloth lies before a vertex, for a viewer who looks along the direction or against it.
-    bool is_behind_cloth(Eigen::Index vertex, bool along) const
-    {
-        const Eigen::RowVector3d place = skin_.row(vertex);
-        const Depths& cloth = rays_[std::size_t(place.y()) * std::size_t(width_) + std::size_t(place.x())].cloth;
-        return along ? cloth.first < place.z() : cloth.last > place.z();
-    }
-
 private:
-    int width_ = 0;
-    Positions skin_;
     std::vector<Ray> rays_;
 };
 
@@ -177,23 +156,6 @@ void draw_pictures(const Dressed& dressed, const Directions& directions, double 
             look(i, picture);
         }
     });
-}
-
-/// Whether cloth hides a vertex from most directions that it faces.
-std::vector<char> find_skin_under_cloth(const Dressed& dressed, const Directions& directions, double pixel)
-{
-    const Positions normals = vertex_normals(dressed.body.positions, dressed.body.triangles);
-    std::vector<std::atomic<int>> balance(std::size_t(normals.rows()));
-    draw_pictures(dressed, directions, pixel, [&](std::size_t i, const DepthPicture& picture) {
-        for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-            const bool along = normals.row(v).dot(directions[i]) < 0;
-            balance[std::size_t(v)].fetch_add(picture.is_behind_cloth(v, along) ? 1 : -1, std::memory_order_relaxed);
-        }
-    });
-    std::vector<char> is_under_cloth;
-    for (const auto& each : balance)
-        is_under_cloth.push_back(each > 0);
-    return is_under_cloth;
 }
 
 /// Vertices that are seen, and those within a margin of them along the edges.
@@ -277,12 +239,12 @@ std::vector<char> find_covered_skin(const TriangleMesh& body, const Rig& rig, co
     const double size = diagonal(body.positions);
     const int poses = 1 + int(keys.size());
     const Dressed at_rest { body, joined_clothes(clothes, bone_transforms(rig.skeleton, Pose())) };
-    const std::vector<char> is_under_cloth
-        = find_skin_under_cloth(at_rest, directions_of_pose(0, poses), k_pixel_of_sight * size);
+    const Eigen::VectorXd hidden
+        = shares_hidden_by_cloth(at_rest.body, at_rest.cloth, directions_of_pose(0, poses), k_pixel_of_sight * size);
     SeenSkin seen(body, k_margin_of_sight * size);
     std::vector<int> bare;
-    for (int v = 0; v < int(is_under_cloth.size()); ++v)
-        if (!is_under_cloth[std::size_t(v)])
+    for (int v = 0; v < int(hidden.size()); ++v)
+        if (hidden[v] <= 0.5)  // bare to most who see it
             bare.push_back(v);
     seen.add(bare);
     look_around(at_rest, directions_of_pose(0, poses), size, seen);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "edge_distances.h"
+#include "hidden_by_cloth.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "surface_measures.h"
@@ -17,13 +18,17 @@ using namespace skeleton_tuning;
 
 constexpr double k_lift = 1e-5;  // unit: share of the diagonal; a ray begins off the faces around its vertex
 
-/// Whether one of the clothes lies over a place of the skin.
-bool is_under_cloth(const Vec3& place, const Vec3& normal, const std::vector<TriangleTree>& clothes, double farthest)
+TriangleMesh joined(const std::vector<TriangleMesh>& clothes)
 {
-    return std::any_of(clothes.begin(), clothes.end(), [&](const TriangleTree& cloth) {
-        const auto hit = cloth.first_hit(place, normal);
-        return hit && hit->distance < farthest;
-    });
+    TriangleMesh all;
+    for (const TriangleMesh& cloth : clothes) {
+        const int first = int(all.positions.rows());
+        all.positions.conservativeResize(first + cloth.positions.rows(), 3);
+        all.positions.bottomRows(cloth.positions.rows()) = cloth.positions;
+        all.triangles.conservativeResize(all.triangles.rows() + cloth.triangles.rows(), 3);
+        all.triangles.bottomRows(cloth.triangles.rows()) = cloth.triangles.array() + first;
+    }
+    return all;
 }
 
 /// Evens out the motion of what moves.
@@ -45,13 +50,12 @@ Positions inset_skin(const TriangleMesh& body, const std::vector<TriangleMesh>& 
     const double size = diagonal(body.positions);
     const int count = int(body.positions.rows());
     const Positions normals = vertex_normals(body.positions, body.triangles);
-    const std::vector<TriangleTree> trees(clothes.begin(), clothes.end());
+    const Eigen::VectorXd hidden = shares_hidden_by_cloth(
+        body, joined(clothes), viewing_directions(k_pictures_of_inset), k_pixel_of_sight * size);
     const TriangleTree skin(body);
-    std::vector<char> is_under(std::size_t(count), 0);
     std::vector<double> deepest(std::size_t(count), 0);  // m
     parallel_for(count, [&](int v) {
         const Vec3 place = body.positions.row(v), normal = normals.row(v);
-        is_under[std::size_t(v)] = is_under_cloth(place, normal, trees, k_nearby_cloth * size);
         const auto behind = skin.first_hit(place - k_lift * size * normal, -normal);
         deepest[std::size_t(v)] = behind ? std::min(k_inset * size, k_inset_share * behind->distance) : 0;
     });
@@ -60,7 +64,7 @@ Positions inset_skin(const TriangleMesh& body, const std::vector<TriangleMesh>& 
     EdgeDistances from_bare(body.positions, topology, (k_inset_margin + k_inset / k_inset_slope) * size);
     std::vector<int> bare;
     for (int v = 0; v < count; ++v)
-        if (!is_under[std::size_t(v)])
+        if (hidden[v] < k_hidden_to_inset)
             bare.push_back(v);
     from_bare.add(bare);
 

@@ -70,12 +70,15 @@ inline constexpr double k_margin_of_sight = 0.01;
 
 // ---- skin under clothes (inset_skin.cpp) --------------------------------------------------------------------------
 
-/// fitted: guess. Shares of the diagonal of the body: how near cloth is that covers skin, 8 cm of an adult; how far the
-/// skin goes in, 2 cm; how far from bare skin it begins to, 1 cm.
-inline constexpr double k_nearby_cloth = 0.04, k_inset = 0.01, k_inset_margin = 0.005;
+/// fitted: guess. Pictures that show how much of the skin is hidden, and the share from which on skin is drawn in.
+inline constexpr int k_pictures_of_inset = 100;
+inline constexpr double k_hidden_to_inset = 0.8;
+/// fitted: guess. Shares of the diagonal of the body: how far the skin goes in, 6 cm of an adult; how far from bare skin
+/// it begins to, 1 cm.
+inline constexpr double k_inset = 0.03, k_inset_margin = 0.005;
 /// fitted: guess. Depth over the distance from there on; largest depth as a share of the limb's thickness: both sides of
-/// a wrist leave three fifths.
-inline constexpr double k_inset_slope = 0.5, k_inset_share = 0.2;
+/// a wrist leave a fifth.
+inline constexpr double k_inset_slope = 0.5, k_inset_share = 0.4;
 /// fitted: guess.
 inline constexpr int k_inset_smoothing_passes = 5;
 

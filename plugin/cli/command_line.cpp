@@ -171,7 +171,7 @@ void add_outfit_options(CLI::App& command, Call& call)
         .add_flag(
             "--hide-covered-skin", call.outfit.hide_covered_skin,
             "With --outfit: leave out faces of the body that the clothes cover in all poses of everyday "
-            "movement, and draw in skin under cloth by up to 2 cm (of an adult; not on an avatar's own bones), so "
+            "movement, and draw in skin under cloth by up to 6 cm (of an adult; not on an avatar's own bones), so "
             "that less passes through posed cloth")
         ->needs("--outfit");
     command

@@ -657,7 +657,7 @@ TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
     const double deepest
         = (outfit.positions().topRows(whole.positions().rows()) - whole.positions()).rowwise().norm().maxCoeff();
     EXPECT_GT(deepest, 0.01) << "skin under the coat is drawn in";
-    EXPECT_LT(deepest, 0.025);
+    EXPECT_LT(deepest, 0.065);
     EXPECT_GT(of_body, whole.triangles().rows() / 2);
 
     fs::remove(draped / "coat.ply");  // as where it is too small
@@ -841,7 +841,7 @@ TEST_F(Slow, LeavesOutSkinUnderAShirtAndDrawsTheRestIn)
     const double deepest
         = (outfit.positions().topRows(whole.positions().rows()) - whole.positions()).rowwise().norm().maxCoeff();
     EXPECT_GT(deepest, 0.01);
-    EXPECT_LT(deepest, 0.025);
+    EXPECT_LT(deepest, 0.065);
 }
 
 TEST_F(Slow, KeepsTheFileOfASkinnedBodyInItsOutfit)

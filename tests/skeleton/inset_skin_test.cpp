@@ -30,7 +30,7 @@ struct InsetPerson {
 TEST(InsetSkin, GoesInUnderClothAndStaysWhereItIsBare)
 {
     const InsetPerson inset(0.02);
-    const double most = 0.011 * diagonal(inset.person.mesh.positions);
+    const double most = 0.031 * diagonal(inset.person.mesh.positions);
     int belly = 0;
     for (Eigen::Index v = 0; v < inset.depths.size(); ++v) {
         EXPECT_LE(inset.depths[v], most);
@@ -53,17 +53,25 @@ TEST(InsetSkin, LeavesLimbsAThickness)
     int arms = 0;
     for (Eigen::Index v = 0; v < inset.depths.size(); ++v)
         if (std::abs(inset.place(v).x()) > 0.4) {
-            EXPECT_LT(inset.depths[v], 0.25 * 0.1);
+            EXPECT_LT(inset.depths[v], 0.45 * 0.1);
             ++arms;
         }
     EXPECT_GT(arms, 10);
 }
 
-TEST(InsetSkin, StaysWithoutClothNearby)
+TEST(InsetSkin, GoesInUnderATent)
 {
-    EXPECT_TRUE(InsetPerson(0.12).depths.isZero(0)) << "a tent";
+    EXPECT_GT(InsetPerson(0.12).depths.maxCoeff(), 0.03) << "cloth that stands off hides skin, too";
+}
+
+TEST(InsetSkin, StaysWhereMostViewersSeeIt)
+{
     const Person person = capsule_person();
     EXPECT_EQ(inset_skin(person.mesh, {}), person.mesh.positions);
+    TriangleMesh board { Positions(3, 3), Triangles(1, 3) };  // before the belly
+    board.positions << -0.5, 0.8, 0.4, 0.5, 0.8, 0.4, 0, 1.6, 0.4;
+    board.triangles << 0, 1, 2;
+    EXPECT_EQ(inset_skin(person.mesh, { board }), person.mesh.positions);
 }
 
 }  // namespace

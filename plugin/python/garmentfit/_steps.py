@@ -223,7 +223,7 @@ class Dressing(_Result):
         bones: whose joints and names it has: garmentfit, vrm, mixamo, unreal, smpl, or own. Own are those of the body's
         file, with its animations and all else, where that is a skinned glTF or GLB from read_mesh; else garmentfit.
         hide_covered_skin: leaves out faces of the body that the clothes cover in all poses of everyday movement, and
-        draws in skin under cloth by up to 2 cm (of an adult), but on an avatar's own bones.
+        draws in skin under cloth by up to 6 cm (of an adult), but on an avatar's own bones.
         Only of a certified result in the body's own pose (dress, recover_pose).
         """
         self._scene.write_outfit(Path(path), bones, hide_covered_skin)

@@ -65,7 +65,7 @@ public:
     ///@{
     /**
    * Leaves out faces of the body that the garments cover in the rest pose and in poses of everyday movement, and, but
-   * on the bones of BodyFileName, draws in skin under cloth by up to 2 cm (of an adult).
+   * on the bones of BodyFileName, draws in skin under cloth by up to 6 cm (of an adult).
    */
     vtkSetMacro(HideCoveredSkin, bool);
     vtkGetMacro(HideCoveredSkin, bool);
