@@ -34,18 +34,21 @@ void check(const Scene& scene, const std::vector<OutfitPart>& garments, const st
 }
 
 std::vector<SkinnedMesh> skinned_meshes(const Scene& scene, const OutfitPart& body,
-                                        const std::vector<OutfitPart>& garments)
+                                        const std::vector<OutfitPart>& garments, int influences)
 {
     const Dressing& dressing = *scene.recovered;
     const TriangleMesh skin { dressing.body, scene.body->surface.triangles };
+    const JointWeights skin_weights = joint_weights_of(scene.rig->weights);
     std::vector<SkinnedMesh> meshes { { body.name, skin, scene.rig->weights, body.look } };
     for (const std::size_t i : dressing.worn()) {
         const GarmentMesh& garment = scene.garments[i].mesh;
         const Positions& worn = dressing.garments[i].positions;
-        meshes.push_back({ garments.at(i).name,
-                           { worn, garment.triangles },
-                           garment_weights(skin, scene.rig->weights, garment, worn),
-                           garments.at(i).look });
+        JointWeights weights = garment_weights(skin, skin_weights, garment, worn, { .joints_per_vertex = influences });
+        meshes.push_back({ .name = garments.at(i).name,
+                           .surface = { worn, garment.triangles },
+                           .weights = skin_weights_of(weights),
+                           .look = garments.at(i).look,
+                           .more_weights = std::move(weights) });
     }
     return meshes;
 }
@@ -123,7 +126,7 @@ void write_on_avatar(const Scene& scene, const std::vector<OutfitPart>& garments
         const Positions& worn = dressing.garments[i].positions;
         clothes.push_back({ garments.at(i).name,
                             { request.avatar->frame.to_file(worn), garment.triangles },
-                            garment_weights(skin, weights, garment, worn),
+                            garment_weights(skin, weights, garment, worn, { .joints_per_vertex = request.influences }),
                             garments.at(i).look });
     }
     write_dressed_avatar(
@@ -156,6 +159,22 @@ std::optional<BoneNames> bone_names_called(const std::string& name)
     throw InvalidInput(ErrorCode::unknown_name, "there are no bones called \"" + name + "\"; give one of " + known);
 }
 
+const std::vector<std::pair<std::string, int>>& influence_choices()
+{
+    static const std::vector<std::pair<std::string, int>> choices { { "four", k_few_influences },
+                                                                    { "eight", k_many_influences } };
+    return choices;
+}
+
+int influences_called(const std::string& name)
+{
+    for (const auto& [each, count] : influence_choices())
+        if (each == name)
+            return count;
+    throw InvalidInput(ErrorCode::unknown_name,
+                       "influences: " + name + " joints a vertex is no choice; give four or eight");
+}
+
 bool is_on_avatar(const OutfitRequest& request)
 {
     return !request.bones && request.avatar && (request.path.extension() != ".vrm" || is_vrm(request.avatar->path));
@@ -176,7 +195,7 @@ void write_outfit(const Scene& scene, const OutfitPart& body, const std::vector<
     const bool on_avatar = is_on_avatar(request);
     std::vector<SkinnedMesh> meshes;
     if (!on_avatar || request.hide_covered_skin)
-        meshes = skinned_meshes(scene, body, garments);
+        meshes = skinned_meshes(scene, body, garments, request.influences);
     if (!on_avatar && request.hide_covered_skin)
         inset_body(meshes);
     const std::vector<char> covered

@@ -13,7 +13,6 @@
 #include "gltf_scene.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
-#include "skin_weights.h"
 
 namespace garmentfit {
 namespace {
@@ -69,13 +68,6 @@ std::vector<int> list_used_joints(const std::vector<AvatarGarment>& garments, st
         if (is_used[j])
             used.push_back(int(j));
     return used;
-}
-
-/// The four largest of each vertex, as rows of `joints`.
-FileWeights file_weights(const JointWeights& weights, const std::vector<int>& joints)
-{
-    const SkinWeights strongest = strongest_four(Eigen::MatrixXd(weights)(Eigen::all, joints));
-    return { strongest.bones, strongest.weights };
 }
 
 void require_rows(const std::vector<AvatarGarment>& garments, std::size_t joints)

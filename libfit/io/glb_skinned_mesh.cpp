@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <string>
 
 #include "garmentfit/mesh.h"
 #include "glb_appearance.h"
@@ -28,7 +29,7 @@ tinygltf::Primitive attributes_of(const SkinnedMesh& mesh, const FileWeights& sk
     const std::vector<int>& rows = vertices.sources;
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    const auto add = [&](const char* name, const auto& values, int type, auto number) {
+    const auto add = [&](const std::string& name, const auto& values, int type, auto number) {
         primitive.attributes[name] = glb.add<decltype(number)>(values, type, TINYGLTF_TARGET_ARRAY_BUFFER);
     };
     add("POSITION", mesh.surface.positions(rows, Eigen::all), TINYGLTF_TYPE_VEC3, float());
@@ -36,11 +37,16 @@ tinygltf::Primitive attributes_of(const SkinnedMesh& mesh, const FileWeights& sk
     add("NORMAL", unit_normals(mesh.surface)(rows, Eigen::all), TINYGLTF_TYPE_VEC3, float());
     if (vertices.uvs.rows() > 0)
         add("TEXCOORD_0", vertices.uvs, TINYGLTF_TYPE_VEC2, float());
-    if (skin.joints.size() > 0 && skin.joints.maxCoeff() > std::numeric_limits<std::uint8_t>::max())
-        add("JOINTS_0", skin.joints(rows, Eigen::all), TINYGLTF_TYPE_VEC4, std::uint16_t());
-    else
-        add("JOINTS_0", skin.joints(rows, Eigen::all), TINYGLTF_TYPE_VEC4, std::uint8_t());
-    add("WEIGHTS_0", skin.weights(rows, Eigen::all), TINYGLTF_TYPE_VEC4, float());
+    const bool has_many = skin.joints.size() > 0 && skin.joints.maxCoeff() > std::numeric_limits<std::uint8_t>::max();
+    for (int set = 0; 4 * set < int(skin.joints.cols()); ++set) {
+        const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
+        const auto four = Eigen::seqN(4 * set, 4);
+        if (has_many)
+            add(joints, skin.joints(rows, four), TINYGLTF_TYPE_VEC4, std::uint16_t());
+        else
+            add(joints, skin.joints(rows, four), TINYGLTF_TYPE_VEC4, std::uint8_t());
+        add(weights, skin.weights(rows, four), TINYGLTF_TYPE_VEC4, float());
+    }
     if (!mesh.covered.empty()) {
         Eigen::VectorXd mask(Eigen::Index(rows.size()));
         for (std::size_t v = 0; v < rows.size(); ++v)

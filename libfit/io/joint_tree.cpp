@@ -223,6 +223,32 @@ void add_entry(std::vector<Entry>& entries, double weight, int joint)
     entries.emplace_back(weight, joint);
 }
 
+/// Room for the joints of each vertex. glTF has them in sets of four.
+FileWeights no_weights(const JointWeights& weights)
+{
+    Eigen::Index most = 0;
+    for (Eigen::Index v = 0; v < weights.rows(); ++v)
+        most = std::max(most, Eigen::Index(weights.row(v).nonZeros()));
+    FileWeights result;
+    result.joints.setZero(weights.rows(), most > 4 ? 8 : 4);
+    result.weights.setZero(weights.rows(), result.joints.cols());
+    return result;
+}
+
+/// The largest ones of a vertex. Weights that are left out go to them.
+void set_row(std::vector<Entry>& entries, Eigen::Index vertex, FileWeights& result)
+{
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.first > b.first; });
+    const std::size_t kept = std::min(entries.size(), std::size_t(result.joints.cols()));
+    double left_out = 0;
+    for (std::size_t k = kept; k < entries.size(); ++k)
+        left_out += entries[k].first;
+    for (std::size_t k = 0; k < kept; ++k) {
+        result.joints(vertex, Eigen::Index(k)) = entries[k].second;
+        result.weights(vertex, Eigen::Index(k)) = left_out > 0 ? entries[k].first / (1 - left_out) : entries[k].first;
+    }
+}
+
 }  // namespace
 
 int JointTree::row_named(const std::string& name) const
@@ -239,34 +265,41 @@ JointTree joint_tree(const Skeleton& skeleton, BoneNames names)
 }
 
 FileWeights file_weights(const JointTree& tree, const Skeleton& skeleton, const Positions& positions,
-                         const SkinWeights& weights)
+                         const JointWeights& weights)
 {
     std::array<int, bone_count> end_of {};
     end_of.fill(-1);
     for (int e = 0; e < extremity_count; ++e)
         end_of[std::size_t(bone_before(Extremity(e)))] = tree.extremities[std::size_t(e)];
-    FileWeights result;
-    result.joints.setZero(positions.rows(), 4);
-    result.weights.setZero(positions.rows(), 4);
+    FileWeights result = no_weights(weights);
     std::vector<Entry> entries;
     for (Eigen::Index v = 0; v < positions.rows(); ++v) {
         entries.clear();
-        for (int k = 0; k < 4; ++k) {
-            const int bone = weights.bones(v, k), end = end_of[std::size_t(bone)];
-            const double weight = weights.weights(v, k);
+        for (JointWeights::InnerIterator entry(weights, v); entry; ++entry) {
+            const int bone = int(entry.col()), end = end_of[std::size_t(bone)];
+            const double weight = entry.value();
             const double beyond = end < 0 || !(weight > 0) ? 0 : share_beyond(skeleton, bone, positions.row(v));
             add_entry(entries, weight * (1 - beyond), tree.joint_of[std::size_t(bone)]);
             add_entry(entries, weight * beyond, end);
         }
-        std::stable_sort(entries.begin(), entries.end(),
-                         [](const Entry& a, const Entry& b) { return a.first > b.first; });
-        double left_out = 0;
-        for (std::size_t k = 4; k < entries.size(); ++k)
-            left_out += entries[k].first;
-        for (std::size_t k = 0; k < std::min<std::size_t>(4, entries.size()); ++k) {
-            result.joints(v, Eigen::Index(k)) = entries[k].second;
-            result.weights(v, Eigen::Index(k)) = left_out > 0 ? entries[k].first / (1 - left_out) : entries[k].first;
-        }
+        set_row(entries, v, result);
+    }
+    return result;
+}
+
+FileWeights file_weights(const JointWeights& weights, const std::vector<int>& joints)
+{
+    std::vector<int> row_of(std::size_t(weights.cols()), -1);
+    for (std::size_t row = joints.size(); row-- > 0;)  // the first place of one that is listed twice
+        row_of[std::size_t(joints[row])] = int(row);
+    FileWeights result = no_weights(weights);
+    std::vector<Entry> entries;
+    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+        entries.clear();
+        for (JointWeights::InnerIterator entry(weights, v); entry; ++entry)
+            if (const int row = row_of[std::size_t(entry.col())]; row >= 0)
+                add_entry(entries, entry.value(), row);
+        set_row(entries, v, result);
     }
     return result;
 }

@@ -28,15 +28,20 @@ struct JointTree {
 
 JointTree joint_tree(const Skeleton& skeleton, BoneNames names);
 
-/// At most four joints a vertex, rows of the tree.
+/// Joints of a file that move a vertex, the strongest first: n x 4, or n x 8 for what has more than four bones or joints
+/// a vertex. Unused slots have weight 0.
 struct FileWeights {
-    Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor> joints;
-    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> weights;
+    Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> joints;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights;
 };
 
 /// Bones without a joint of their own go to the one before them. Where the tree has hands and feet that move, skin
 /// beyond wrist and ankle goes to these.
+/// @param weights  a column for each bone
 FileWeights file_weights(const JointTree& tree, const Skeleton& skeleton, const Positions& positions,
-                         const SkinWeights& weights);
+                         const JointWeights& weights);
+
+/// Of weights over other joints, as rows of `joints`, columns of `weights`; what others have is left out.
+FileWeights file_weights(const JointWeights& weights, const std::vector<int>& joints);
 
 }  // namespace garmentfit

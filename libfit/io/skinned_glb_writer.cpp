@@ -81,24 +81,25 @@ std::vector<tinygltf::Node> nodes_of(const std::vector<SkinnedMesh>& meshes, con
     return nodes;
 }
 
-void require_rows(const std::vector<SkinnedMesh>& meshes)
+JointWeights weights_of(const SkinnedMesh& mesh)
 {
-    for (const SkinnedMesh& mesh : meshes)
-        if (mesh.weights.weights.rows() != mesh.surface.positions.rows())
-            throw InvalidInput(ErrorCode::count_mismatch,
-                               "skinned GLB: " + mesh.name + " has " + std::to_string(mesh.surface.positions.rows())
-                                   + " vertices and " + std::to_string(mesh.weights.weights.rows())
-                                   + " rows of weights; give a row for each vertex");
+    JointWeights weights = mesh.more_weights.rows() > 0 ? mesh.more_weights : joint_weights_of(mesh.weights);
+    if (weights.rows() != mesh.surface.positions.rows() || weights.cols() != bone_count)
+        throw InvalidInput(ErrorCode::count_mismatch,
+                           "skinned GLB: " + mesh.name + " has " + std::to_string(mesh.surface.positions.rows())
+                               + " vertices and weights of " + std::to_string(weights.rows()) + " over "
+                               + std::to_string(weights.cols())
+                               + " bones; give a row for each vertex and a column for each bone");
+    return weights;
 }
 
 GlbModel skinned_model(const Bones& bones, const std::vector<SkinnedMesh>& meshes)
 {
-    require_rows(meshes);
     GlbModel glb;
     for (const SkinnedMesh& mesh : meshes) {
         glb.model.scenes[0].nodes.push_back(int(glb.model.meshes.size()));
         glb.model.meshes.push_back(
-            gltf_mesh(mesh, file_weights(bones.tree, bones.skeleton, mesh.surface.positions, mesh.weights), glb));
+            gltf_mesh(mesh, file_weights(bones.tree, bones.skeleton, mesh.surface.positions, weights_of(mesh)), glb));
     }
     tinygltf::Skin skin;
     skin.skeleton = int(meshes.size());  // the node of the root

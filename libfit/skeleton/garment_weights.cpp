@@ -204,6 +204,8 @@ JointWeights spread(const Eigen::MatrixXd& cloth_weights, const Weld& weld, int 
     return result;
 }
 
+}  // namespace
+
 JointWeights joint_weights_of(const SkinWeights& weights)
 {
     std::vector<Eigen::Triplet<double>> entries;
@@ -216,7 +218,6 @@ JointWeights joint_weights_of(const SkinWeights& weights)
     return result;
 }
 
-/// Largest first, as all tables of libfit have them.
 SkinWeights skin_weights_of(const JointWeights& weights)
 {
     SkinWeights result;
@@ -231,8 +232,6 @@ SkinWeights skin_weights_of(const JointWeights& weights)
     }
     return result;
 }
-
-}  // namespace
 
 JointWeights garment_weights(const TriangleMesh& body, const JointWeights& body_weights, const GarmentMesh& garment,
                              const Positions& worn, const GarmentWeightOptions& options)

@@ -183,6 +183,14 @@ void add_outfit_options(CLI::App& command, Call& call)
         ->type_name("NAME")
         ->default_str("own")
         ->needs("--outfit");
+    command
+        .add_option_function<std::string>(
+            "--influences", [&call](const std::string& name) { call.outfit.influences = influences_called(name); },
+            "With --outfit: at most so many joints move a vertex of the clothes: four, which all programs read, or "
+            "eight (a second set of joints and weights)")
+        ->type_name("NAME")
+        ->default_str("four")
+        ->needs("--outfit");
 }
 
 void add_command(CLI::App& app, const CommandText& text, Call& call)

@@ -164,6 +164,8 @@ Choice read_choice(const MenuEntry& entry, const RichParameterList& list, MeshDo
         choice.outfit_bones = bone_names_called(read_word(list, k_outfit_bones, outfit_bones()));
         choice.body_file = list.getOpenFileName(k_body_file).toStdString();
         choice.hide_covered_skin = list.getBool(k_hide_covered_skin);
+        choice.influences
+            = influence_choices()[read_number<std::size_t>(list, k_influences, influence_choices().size())].second;
     }
     if (entry.task == Task::save_rig || entry.task == Task::load_rig || entry.task == Task::save_outfit)
         choice.file = read_file_name(list, entry, *choice.body);

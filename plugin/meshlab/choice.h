@@ -35,6 +35,7 @@ struct Choice {
     std::optional<BoneNames> outfit_bones = {};  ///< none: those of the body's file
     std::filesystem::path body_file;  ///< empty: that of the body's layer
     bool hide_covered_skin = false;
+    int influences = k_few_influences;  ///< joints of a vertex of the clothes, at most
 };
 
 /// @throws InvalidInput where a layer does not exist or is chosen twice.

@@ -199,6 +199,8 @@ void add_outfit(RichParameterList& list, const MeshModel& body)
         RichBool(k_hide_covered_skin, false, "Hide covered skin",
                  "Leave out faces of the body that the garments cover in poses of everyday movement, and draw in "
                  "skin under cloth by up to 6 cm (not on an avatar's own bones)"));
+    add_choice(list, k_influences, influences(), "Influences",
+               "At most so many joints move a vertex of the clothes: four, which all programs read, or eight");
     list.addParam(SaveFileParameter(k_file, QString::fromStdString(outfit_beside(body).string()), "*.glb", "Outfit",
                                     "A .glb or .vrm file; without a name: man.outfit.glb beside man.ply"));
 }

@@ -17,7 +17,7 @@ namespace garmentfit::meshlab {
 inline const QString k_body = "body", k_worn = "worn", k_file = "file", k_unit = "unit", k_up = "up", k_front = "front",
                      k_garment_unit = "garment_unit", k_garment_up = "garment_up", k_bone = "shown_bone",
                      k_map = "shown_map", k_outfit_bones = "bones", k_body_file = "body_file",
-                     k_hide_covered_skin = "hide_covered_skin";
+                     k_hide_covered_skin = "hide_covered_skin", k_influences = "influences";
 inline const QString k_garment_fronts[] = { "garment_front", "second_garment_front", "third_garment_front" };
 inline const QString k_garments[] = { "garment", "second_garment", "third_garment" };
 inline const QString k_types[] = { "type", "second_type", "third_type" };
@@ -39,6 +39,14 @@ inline std::vector<std::string_view> outfit_bones()
     for (const auto& [name, set] : bone_name_sets())
         names.push_back(name);
     names.push_back(k_own_bones);
+    return names;
+}
+
+inline std::vector<std::string_view> influences()
+{
+    std::vector<std::string_view> names;
+    for (const auto& [name, count] : influence_choices())
+        names.push_back(name);
     return names;
 }
 

@@ -138,8 +138,9 @@ Report save_outfit(const Choice& choice, const MeshDocument& document)
         garments.push_back(
             { fitting->garment_names[i],
               look_of_file(fitting->garment_files.at(i), fitting->scene.garments[i].mesh.triangles, report) });
-    const OutfitRequest request { choice.file, choice.outfit_bones, choice.hide_covered_skin,
-                                  avatar_of(choice, *fitting, report) };
+    OutfitRequest request { choice.file, choice.outfit_bones, choice.hide_covered_skin,
+                            avatar_of(choice, *fitting, report) };
+    request.influences = choice.influences;
     OutfitPart wearer { fitting->body_name };
     if (!is_on_avatar(request))  // else its file is kept as it is
         wearer.look = look_of_file(choice.body->fullName().toStdString(), body.triangles, report);

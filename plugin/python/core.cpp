@@ -145,7 +145,7 @@ void bind_scene(nb::module_& m)
              "sizes"_a, "name"_a, "find"_a = nb::none())
         .def("set_body_file", &set_body_file, "file"_a, "left"_a.none())
         .def("set_garment_look", &set_garment_look, "file"_a, "left"_a.none())
-        .def("write_outfit", &write_outfit_of, "path"_a, "bones"_a, "hide_covered_skin"_a)
+        .def("write_outfit", &write_outfit_of, "path"_a, "bones"_a, "hide_covered_skin"_a, "influences"_a)
         .def("set_worn", &set_worn, "find"_a, "body"_a, "garments"_a)
         .def("run", &run, "filter"_a, "parameters"_a, "progress"_a.none())
         .def(

@@ -258,7 +258,7 @@ void set_garment_look(PythonScene& scene, const MeshFile& file, const StrippedBo
 }
 
 void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, const std::string& bones,
-                     bool hide_covered_skin)
+                     bool hide_covered_skin, int influences)
 {
     const auto part = [](std::string name, const std::shared_ptr<const Appearance>& look) {
         return OutfitPart { std::move(name), look ? *look : Appearance() };
@@ -268,6 +268,7 @@ void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, co
         garments.push_back(part(std::filesystem::path(s.names[i]).stem().string(),
                                 i < s.garment_looks.size() ? s.garment_looks[i] : nullptr));
     OutfitRequest request { path, bone_names_called(bones), hide_covered_skin };
+    request.influences = influences;
     const nb::gil_scoped_release other_threads_run;
     if (s.body_file && !request.bones)
         request.avatar = avatar_in(*s.body_file, s.body_frame);

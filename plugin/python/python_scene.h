@@ -64,7 +64,7 @@ void set_garment_look(PythonScene& scene, const MeshFile& file, const StrippedBo
 /// Body and garments as one skinned file that other programs can pose. Other Python threads run meanwhile.
 /// @throws InvalidInput.
 void write_outfit_of(const PythonScene& scene, const std::filesystem::path& path, const std::string& bones,
-                     bool hide_covered_skin);
+                     bool hide_covered_skin, int influences);
 
 /// Runs a filter of the table on a copy. Other Python threads run meanwhile; progress(fraction, stage) returns False to
 /// stop.

@@ -379,6 +379,10 @@ TEST_F(CommandLine, WritesNoOutfitOfAGarmentThatIsTooSmallAndNoneOfAnotherFormat
         { "dress", k_body, k_skirt, "--outfit", folder / "outfit.glb", "--bones", "nobody", "-o", folder / "result" });
     EXPECT_EQ(unknown.code, 2);
     EXPECT_NE(unknown.err.find("mixamo"), std::string::npos) << unknown.err;
+    const Ended many = run({ "dress", k_body, k_skirt, "--outfit", folder / "outfit.glb", "--influences", "nine", "-o",
+                             folder / "result" });
+    EXPECT_EQ(many.code, 2);
+    EXPECT_NE(many.err.find("four or eight"), std::string::npos) << many.err;
     const Ended small = run({ "dress", k_body, k_skirt, "--type", "skirt", "--garment-scale", "0.5", "--outfit",
                               folder / "outfit.glb", "-o", folder / "result" });
     EXPECT_NE(small.code, 0);
@@ -646,10 +650,12 @@ TEST_F(Slow, DressesInLayersThatItFindsAndKeepsTheOrderGiven)
     const auto report = nlohmann::json::parse(ended.out);
     EXPECT_EQ(report.at("garments").at(0).at("file"), "coat.ply");
     EXPECT_EQ(report.at("garments").at(0).at("layer"), 1);
-    const Ended back = run({ "recover", draped, "--recovery-settling-steps", "2", "--quality", "draft", "--outfit",
-                             folder / "outfit.glb", "--hide-covered-skin", "-o", folder / "dressed" });
+    const Ended back
+        = run({ "recover", draped, "--recovery-settling-steps", "2", "--quality", "draft", "--outfit",
+                folder / "outfit.glb", "--hide-covered-skin", "--influences", "eight", "-o", folder / "dressed" });
     ASSERT_EQ(back.code, 0) << back.err;
     EXPECT_NE(read_text(folder / "outfit.glb").find("_COVERED"), std::string::npos);
+    EXPECT_NE(read_text(folder / "outfit.glb").find("JOINTS_1"), std::string::npos) << "of the coat";
     const auto whole = garmentfit::MeshFile::read(folder / "dressed" / "body.ply");
     const auto outfit = garmentfit::MeshFile::read(folder / "outfit.glb");
     const Eigen::Index of_body = (outfit.triangles().rowwise().maxCoeff().array() < whole.positions().rows()).count();

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "fixtures.h"
+#include "garmentfit/error.h"
 #include "garmentfit/filters/snapshot.h"
 #include "temporary_folder.h"
 
@@ -36,11 +37,13 @@ struct OutfitOnAnAvatar : TemporaryFolder {
     }
 
     /// All weights of the outfit, those of the body first.
-    Eigen::MatrixXd weights_of_outfit(const Scene& scene, const std::string& name) const
+    Eigen::MatrixXd weights_of_outfit(const Scene& scene, const std::string& name,
+                                      const std::optional<BoneNames>& bones = {},
+                                      int influences = k_few_influences) const
     {
-        const OutfitRequest request {
-            folder / name, {}, false, avatar_of_body(folder / "woman.glb", scene.body->surface.positions, {})
-        };
+        OutfitRequest request { folder / name, bones, false,
+                                avatar_of_body(folder / "woman.glb", scene.body->surface.positions, {}) };
+        request.influences = influences;
         write_outfit(scene, { "body" }, { { "cuff" } }, request);
         return read_joint_weights(folder / name);
     }
@@ -63,6 +66,28 @@ TEST_F(OutfitOnAnAvatar, IsTheSameInWhateverOrderTheBodyHasItsVertices)
     EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-6);
     const Eigen::MatrixXd given = read_joint_weights(folder / "woman.glb");
     EXPECT_LT((weights.topRows(n) - given).cwiseAbs().maxCoeff(), 1e-6) << "the file's body stays as it is";
+}
+
+TEST_F(OutfitOnAnAvatar, HasAsManyInfluencesAsAsked)
+{
+    std::vector<int> all(std::size_t(n), 0);
+    std::iota(all.begin(), all.end(), 0);
+    const Scene scene = dressed(all);  // the skin under the cuff hangs on all bones, each vertex on others
+    const auto most_joints = [&](const std::optional<BoneNames>& bones, int influences) {
+        const Eigen::MatrixXd weights = weights_of_outfit(scene, "outfit.glb", bones, influences);
+        return (weights.bottomRows(weights.rows() - n).array() > 0).rowwise().count().maxCoeff();
+    };
+    for (const std::optional<BoneNames>& bones : { std::optional<BoneNames>(), std::optional(BoneNames::unreal) }) {
+        EXPECT_EQ(most_joints(bones, k_few_influences), 4);
+        EXPECT_EQ(most_joints(bones, k_many_influences), 8);
+    }
+}
+
+TEST(Influences, AreCalledByWords)
+{
+    EXPECT_EQ(influences_called("four"), 4);
+    EXPECT_EQ(influences_called("eight"), 8);
+    EXPECT_THROW(influences_called("8 "), InvalidInput);
 }
 
 }  // namespace

@@ -208,4 +208,22 @@ TEST_F(DressedAvatar, WithoutItsPicturesIsAGoodFileThatSaysSo)
     EXPECT_TRUE(MeshFile::read(folder / "out.glb").warnings().empty());
 }
 
+TEST_F(DressedAvatar, KeepsTheEightStrongestJointsOfAVertex)
+{
+    AvatarGarment garment = garment_on(4);
+    for (Eigen::Index v = 0; v < garment.weights.rows(); ++v)
+        for (int k = 0; k < 10; ++k)
+            garment.weights.coeffRef(v, k) = (k + 1) / 55.0;
+    write_dressed_avatar(folder / "out.glb", folder / "avatar.glb", { garment });
+    const JointWeights read = read_joint_weights(folder / "out.glb");
+    for (Eigen::Index v = read.rows() - garment.weights.rows(); v < read.rows(); ++v) {
+        ASSERT_EQ(read.row(v).nonZeros(), 8);
+        ASSERT_NEAR(read.row(v).sum(), 1, 1e-6);
+        double largest = 0;
+        for (JointWeights::InnerIterator entry(read, v); entry; ++entry)
+            largest = std::max(largest, entry.value());
+        ASSERT_NEAR(largest, 10 / 52.0, 1e-6) << "what the two weakest had goes to the others";
+    }
+}
+
 }  // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -7,6 +9,7 @@
 
 #include "file_bytes.h"
 #include "fixtures.h"
+#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 #include "gltf_container.h"
@@ -127,7 +130,7 @@ TEST_F(OutfitGlb, HandsAndFeetMoveTheirSkinAndNoVertexHasAJointTwice)
     for (const BoneNames names : { BoneNames::vrm, BoneNames::mixamo, BoneNames::unreal, BoneNames::smpl }) {
         const JointTree tree = joint_tree(model.rig.skeleton, names);
         const FileWeights weights
-            = file_weights(tree, model.rig.skeleton, model.person.mesh.positions, model.rig.weights);
+            = file_weights(tree, model.rig.skeleton, model.person.mesh.positions, joint_weights_of(model.rig.weights));
         double of_hand = 0;
         const int hand = tree.extremities[lhand_tip], forearm = tree.joint_of[lradius];
         ASSERT_GE(hand, 0);
@@ -148,6 +151,59 @@ TEST_F(OutfitGlb, HandsAndFeetMoveTheirSkinAndNoVertexHasAJointTwice)
         }
         EXPECT_GT(of_hand, 1);
     }
+}
+
+/// Of six bones each, the later ones with larger weights.
+JointWeights of_six_bones(Eigen::Index vertices)
+{
+    JointWeights weights(vertices, bone_count);
+    for (Eigen::Index v = 0; v < vertices; ++v)
+        for (int k = 0; k < 6; ++k)
+            weights.insert(v, lowerback + k) = (k + 1) / 21.0;
+    return weights;
+}
+
+TEST_F(OutfitGlb, HasAsManyJointsAVertexAsAMeshBrings)
+{
+    Model model;
+    model.meshes.push_back({ .name = "cloth", .surface = model.person.mesh, .weights = model.rig.weights });
+    model.meshes.back().more_weights = of_six_bones(model.person.mesh.positions.rows());
+    write_outfit_glb(folder / "outfit.glb", model.rig, model.meshes);
+    const Json meshes = json_of(folder / "outfit.glb").at("meshes");
+    EXPECT_FALSE(meshes[0].at("primitives")[0].at("attributes").contains("JOINTS_1")) << "four are enough";
+    for (const char* name : { "JOINTS_0", "WEIGHTS_0", "JOINTS_1", "WEIGHTS_1" })
+        EXPECT_TRUE(meshes[1].at("primitives")[0].at("attributes").contains(name)) << name;
+
+    const Eigen::MatrixXd read = read_joint_weights(folder / "outfit.glb"), given = model.meshes.back().more_weights;
+    const Eigen::MatrixXd of_cloth = read.bottomRows(given.rows());
+    for (Eigen::Index v = 0; v < given.rows(); ++v) {
+        Eigen::VectorXd expected = given.row(v), found = of_cloth.row(v);
+        std::sort(expected.begin(), expected.end(), std::greater<>());
+        std::sort(found.begin(), found.end(), std::greater<>());
+        ASSERT_LT((found.head(bone_count) - expected).cwiseAbs().maxCoeff(), 1e-6) << v;
+    }
+}
+
+TEST_F(OutfitGlb, PutsTheStrongestJointsFirst)
+{
+    const Model model;
+    const JointTree tree = joint_tree(model.rig.skeleton, BoneNames::mixamo);
+    const Positions places = model.person.mesh.positions.topRows(3);
+    const FileWeights weights = file_weights(tree, model.rig.skeleton, places, of_six_bones(3));
+    ASSERT_EQ(weights.weights.cols(), 8);
+    for (Eigen::Index v = 0; v < 3; ++v) {
+        EXPECT_NEAR(weights.weights.row(v).sum(), 1, 1e-12);
+        for (int k = 1; k < 8; ++k)
+            EXPECT_GE(weights.weights(v, k - 1), weights.weights(v, k));
+    }
+}
+
+TEST_F(OutfitGlb, RefusesWeightsOfAnotherMesh)
+{
+    Model model;
+    model.meshes[0].more_weights = of_six_bones(3);
+    EXPECT_THROW(write_outfit_glb(folder / "outfit.glb", model.rig, model.meshes), InvalidInput);
+    EXPECT_FALSE(std::filesystem::exists(folder / "outfit.glb"));
 }
 
 }  // namespace

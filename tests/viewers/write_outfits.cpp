@@ -73,6 +73,10 @@ void write_all(const fs::path& folder)
                                                       { "vrm.vrm", BoneNames::vrm } };
     for (const auto& [name, bones] : files)
         write_outfit_glb(folder / name, rig, meshes, { .names = bones });
+    SkinnedMesh& worn = meshes[1];
+    worn.more_weights = garment_weights(person.mesh, joint_weights_of(rig.weights), garment, cloth.positions,
+                                        { .joints_per_vertex = 8 });
+    write_outfit_glb(folder / "eight.glb", rig, meshes);
 
     write_outfit_glb(folder / "avatar.vrm", rig, { meshes[0] }, { .names = BoneNames::vrm });
     const JointWeights weights = read_joint_weights(folder / "avatar.vrm");

@@ -216,7 +216,7 @@ class Dressing(_Result):
         return [Frame(*frame) for frame in self._scene.frames()]
 
     def write_outfit(self, path: Union[str, "os.PathLike[str]"], *, bones: str = "own",
-                     hide_covered_skin: bool = False) -> None:
+                     hide_covered_skin: bool = False, influences: int = 4) -> None:
         """Writes body and clothes as one skinned GLB, or VRM by its name: one skeleton, and weights for all meshes, so
         that other programs can pose them. Meshes from read_mesh keep their UVs, materials and textures.
 
@@ -224,9 +224,10 @@ class Dressing(_Result):
         file, with its animations and all else, where that is a skinned glTF or GLB from read_mesh; else garmentfit.
         hide_covered_skin: leaves out faces of the body that the clothes cover in all poses of everyday movement, and
         draws in skin under cloth by up to 6 cm (of an adult), but on an avatar's own bones.
+        influences: at most so many joints move a vertex of the clothes: four, which all programs read, or up to eight.
         Only of a certified result in the body's own pose (dress, recover_pose).
         """
-        self._scene.write_outfit(Path(path), bones, hide_covered_skin)
+        self._scene.write_outfit(Path(path), bones, hide_covered_skin, influences)
 
 
 def _dressed(garment: Mapping[str, Any]) -> DressedGarment:

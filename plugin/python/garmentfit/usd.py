@@ -153,10 +153,12 @@ def _add_skeleton(stage: Any, glb: Glb, index: int) -> Tuple[str, npt.NDArray[np
 def _bind(glb: Glb, mesh: Any, attributes: Dict[str, int], skeleton: Tuple[str, npt.NDArray[np.int64]]) -> None:
     place, rows = skeleton
     binding = UsdSkel.BindingAPI.Apply(mesh.GetPrim())
-    indices = rows[glb.array(attributes["JOINTS_0"]).astype(int)]
-    weights = glb.array(attributes["WEIGHTS_0"]).astype(np.float32)
-    binding.CreateJointIndicesPrimvar(False, 4).Set(Vt.IntArray.FromNumpy(indices.astype(np.int32).reshape(-1)))
-    binding.CreateJointWeightsPrimvar(False, 4).Set(Vt.FloatArray.FromNumpy(weights.reshape(-1)))
+    sets = [name[-1] for name in sorted(attributes) if name.startswith("JOINTS_")]
+    indices = rows[np.hstack([glb.array(attributes[f"JOINTS_{each}"]) for each in sets]).astype(int)]
+    weights = np.hstack([glb.array(attributes[f"WEIGHTS_{each}"]) for each in sets]).astype(np.float32)
+    count = indices.shape[1]
+    binding.CreateJointIndicesPrimvar(False, count).Set(Vt.IntArray.FromNumpy(indices.astype(np.int32).reshape(-1)))
+    binding.CreateJointWeightsPrimvar(False, count).Set(Vt.FloatArray.FromNumpy(weights.reshape(-1)))
     binding.CreateGeomBindTransformAttr(Gf.Matrix4d(1))
     binding.CreateSkeletonRel().SetTargets([place])
 
@@ -284,8 +286,6 @@ def _lost(glb: Glb) -> List[str]:
         lines.append("animations are left out")
     if any("targets" in each for each in primitives):
         lines.append("morph targets are left out")
-    if any("JOINTS_1" in each["attributes"] for each in primitives):
-        lines.append("weights beyond four of a vertex are left out")
     lines += [f"{name} is left out" for name in sorted(set(others))]
     if glb.json.get("extensions"):
         lines.append("extensions are left out: " + ", ".join(glb.json["extensions"]))

@@ -232,6 +232,16 @@ def test_an_outfit_is_one_skinned_file(dressed, body, tmp_path):
         len(body.positions)
 
 
+def test_an_outfit_has_as_many_influences_as_asked(dressed, tmp_path):
+    for influences in 4, 8:
+        dressed.write_outfit(tmp_path / "outfit.glb", influences=influences)
+        body, skirt = (mesh["primitives"][0]["attributes"] for mesh in _glb_json(tmp_path / "outfit.glb")["meshes"])
+        assert ("JOINTS_1" in skirt, "JOINTS_1" in body) == (influences == 8, False)
+    with pytest.raises(garmentfit.InvalidInput, match="1 to 8 joints"):
+        dressed.write_outfit(tmp_path / "many.glb", influences=9)
+    assert not (tmp_path / "many.glb").exists()
+
+
 def _write_glb(path, text, rest):
     chunk = json.dumps(text).encode()
     chunk += b" " * (-len(chunk) % 4)

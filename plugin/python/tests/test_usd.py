@@ -44,8 +44,10 @@ def skinned(glb, node, turns):
     moves = np.array([world(joint) @ bind for joint, bind in zip(skin["joints"], binds)])
     attributes = {name: glb.array(index) for name, index in primitive["attributes"].items()}
     places = np.c_[attributes["POSITION"], np.ones(len(attributes["POSITION"]))]
-    per_joint = np.einsum("vkij,vj->vki", moves[attributes["JOINTS_0"].astype(int)], places)
-    return np.einsum("vk,vki->vi", attributes["WEIGHTS_0"], per_joint)[:, :3]
+    joints, weights = (np.hstack([attributes[name] for name in sorted(attributes) if name.startswith(what)])
+                       for what in ("JOINTS_", "WEIGHTS_"))
+    per_joint = np.einsum("vkij,vj->vki", moves[joints.astype(int)], places)
+    return np.einsum("vk,vki->vi", weights, per_joint)[:, :3]
 
 
 def posed_by_usd(stage, place, turns):
@@ -67,8 +69,9 @@ def posed_by_usd(stage, place, turns):
     return np.array(points)
 
 
-def test_usd_poses_an_outfit_as_the_glb_does(dressed, tmp_path):
-    dressed.write_outfit(tmp_path / "outfit.glb", hide_covered_skin=True)
+@pytest.mark.parametrize("influences", [4, 8])
+def test_usd_poses_an_outfit_as_the_glb_does(dressed, tmp_path, influences):
+    dressed.write_outfit(tmp_path / "outfit.glb", hide_covered_skin=True, influences=influences)
     assert convert_outfit(tmp_path / "outfit.glb", tmp_path / "outfit.usdc") == []
     stage, glb = Usd.Stage.Open(str(tmp_path / "outfit.usdc")), Glb(tmp_path / "outfit.glb")
     assert UsdGeom.GetStageMetersPerUnit(stage) == 1 and UsdGeom.GetStageUpAxis(stage) == "Y"

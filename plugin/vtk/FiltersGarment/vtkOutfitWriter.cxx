@@ -67,6 +67,7 @@ void vtkOutfitWriter::WriteData()
         if (!body || !garments)
             throw InvalidInput(ErrorCode::missing_input, "connect a dressed body to port 0 and its garments to port 1");
         OutfitRequest request { this->FileName, bone_names_called(this->Bones), this->HideCoveredSkin };
+        request.influences = this->Influences;
         require_own_pose(*body);
         KnownScene known = scene_of_dressed(*body, *garments);
         if (!request.bones && !this->BodyFileName.empty()) {
@@ -100,4 +101,5 @@ void vtkOutfitWriter::PrintSelf(ostream& os, vtkIndent indent)
     os << indent << "BodyFileName: " << this->BodyFileName << "\n";
     os << indent << "Bones: " << this->Bones << "\n";
     os << indent << "HideCoveredSkin: " << this->HideCoveredSkin << "\n";
+    os << indent << "Influences: " << this->Influences << "\n";
 }

@@ -72,6 +72,15 @@ public:
     vtkBooleanMacro(HideCoveredSkin, bool);
     ///@}
 
+    ///@{
+    /**
+   * At most so many joints move a vertex of the garments: 4 (default), which all programs read, up to 8, in a second set
+   * of joints and weights.
+   */
+    vtkSetClampMacro(Influences, int, 1, 8);
+    vtkGetMacro(Influences, int);
+    ///@}
+
 protected:
     vtkOutfitWriter();
     ~vtkOutfitWriter() override = default;
@@ -87,6 +96,7 @@ private:
     std::string BodyFileName;
     std::string Bones = "own";
     bool HideCoveredSkin = false;
+    int Influences = 4;
 };
 
 #endif

@@ -21,6 +21,9 @@ struct OutfitPart {
     Appearance look {};  ///< of the triangles of the mesh in the scene; empty where nothing is known
 };
 
+/// Joints that move a vertex of the clothes, at most: what all programs read, and two sets of that.
+constexpr int k_few_influences = 4, k_many_influences = 8;
+
 struct OutfitRequest {
     std::filesystem::path path;  ///< ends in .glb, or in .vrm, which has the joints of VRM whatever `bones` says
     std::optional<BoneNames> bones = {};  ///< none: the avatar's own, or garmentfit without one
@@ -29,6 +32,7 @@ struct OutfitRequest {
     bool hide_covered_skin = false;
     std::optional<AvatarFile> avatar = {};  ///< whose file the body was read from, where it has a skin
     bool is_stripped = false;  ///< vertices of the body without faces are clothes that its file is to lose
+    int influences = k_few_influences;  ///< joints that move a vertex of the clothes, at most; or k_many_influences
 };
 
 /// The name of no set: the joints are those of the body's file.
@@ -39,6 +43,12 @@ const std::vector<std::pair<std::string, BoneNames>>& bone_name_sets();
 
 /// None for k_own_bones. @throws InvalidInput naming the sets that there are.
 std::optional<BoneNames> bone_names_called(const std::string& name);
+
+/// "four" and "eight".
+const std::vector<std::pair<std::string, int>>& influence_choices();
+
+/// @throws InvalidInput naming the choices.
+int influences_called(const std::string& name);
 
 /// Whether the outfit is the avatar's file with clothes added, which keeps all that it says of the body.
 bool is_on_avatar(const OutfitRequest& request);

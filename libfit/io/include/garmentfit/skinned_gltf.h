@@ -22,6 +22,9 @@ struct SkinnedMesh {
     Appearance look {};  ///< of the triangles of `surface`
     std::vector<char> covered {};  ///< of each vertex, whether clothes cover it: attribute _COVERED, 1 or 0. Or empty
     bool hides_covered = false;  ///< leaves out faces of which all corners are covered, unless all are
+    /// A row for each vertex and a column for each bone, instead of `weights`: for more than four bones a vertex, of
+    /// which the file has the eight largest. Or empty.
+    JointWeights more_weights {};
 };
 
 /// Whose names the joints have, and which joints there are. Other than garmentfit: hips, the spine's three, neck, head,
@@ -78,7 +81,7 @@ GARMENTFIT_API bool is_vrm(const std::filesystem::path& path);
 struct AvatarGarment {
     std::string name;
     TriangleMesh surface;  ///< on the avatar as MeshFile shows it, in its units and axes
-    JointWeights weights;  ///< over the columns of read_joint_weights; the four largest of a vertex count
+    JointWeights weights;  ///< over the columns of read_joint_weights; the eight largest of a vertex count
     Appearance look {};  ///< of the triangles of `surface`
 };
 

@@ -24,6 +24,12 @@ namespace garmentfit {
 /// Vertices x joints of any skeleton. Rows are non-negative and sum to 1.
 using JointWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// The same weights as a column for each bone.
+GARMENTFIT_API JointWeights joint_weights_of(const SkinWeights& weights);
+
+/// The four largest of each row, largest first, scaled to sum to 1. @pre The columns are bones.
+GARMENTFIT_API SkinWeights skin_weights_of(const JointWeights& weights);
+
 struct GarmentWeightOptions {
     /// Degrees between the normals of skin and cloth: skin of this angle no longer draws cloth.
     double largest_angle = 60;  // fitted: guess, on pairs of docs/outfits.md; 73 and 90 are worse in skirts and coats

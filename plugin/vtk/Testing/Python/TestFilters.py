@@ -230,6 +230,15 @@ class Outfits(unittest.TestCase):
             self.assertIn("JOINTS_0", attributes)
         self.assertNotIn("TEXCOORD_0", body)
         self.assertIn("TEXCOORD_0", skirt)
+        self.assertNotIn("JOINTS_1", skirt)
+
+    def test_more_joints_may_move_a_vertex(self):
+        self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
+        self.writer.SetInputConnection(1, self.dress.GetOutputPort(1))
+        self.writer.SetInfluences(9)
+        self.assertEqual(self.writer.GetInfluences(), 8)
+        self.assertEqual(self.writer.Write(), 1, self.messages)
+        self.assertIn("JOINTS_1", self.outfit()["meshes"][1]["primitives"][0]["attributes"])
 
     def test_what_was_kept_in_files_is_written_alike(self):
         self.writer.SetInputConnection(0, self.dress.GetOutputPort(0))
