@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 #include "glb_skinned_mesh.h"
+#include "gltf_append.h"
 #include "gltf_container.h"
 #include "gltf_model.h"
 #include "gltf_scene.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
+#include "tidy_skin.h"
 
 namespace garmentfit {
 namespace {
@@ -32,21 +33,17 @@ struct Avatar {
     }
 };
 
-std::size_t count_of(const ordered_json& json, const char* list) { return json.contains(list) ? json[list].size() : 0; }
-
 // ---- weights -------------------------------------------------------------------------------------------------------
 
-JointWeights joint_weights(const FileBytes& file, const FileSkin& skin)
+JointWeights joint_weights(const FileSkin& skin)
 {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t v = 0; v < skin.hangs.size(); ++v) {
         double sum = 0;
         for (const auto& [joint, weight] : skin.hangs[v])
-            sum += std::max(weight, 0.0);
-        if (!std::isfinite(sum))
-            file.fail("vertex " + std::to_string(v) + " has a weight without a limit; export the weights again");
+            sum += positive(weight);
         for (const auto& [joint, weight] : skin.hangs[v])
-            if (weight > 0)
+            if (positive(weight) > 0)
                 entries.emplace_back(int(v), joint, weight / sum);
     }
     JointWeights weights(Eigen::Index(skin.hangs.size()), Eigen::Index(skin.nodes.size()));
@@ -83,85 +80,7 @@ void require_rows(const std::vector<AvatarGarment>& garments, std::size_t joints
                                    + " joints; give a row for each vertex and a column for each joint");
 }
 
-// ---- one model more in a file --------------------------------------------------------------------------------------
-
-void shift(ordered_json& object, const char* member, std::size_t by)
-{
-    if (object.contains(member))
-        object[member] = object[member].get<std::size_t>() + by;
-}
-
-/// Textures of a material and of its parts.
-void shift_textures(ordered_json& material, std::size_t by)
-{
-    for (auto& [name, value] : material.items())
-        if (value.is_object()) {
-            if (name.ends_with("Texture"))
-                shift(value, "index", by);
-            shift_textures(value, by);
-        }
-}
-
-/// Makes what the lists of `added` refer to follow after what `json` has.
-void shift_references(const ordered_json& json, std::size_t buffer_bytes, ordered_json& added)
-{
-    const std::size_t views = count_of(json, "bufferViews"), accessors = count_of(json, "accessors"),
-                      images = count_of(json, "images"), textures = count_of(json, "textures"),
-                      materials = count_of(json, "materials");
-    const auto each = [&](const char* list, auto change) {
-        if (added.contains(list))
-            for (ordered_json& item : added[list])
-                change(item);
-    };
-    each("bufferViews",
-         [&](ordered_json& view) { view["byteOffset"] = view.value("byteOffset", std::size_t(0)) + buffer_bytes; });
-    each("accessors", [&](ordered_json& accessor) { shift(accessor, "bufferView", views); });
-    each("images", [&](ordered_json& image) { shift(image, "bufferView", views); });
-    each("textures", [&](ordered_json& texture) { shift(texture, "source", images); });
-    each("materials", [&](ordered_json& material) { shift_textures(material, textures); });
-    each("meshes", [&](ordered_json& mesh) {
-        for (ordered_json& primitive : mesh["primitives"]) {
-            for (auto& [name, accessor] : primitive["attributes"].items())
-                accessor = accessor.get<std::size_t>() + accessors;
-            shift(primitive, "indices", accessors);
-            shift(primitive, "material", materials);
-        }
-    });
-}
-
-/// VRM 0.x wants an entry for each material.
-void add_vrm0_materials(ordered_json& json, const ordered_json& materials)
-{
-    if (!json.contains("extensions") || !json["extensions"].contains("VRM")
-        || !json["extensions"]["VRM"].contains("materialProperties"))
-        return;
-    const ordered_json none = ordered_json::object();
-    for (const ordered_json& material : materials)
-        json["extensions"]["VRM"]["materialProperties"].push_back({ { "name", material.value("name", "") },
-                                                                    { "shader", "VRM_USE_GLTFSHADER" },
-                                                                    { "renderQueue", -1 },
-                                                                    { "floatProperties", none },
-                                                                    { "vectorProperties", none },
-                                                                    { "textureProperties", none },
-                                                                    { "keywordMap", none },
-                                                                    { "tagMap", none } });
-}
-
-/// Appends buffer, accessors, materials, pictures and meshes.
-void append_model(GltfContainer& container, GltfContainer added)
-{
-    std::string& buffer = *container.own_buffer();
-    buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
-    shift_references(container.json, buffer.size(), added.json);
-    buffer += *added.own_buffer();
-    container.json["buffers"][0]["byteLength"] = buffer.size();
-    if (added.json.contains("materials"))
-        add_vrm0_materials(container.json, added.json["materials"]);
-    for (const char* list : { "bufferViews", "accessors", "images", "textures", "materials", "meshes" })
-        if (added.json.contains(list))
-            for (ordered_json& item : added.json[list])
-                container.json[list].push_back(std::move(item));
-}
+// ---- the file ----------------------------------------------------------------------------------------------------------
 
 /// GLB with a single buffer.
 void make_binary(Avatar& avatar)
@@ -216,23 +135,6 @@ void add_garments(GltfContainer& container, const FileSkin& skin, const std::vec
 
 // ---- covered skin --------------------------------------------------------------------------------------------------
 
-/// Adds an accessor with values of its own. @return its index
-template <class Number, class Matrix>
-std::size_t add_accessor(GltfContainer& container, const Matrix& values, int target)
-{
-    GlbModel glb;
-    glb.add<Number>(values, TINYGLTF_TYPE_SCALAR, target);
-    append_model(container, read_gltf_container({ "covered", glb.file() }));
-    return count_of(container.json, "accessors") - 1;
-}
-
-ordered_json& primitive_in(ordered_json& json, const tinygltf::Model& model, const GltfSurface& surface)
-{
-    const std::size_t mesh = std::size_t(model.nodes[std::size_t(surface.node)].mesh);
-    const auto row = surface.primitive - model.meshes[mesh].primitives.data();
-    return json["meshes"][mesh]["primitives"][std::size_t(row)];
-}
-
 /// What a surface shows once covered faces are left out. One of them stays where no other is left: glTF knows no empty
 /// mesh, and expressions may refer to it.
 Triangles shown_faces(const Avatar& avatar, const GltfSurface& surface, const Eigen::VectorXf& covered)
@@ -267,13 +169,14 @@ void hide_covered(Avatar& avatar, const std::vector<char>& covered)
             for (Eigen::Index v = 0; v < mask.values.size(); ++v)
                 mask.values[v] = covered[first + std::size_t(v)];
             first += surface.positions.count;
-            mask.accessor = add_accessor<float>(avatar.container, mask.values, TINYGLTF_TARGET_ARRAY_BUFFER);
+            mask.accessor = add_accessor<float>(avatar.container, mask.values, TINYGLTF_TYPE_SCALAR,
+                                                TINYGLTF_TARGET_ARRAY_BUFFER);
         }
         const Triangles shown = shown_faces(avatar, surface, mask.values);
         if (shown.rows() == 0)
             continue;
-        const std::size_t indices
-            = add_accessor<std::uint32_t>(avatar.container, shown, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        const std::size_t indices = add_accessor<std::uint32_t>(avatar.container, shown, TINYGLTF_TYPE_SCALAR,
+                                                                TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         ordered_json& primitive = primitive_in(avatar.container.json, avatar.model, surface);
         primitive["attributes"]["_COVERED"] = mask.accessor;
         primitive["indices"] = indices;
@@ -286,7 +189,7 @@ void hide_covered(Avatar& avatar, const std::vector<char>& covered)
 JointWeights read_joint_weights(const std::filesystem::path& path)
 {
     const Avatar avatar(path);
-    return joint_weights(avatar.file, read_skin(avatar.file, avatar.model));
+    return joint_weights(read_skin(avatar.file, avatar.model));
 }
 
 bool is_vrm(const std::filesystem::path& path)
@@ -310,6 +213,8 @@ void write_dressed_avatar(const std::filesystem::path& path, const std::filesyst
         embed_pictures(avatar.container.json, avatar_path.parent_path());
         fill_missing_pictures(avatar.container.json);
         make_binary(avatar);
+        move_pictures_into_buffer(avatar.container);
+        tidy_weights(avatar.container, avatar.file, avatar.model, skin, joint_weights(skin));
         if (!covered.empty())
             hide_covered(avatar, covered);
         add_garments(avatar.container, skin, garments);

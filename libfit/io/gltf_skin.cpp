@@ -14,8 +14,7 @@ namespace {
 
 bool has_weight(const std::vector<std::pair<int, double>>& hang)
 {
-    return std::any_of(hang.begin(), hang.end(),
-                       [](const auto& joint) { return joint.second > 0 && std::isfinite(joint.second); });
+    return std::any_of(hang.begin(), hang.end(), [](const auto& joint) { return positive(joint.second) > 0; });
 }
 
 // Hats beside the skeleton's tree, and vertices that an exporter left out of its weights, follow what they lie at.
@@ -260,6 +259,24 @@ private:
 };
 
 }  // namespace
+
+double positive(double weight) { return weight > 0 && std::isfinite(weight) ? weight : 0; }
+
+int count_unnormalized(const FileSkin& skin)
+{
+    constexpr double k_precision = 0.01;  // unit: more than the rounding of four weights of a byte each
+    int count = 0;
+    for (int v = 0; v < int(skin.hangs.size()); ++v) {
+        double sum = 0, least = 0;
+        for (const auto& [joint, weight] : skin.hangs[std::size_t(v)]) {
+            sum += weight;
+            least = std::min(least, weight);
+        }
+        const bool is_loose = std::binary_search(skin.loose.begin(), skin.loose.end(), v);
+        count += !is_loose && (!(std::abs(sum - 1) < k_precision) || least < -k_precision);
+    }
+    return count;
+}
 
 FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model, NodesBelow below)
 {

@@ -27,6 +27,12 @@ struct FileSkin {
     std::vector<int> loose;  ///< vertices that hung on no joint, ascending
 };
 
+/// A weight as it counts: none where it is negative or no number.
+double positive(double weight);
+
+/// Vertices of which weights are negative or no numbers, or do not sum to 1. Those without any are `loose`.
+int count_unnormalized(const FileSkin& skin);
+
 /// Nodes below the last joints hold no skin, and are a hand, foot or head that an exporter left out of the skin as it has
 /// no weight, or the goal, weapon or camera of an animator.
 enum class NodesBelow { left_out, taken };

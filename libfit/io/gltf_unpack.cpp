@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -278,6 +279,8 @@ private:
                 fail(std::string("a value of ") + k_draco + " does not fit its type");
             bytes.append(reinterpret_cast<const char*>(value.data()), components * sizeof(Number));
         }
+        if (std::is_same_v<Number, float> && (accessor.contains("min") || accessor.contains("max")))
+            write_bounds(accessor, bytes, components);  // those of the file are from before values were rounded
         place(accessor, std::move(bytes));
     }
 

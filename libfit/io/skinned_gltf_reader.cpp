@@ -90,7 +90,7 @@ UnnamedJoints unnamed(const FileSkin& skin)
                            std::vector<Vec3>(skin.places.size(), Vec3::Zero()) };
     for (std::size_t v = 0; v < skin.hangs.size(); ++v)
         for (const auto& [joint, weight] : skin.hangs[v])
-            if (weight > 0 && std::isfinite(weight) && skin.positions.row(Eigen::Index(v)).allFinite()) {
+            if (positive(weight) > 0 && skin.positions.row(Eigen::Index(v)).allFinite()) {
                 joints.masses[std::size_t(joint)] += weight;
                 joints.centres[std::size_t(joint)] += weight * Vec3(skin.positions.row(Eigen::Index(v)));
             }
@@ -121,7 +121,7 @@ public:
         place_limbs();
         place_spine();
         place_tips();
-        ForeignRig result { skeleton_, {}, int(skin_.loose.size()), by_tree_ };
+        ForeignRig result { skeleton_, {}, int(skin_.loose.size()), by_tree_, count_unnormalized(skin_) };
         std::vector<int> bones;  // k_pelvis for a joint that is none of the bones
         for (std::size_t j = 0; j < skin_.names.size(); ++j)
             bones.push_back(bone_for(int(j)));
@@ -268,15 +268,13 @@ private:
             sums[std::size_t(b)] = { 0, b };
         for (const auto& [joint, weight] : skin_.hangs[std::size_t(v)])
             if (const int b = bones[std::size_t(joint)]; b == k_pelvis) {
-                sums[lhipjoint].first += 0.5 * std::max(weight, 0.0);
-                sums[rhipjoint].first += 0.5 * std::max(weight, 0.0);
+                sums[lhipjoint].first += 0.5 * positive(weight);
+                sums[rhipjoint].first += 0.5 * positive(weight);
             } else {
-                sums[std::size_t(b)].first += std::max(weight, 0.0);
+                sums[std::size_t(b)].first += positive(weight);
             }
         std::stable_sort(sums.begin(), sums.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
         const double total = sums[0].first + sums[1].first + sums[2].first + sums[3].first;
-        if (!std::isfinite(total))
-            file_.fail("vertex " + std::to_string(v) + " has a weight without a limit; export the weights again");
         for (int k = 0; k < 4; ++k) {
             weights.bones(v, k) = sums[std::size_t(k)].second;
             weights.weights(v, k) = sums[std::size_t(k)].first / total;

@@ -129,6 +129,10 @@ Rig take_skinned(Session& session, const fs::path& glb, const ForeignRig& foreig
     if (foreign.loose_vertices > 0)
         session.warnings.push_back(glb.filename().string() + ": " + std::to_string(foreign.loose_vertices)
                                    + " vertices hang on no joint; they follow the nearest vertex that does");
+    if (foreign.unnormalized_vertices > 0)
+        session.warnings.push_back(glb.filename().string() + ": the weights of "
+                                   + std::to_string(foreign.unnormalized_vertices)
+                                   + " vertices do not sum to 1, or are negative or no numbers; they are scaled to 1");
     const auto in_metres = [&](const Vec3& p) { return Vec3(frame.to_metres(Positions(p.transpose())).row(0)); };
     Rig rig { foreign.skeleton, foreign.weights };
     rig.skeleton.root = in_metres(rig.skeleton.root);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstring>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -6,6 +9,7 @@
 
 #include "file_bytes.h"
 #include "fixtures.h"
+#include "garmentfit/error.h"
 #include "garmentfit/io.h"
 #include "garmentfit/skinned_gltf.h"
 #include "gltf_container.h"
@@ -184,6 +188,30 @@ TEST_F(DressedAvatar, RefusesWhatDoesNotBelongTogether)
     EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
 }
 
+/// A picture in the buffer of a GLB, where the format wants it.
+std::string picture_in(const std::filesystem::path& glb, std::size_t row)
+{
+    GltfContainer container = read_gltf_container(read_file(glb));
+    const Json image = container.json.at("images").at(row);
+    EXPECT_FALSE(image.contains("uri"));
+    EXPECT_EQ(image.at("mimeType"), "image/png");
+    const Json view = container.json.at("bufferViews").at(image.at("bufferView").get<std::size_t>());
+    return container.own_buffer()->substr(view.at("byteOffset"), view.at("byteLength"));
+}
+
+TEST_F(DressedAvatar, HasPicturesThatLayBesideItInItsBuffer)
+{
+    const std::string png = "\x89PNG\r\n\x1a\n is told by its start";
+    save("skin.png", png);
+    GltfContainer container = read_gltf_container(read_file(folder / "avatar.glb"));
+    container.json["images"] = { { { "uri", "skin.png" } } };
+    container.json["textures"] = { { { "source", 0 } } };
+    container.json["materials"] = { { { "pbrMetallicRoughness", { { "baseColorTexture", { { "index", 0 } } } } } } };
+    save("shown.glb", bytes_of(container));
+    write_dressed_avatar(folder / "out.glb", folder / "shown.glb", { garment_on(4) });
+    EXPECT_EQ(picture_in(folder / "out.glb", 0), png);
+}
+
 TEST_F(DressedAvatar, WithoutItsPicturesIsAGoodFileThatSaysSo)
 {
     GltfContainer container = read_gltf_container(read_file(folder / "avatar.glb"));
@@ -198,14 +226,63 @@ TEST_F(DressedAvatar, WithoutItsPicturesIsAGoodFileThatSaysSo)
     EXPECT_EQ(warnings[0], "texture skin.png cannot be read; put it beside the file");
 
     write_dressed_avatar(folder / "out.glb", folder / "bare.glb", { garment_on(4) });
-    const Json images = json_of(folder / "out.glb").at("images");
     std::set<std::string> different;
-    for (int i = 0; i < 3; ++i)
-        different.insert(images[std::size_t(i)].at("uri").get<std::string>());
+    for (std::size_t i = 0; i < 3; ++i)
+        different.insert(picture_in(folder / "out.glb", i));
     EXPECT_EQ(different.size(), 3u) << "white, flat and black";
-    for (const std::string& uri : different)
-        EXPECT_TRUE(uri.starts_with("data:image/png;base64,")) << uri;
+    for (const std::string& picture : different)
+        EXPECT_EQ(picture.substr(0, 4), "\x89PNG");
     EXPECT_TRUE(MeshFile::read(folder / "out.glb").warnings().empty());
+}
+
+/// Numbers of an accessor of the body in a GLB, a row for each vertex.
+Eigen::MatrixXf rows_of_body(const std::filesystem::path& glb, const char* attribute)
+{
+    GltfContainer container = read_gltf_container(read_file(glb));
+    const Json& json = container.json;
+    const Json accessor
+        = json.at("accessors").at(json.at("meshes")[0].at("primitives")[0].at("attributes").at(attribute).get<int>());
+    const Json view = json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+    EXPECT_EQ(accessor.at("componentType"), 5126);
+    Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> rows(accessor.at("count").get<int>(), 4);
+    std::memcpy(rows.data(), container.own_buffer()->data() + view.value("byteOffset", 0), 4 * rows.size());
+    return rows;
+}
+
+TEST_F(DressedAvatar, HasWeightsThatTheFormatAllows)
+{
+    GltfContainer container = read_gltf_container(read_file(folder / "avatar.glb"));
+    const Json& json = container.json;
+    const int accessor = json.at("meshes")[0].at("primitives")[0].at("attributes").at("WEIGHTS_0");
+    const std::size_t begin
+        = json.at("bufferViews")
+              .at(json.at("accessors").at(std::size_t(accessor)).at("bufferView").get<std::size_t>())
+              .value("byteOffset", std::size_t(0));
+    const auto set = [&](int vertex, const std::array<float, 4>& weights) {
+        std::memcpy(container.own_buffer()->data() + begin + std::size_t(vertex) * sizeof weights, weights.data(),
+                    sizeof weights);
+    };
+    set(0, { 0.5F, 0.25F, 0, 0 });
+    set(1, { 3, 1, 0, 0 });
+    set(2, { 0.75F, -0.25F, 0, 0 });
+    set(3, { 0, 0, 0, 0 });
+    set(4, { std::numeric_limits<float>::quiet_NaN(), 0.5F, 0, 0 });
+    set(5, { std::numeric_limits<float>::infinity(), 0.5F, 0, 0 });
+    save("bad.glb", bytes_of(container));
+    EXPECT_EQ(read_skinned_gltf(folder / "bad.glb").unnormalized_vertices, 5);
+    EXPECT_EQ(read_skinned_gltf(folder / "bad.glb").loose_vertices, 1);
+    EXPECT_EQ(read_skinned_gltf(folder / "avatar.glb").unnormalized_vertices, 0);
+
+    write_dressed_avatar(folder / "out.glb", folder / "bad.glb", { garment_on(4) });
+    const Eigen::MatrixXf weights = rows_of_body(folder / "out.glb", "WEIGHTS_0");
+    ASSERT_EQ(weights.rows(), person.mesh.positions.rows());
+    EXPECT_GE(weights.minCoeff(), 0);
+    EXPECT_LT((weights.rowwise().sum().array() - 1).abs().maxCoeff(), 2e-7);
+    EXPECT_NEAR(weights(0, 0), 2.0 / 3, 1e-6);
+    EXPECT_EQ(weights(1, 0), 0.75F);
+    EXPECT_EQ(weights(2, 0), 1);
+    EXPECT_EQ(weights(4, 0), 1) << "of the joint whose weight is a number";
+    EXPECT_EQ(weights.row(6), rows_of_body(folder / "avatar.glb", "WEIGHTS_0").row(6));
 }
 
 TEST_F(DressedAvatar, KeepsTheEightStrongestJointsOfAVertex)

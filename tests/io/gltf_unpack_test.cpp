@@ -114,6 +114,19 @@ TEST_F(PackedGltf, IsReadAndWrittenWhereDracoPackedIt)
     expect_written_in_plain(packed);
 }
 
+TEST_F(PackedGltf, HasTheBoundsOfWhatDracoRounded)
+{
+    pack_with_draco(draco_square());
+    json["accessors"][0]["min"] = { -0.01, -0.01, -0.01 };
+    json["accessors"][0]["max"] = { 1.01, 1.01, 0.01 };
+    const ordered_json accessor
+        = read_plain_gltf(read_file(save("packed.gltf", json.dump())), folder).json.at("accessors")[0];
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(accessor.at("min")[k].get<double>(), 0, 1e-4);
+        EXPECT_NEAR(accessor.at("max")[k].get<double>(), k < 2 ? 1 : 0, 1e-4);
+    }
+}
+
 TEST_F(PackedGltf, InstancesHaveTheirOwnVertices)
 {
     add_buffer(plain);

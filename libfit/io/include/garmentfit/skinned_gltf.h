@@ -62,6 +62,7 @@ struct ForeignRig {
         = 0;  ///< those without a weight, or of meshes that hang on no joint: they follow the nearest one
     bool by_tree
         = false;  ///< names say nothing: joints were found by their tree and places, left and right by the feet
+    int unnormalized_vertices = 0;  ///< those whose weights did not sum to 1, or were negative or no numbers
 };
 
 /// Whether a glTF or GLB shows a mesh with a skin. @throws InvalidInput: missing, not glTF.
