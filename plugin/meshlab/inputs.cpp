@@ -55,6 +55,7 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
                                        0,
                                        choice.fabrics[i],
                                        {},
+                                       1,
                                        guess.frame.has_unit });
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
@@ -86,6 +87,7 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
                                   0,
                                   choice.fabrics[i],
                                   {},
+                                  1,
                                   fitting.garment_frames[i].has_unit };
         }));
     }

@@ -226,6 +226,7 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
                                      0,
                                      fabric_from(sizes),
                                      {},
+                                     1,
                                      frame.has_unit });
     scene.garment_frames.push_back(frame);
     scene.names.push_back(name);

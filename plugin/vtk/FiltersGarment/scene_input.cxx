@@ -114,6 +114,7 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
                                      0,
                                      fabric_of_field(garment),
                                      {},
+                                     1,
                                      frame->has_unit });
 }
 
