@@ -160,9 +160,9 @@ void tidy_weights(GltfContainer& container, const FileBytes& file, const tinyglt
         for (std::size_t v = begin; v < end && are_tidy; ++v)
             are_tidy = loose.count(int(v)) == 0 && is_tidy(skin.hangs[v], rows.front());
         if (!are_tidy)
-            replace_sets(container, attributes,
-                         weights_in_file(weights.middleRows(Eigen::Index(begin), Eigen::Index(end - begin)), rows,
-                                         sets));
+            replace_sets(
+                container, attributes,
+                weights_in_file(weights.middleRows(Eigen::Index(begin), Eigen::Index(end - begin)), rows, sets));
     }
 }
 

@@ -65,10 +65,30 @@ void leave_out_others(Session& session, BodyFile& body, Wears wears)
         session.warnings.push_back(body.path.filename().string() + ": " + note);
 }
 
+bool is_skinned(const MeshFile& file)
+{
+    return (file.format() == "glb" || file.format() == "gltf") && has_skin(file.path());
+}
+
+/// Of a dressed figure the body would be cloth, too, and no pose would be found for it.
+void require_no_body(const MeshFile& garment)
+{
+    const std::optional<StrippedBody> figure
+        = is_skinned(garment) ? find_body(garment, Wears::strip) : std::optional<StrippedBody>();
+    if (!figure || figure->stripped.empty())
+        return;
+    std::string clothes;
+    for (const std::string& name : figure->stripped)
+        clothes += (clothes.empty() ? "" : ", ") + name;
+    throw InvalidInput(
+        ErrorCode::invalid_input,
+        garment.path().filename().string() + ": shows a body in clothes (" + clothes
+            + "), and not a garment alone; delete the body from the file, and save each garment by itself");
+}
+
 OwnRig read_own_rig(const BodyFile& body)
 {
-    const std::string& format = body.file.format();
-    if ((format != "glb" && format != "gltf") || !has_skin(body.path))
+    if (!is_skinned(body.file))
         return {};
     try {
         return { read_skinned_gltf(body.path), "" };
@@ -227,6 +247,7 @@ void add_garment(Session& session, const fs::path& path, GarmentType type, const
     const Stopwatch watch(session.read_seconds);
     GarmentFile garment { path, MeshFile::read(path), {} };
     garment.choice = choice;
+    require_no_body(garment.file);
     try {
         garment.frame = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame,
                                       choice, stature_of(*session.scene.body));

@@ -559,6 +559,7 @@ TEST_F(CommandLine, LeavesClothesOfAnAvatarsFileOutOfTheBody)
     for (const char* done : { "rigged", "keep", "strip" })  // a refused call leaves no folder
         fs::remove_all(folder / done);
     expect_refused({ "rig", folder / "avatar.glb", "--wears", "nothing" }, { "give keep or strip" });
+    expect_refused({ "dress", k_body, folder / "avatar.glb" }, { "shows a body in clothes (Bodysuit)" });
 }
 
 /// Triangles of a size in metres, here and there.
