@@ -462,6 +462,7 @@ TEST_F(MeshLab, SavesADressedBodyAsAnOutfit)
     const std::size_t layers = names_of(document).size();
     RichParameterList list = dialog_of("Save Outfit", document);
     list.setValue("bones", EnumValue(2));
+    list.setValue("influences", EnumValue(1));
     const Ended ended = run("Save Outfit", document, list);
     ASSERT_TRUE(ended.well) << ended.message;
     EXPECT_EQ(names_of(document).size(), layers);
@@ -469,6 +470,7 @@ TEST_F(MeshLab, SavesADressedBodyAsAnOutfit)
     const std::string bytes { std::istreambuf_iterator<char>(file), {} };
     EXPECT_EQ(bytes.substr(0, 4), "glTF");
     EXPECT_NE(bytes.find("mixamorig:Hips"), std::string::npos);
+    EXPECT_NE(bytes.find("JOINTS_1"), std::string::npos) << "eight influences";
 
     list.setValue("file", FileValue(QString::fromStdString((folder / "outfit.obj").string())));
     expect_refusal("Save Outfit", list, "give a name that ends in .glb or .vrm");
