@@ -30,6 +30,15 @@ Fitting new_fitting(const Choice& choice, Report& report)
     return fitting;
 }
 
+GarmentInput input_of(const TriangleMesh& mesh, const Frame& frame, GarmentType type,
+                      const std::optional<Fabric>& fabric)
+{
+    GarmentInput input { make_garment(frame.to_metres(mesh.positions), mesh.triangles), type };
+    input.fabric = fabric;
+    input.has_unit = frame.has_unit;
+    return input;
+}
+
 /// Replaces the garments of the scene and drops the results on earlier ones.
 void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
 {
@@ -47,16 +56,8 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
                                           choice.parameters.fit.as_placed, choice.garment_fronts[i] };
             const FrameGuess guess
                 = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment, stature_of(*scene.body));
-            scene.garments.push_back({ make_garment(guess.frame.to_metres(mesh.positions), mesh.triangles),
-                                       choice.types[i],
-                                       {},
-                                       front_of_garment(guess.frame, garment.front),
-                                       {},
-                                       0,
-                                       choice.fabrics[i],
-                                       {},
-                                       1,
-                                       guess.frame.has_unit });
+            scene.garments.push_back(input_of(mesh, guess.frame, choice.types[i], choice.fabrics[i]));
+            scene.garments.back().front = front_of_garment(guess.frame, garment.front);
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
             fitting.garment_files.push_back(choice.garments[i]->fullName().toStdString());
@@ -79,16 +80,7 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
         const TriangleMesh mesh = mesh_of(*choice.garments[i]);
         fitting.garment_files.push_back(choice.garments[i]->fullName().toStdString());
         fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
-            return GarmentInput { make_garment(fitting.garment_frames[i].to_metres(mesh.positions), mesh.triangles),
-                                  fitting.scene.fits[i].type,
-                                  {},
-                                  {},
-                                  {},
-                                  0,
-                                  choice.fabrics[i],
-                                  {},
-                                  1,
-                                  fitting.garment_frames[i].has_unit };
+            return input_of(mesh, fitting.garment_frames[i], fitting.scene.fits[i].type, choice.fabrics[i]);
         }));
     }
 }

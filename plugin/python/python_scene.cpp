@@ -218,16 +218,12 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
     const Parameters p = parameters_of(filter_of("fit"), sizes, { "garment_scale", "as_placed" });
     const GarmentChoice choice { { unit, up }, p.garment_sizes.scale, p.fit.as_placed, front };
     const Frame frame = known ? *known : guessed_frame(scene, in_file, faces, choice, name);
-    scene.scene.garments.push_back({ make_garment(frame.to_metres(in_file), faces),
-                                     garment_type_of(type),
-                                     {},
-                                     front_of_garment(frame, front),
-                                     choice.as_placed,
-                                     0,
-                                     fabric_from(sizes),
-                                     {},
-                                     1,
-                                     frame.has_unit });
+    scene.scene.garments.push_back({ .mesh = make_garment(frame.to_metres(in_file), faces),
+                                     .type = garment_type_of(type),
+                                     .front = front_of_garment(frame, front),
+                                     .as_placed = choice.as_placed,
+                                     .fabric = fabric_from(sizes),
+                                     .has_unit = frame.has_unit });
     scene.garment_frames.push_back(frame);
     scene.names.push_back(name);
 }

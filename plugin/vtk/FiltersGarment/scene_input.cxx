@@ -106,16 +106,12 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
             known.garment_frame_warnings.push_back(line);
     }
     known.garment_frames.push_back(*frame);
-    known.scene.garments.push_back({ make_garment(frame->to_metres(mesh.positions), mesh.triangles),
-                                     given_type(garment),
-                                     {},
-                                     front_of_garment(*frame, choice.front),
-                                     choice.as_placed,
-                                     0,
-                                     fabric_of_field(garment),
-                                     {},
-                                     1,
-                                     frame->has_unit });
+    known.scene.garments.push_back({ .mesh = make_garment(frame->to_metres(mesh.positions), mesh.triangles),
+                                     .type = given_type(garment),
+                                     .front = front_of_garment(*frame, choice.front),
+                                     .as_placed = choice.as_placed,
+                                     .fabric = fabric_of_field(garment),
+                                     .has_unit = frame->has_unit });
 }
 
 }  // namespace
