@@ -106,7 +106,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[legs_hems_evidence + kind] = !energy.cues().hems.empty();
         e[legs_divided_evidence + kind] = share_divided(energy, place_bones(rest, posture).joints);
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
-        e[legs_taper_evidence + kind] = taper_of(cloth.patches(), context.openings, energy.cues(), leg);
+        e[legs_taper_evidence + kind] = context.taper;
     }
     e[input_front_evidence] = upright_front.dot(energy.rig().front);
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);

@@ -112,6 +112,7 @@ struct WearingContext {
     const Coverage& coverage;
     Eigen::Quaterniond turn;  ///< that makes the garment upright
     const std::vector<Opening>& openings;  ///< of the held garment
+    double taper = 0;  ///< taper_of it
     double upright = 0, askew = 0;  ///< of its way up
     const std::vector<BodyPlace>& places;
 };

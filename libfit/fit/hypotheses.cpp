@@ -69,10 +69,13 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
                                  const FitOptions& options)
 {
     const HeldGarment& garment = search.attempt->garment();
+    const Skeleton& rest = search.attempt->energy().rest();
+    const double leg = rest.length(lfemur) + rest.length(ltibia);
     const WearingContext context { search.attempt->energy(),
                                    search.attempt->coverage(),
                                    garment.turn,
                                    garment.openings,
+                                   taper_of(garment.clearance->patches(), garment.openings, garment.cues, leg),
                                    garment.upright,
                                    garment.askew,
                                    given.places };
