@@ -2,7 +2,7 @@
 
 // Prints the evidence for each way of wearing garments on a body, one line of JSON for each garment:
 // scripts/fit-evidence fits the weights of libfit/fit/evidence.h on them.
-//   wear_evidence BODY GARMENT...
+//   wear_evidence BODY GARMENT[@METRES_PER_UNIT]...
 
 #include <array>
 #include <exception>
@@ -46,15 +46,16 @@ Json json_of(const Hypothesis& hypothesis)
              { "evidence", evidence } };
 }
 
-// How files are turned that a program with other axes wrote, and one askew.
-const std::array<Eigen::Matrix3d, 5>& turns()
+// How files are turned that a program with other axes wrote, that face elsewhere, and one askew.
+const std::array<Eigen::Matrix3d, 8>& turns()
 {
     const auto about = [](double degrees, const Vec3& axis) {
         return Eigen::AngleAxisd(degrees / k_degrees_per_radian, axis.normalized()).toRotationMatrix();
     };
-    static const std::array<Eigen::Matrix3d, 5> all { Eigen::Matrix3d::Identity(), about(-90, Vec3::UnitX()),
-                                                      about(90, Vec3::UnitX()), about(180, Vec3::UnitX()),
-                                                      about(30, Vec3(1, 0.4, 1)) };
+    static const std::array<Eigen::Matrix3d, 8> all { Eigen::Matrix3d::Identity(), about(-90, Vec3::UnitX()),
+                                                      about(180, Vec3::UnitY()),   about(90, Vec3::UnitX()),
+                                                      about(100, Vec3::UnitY()),   about(180, Vec3::UnitX()),
+                                                      about(-50, Vec3::UnitY()),   about(30, Vec3(1, 0.4, 1)) };
     return all;
 }
 
@@ -76,15 +77,18 @@ GarmentMesh narrowed(const GarmentMesh& garment, double factor)
     return make_garment(narrow, garment.triangles);
 }
 
-// As it is, and every third garment turned in one way, too, every third narrowed, and every third widened.
+// As it is, and every other garment turned in one way, too, every third narrowed, and every third widened.
 void print(const Rig& rig, const TriangleMesh& body, const Frame& body_frame, const std::string& path, int number)
 {
-    const MeshFile file = MeshFile::read(path);
-    const Frame frame = guess_garment_frame(file.positions(), file.triangles(), body_frame).frame;
+    const std::size_t at = path.rfind('@');  // a file without a unit
+    const MeshFile file = MeshFile::read(path.substr(0, at));
+    Frame frame = guess_garment_frame(file.positions(), file.triangles(), body_frame).frame;
+    if (at != std::string::npos)
+        frame.metres_per_unit = std::stod(path.substr(at + 1));
     const GarmentMesh garment = make_garment(frame.to_metres(file.positions()), file.triangles());
     std::vector<std::size_t> ways { 0 };
-    if (number % 3 == 0)
-        ways.push_back(std::size_t(1 + number / 3 % 4));
+    if (number % 2 == 0)
+        ways.push_back(std::size_t(1 + number / 2 % 7));
     for (const std::size_t way : ways) {
         Json line = evidence_of(rig, body, garment, turns()[way]);
         line["garment"] = path;
