@@ -81,7 +81,8 @@ double share_divided(const FitEnergy& energy, const Skeleton& joints)
 WearEvidence evidence_of(const WearingContext& context, const Posture& posture, const BodyPlace* in_place)
 {
     const FitEnergy& energy = context.energy;
-    const Skeleton& rest = energy.rest();
+    const ClearanceField& cloth = energy.metric().cloth();
+    const Skeleton &rest = energy.rest(), worn = place_bones(rest, posture).joints;
     const double leg = rest.length(lfemur) + rest.length(ltibia);
     const InsideShares inside = shares_inside(energy, posture);
     const Posture given = rotate(posture, context.turn.conjugate());
@@ -89,7 +90,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     const Vec3 level = Vec3(upright_front.x(), 0, upright_front.z()).stableNormalized();
 
     WearEvidence e {};
-    e[energy_evidence] = energy.total(posture) - energy.hang_slope() * energy.metric().cloth().barycentre().y();
+    e[energy_evidence] = energy.total(posture) - energy.hang_slope() * cloth.barycentre().y();
     e[clearance_evidence] = energy.clearance_share(posture);
     e[uncovered_cloth_evidence] = energy.mean_coverage_distance(posture) / (k_tenth * leg);
     e[crossing_evidence] = std::min(energy.bones_through_cloth(posture), k_max_crossing_evidence);
@@ -100,17 +101,16 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[upright_evidence] = context.upright;
     e[type_evidence] = context.coverage.is_guessed;
     if (const int kind = int(context.coverage.kind) - 1; kind >= 0) {
-        const ClearanceField& cloth = energy.metric().cloth();
         e[legs_evidence + kind] = 1;
         e[legs_height_evidence + kind] = std::log((cloth.high().y() - cloth.low().y()) / leg);
         e[legs_hems_evidence + kind] = !energy.cues().hems.empty();
-        e[legs_divided_evidence + kind] = share_divided(energy, place_bones(rest, posture).joints);
+        e[legs_divided_evidence + kind] = share_divided(energy, worn);
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
         e[legs_taper_evidence + kind] = context.taper;
     }
     e[input_front_evidence] = upright_front.dot(energy.rig().front);
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
-    const FrontShape shape = front_shape(energy.metric().cloth().patches(), context.openings, energy.cues(), level);
+    const FrontShape shape = front_shape(cloth.patches(), context.openings, energy.cues(), level);
     const bool is_bottom = context.coverage.kind == CoverageKind::legs || context.coverage.kind == CoverageKind::skirt;
     const double held = 1 - context.askew / k_most_askew;  // heights of a garment held askew are no heights
     e[is_bottom ? waist_evidence : torso_evidence] = held * (is_bottom ? shape.waist : shape.torso);
@@ -121,6 +121,8 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[rise_evidence] = is_bottom ? held * shape.rise : 0;
     e[bow_evidence] = context.coverage.kind == CoverageKind::top ? held * shape.bow : 0;
     e[bare_evidence] = is_bottom ? 0 : held * shape.bare;
+    if (context.coverage.kind == CoverageKind::dress || context.coverage.kind == CoverageKind::jumpsuit)
+        e[profile_evidence] = held * profile_of(cloth.patches(), worn, level);
     e[in_place_evidence] = in_place != nullptr;
     e[in_place_inside_evidence] = in_place ? std::min(in_place->inside_share, k_max_inside_evidence) / k_tenth : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(context, given, leg));
@@ -197,6 +199,7 @@ const std::array<std::string_view, evidence_count>& evidence_names()
         "rise",
         "bow",
         "bare",
+        "profile",
         "near_input",
         "in_place",
         "in_place_inside",

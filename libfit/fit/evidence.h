@@ -69,6 +69,7 @@ enum Evidence {
     rise_evidence,  ///< of trousers and skirts
     bow_evidence,  ///< of tops
     bare_evidence,  ///< of tops, dresses and jumpsuits
+    profile_evidence,  ///< profile_of, of dresses and jumpsuits
     near_input_evidence,  ///< 1 where the covered joints lie where a place of the input body has them, 0 a tenth of a leg
     ///< away
     // As it lies: 0 unless the posture is the input pose itself
@@ -78,7 +79,7 @@ enum Evidence {
 };
 /// Evidence that tells the facings of one coverage apart, and nothing else (log_odds).
 inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, seat_evidence, lap_evidence,
-                                               rise_evidence,  bow_evidence,   bare_evidence };
+                                               rise_evidence,  bow_evidence,   bare_evidence, profile_evidence };
 using WearEvidence = std::array<double, evidence_count>;
 /// Logarithm of the girth of the highest wide opening over that of the cloth a quarter of a leg below it, in tenths,
 /// from -k_max_taper to k_max_widening: a waist is narrower than hips, the rim of a strapless dress no narrower than a

@@ -201,8 +201,9 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
     const auto top = collect(
         points, [&](const Point& p) { return p.height > high - k_shoulder_share * tall; }, breadth);
     const double width = std::max(2 * quantile(top, k_outermost_of_few), 1e-9);
-    const auto in_tenths
-        = [&](double offset) { return std::clamp(offset / (k_tenth * width), -k_max_front_shape, k_max_front_shape); };
+    const auto in_tenths = [&](double offset, double most = k_max_front_shape) {
+        return std::clamp(offset / (k_tenth * width), -most, most);
+    };
 
     FrontShape shape;
     const std::vector<std::vector<Point>> slices = slices_of(points, low, low + tall, k_front_slices);
@@ -214,21 +215,41 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
         }
     shape.torso /= std::max(count, 1);
     shape.waist = in_tenths(middle_against_sides(slices.back()).value_or(0));
-    shape.seat = in_tenths(seat_of(points, high, width));
-    shape.lap = in_tenths(lap_of(points, high, width));
+    shape.seat = in_tenths(seat_of(points, high, width), k_max_seat_shape);
+    shape.lap = in_tenths(lap_of(points, high, width), k_max_seat_shape);
     shape.bow = in_tenths(bow_of(slices));
     shape.bare = std::clamp(bare_of(slices_of(points, low, low + tall, k_bare_slices), width) / k_tenth, -k_max_bare,
                             k_max_bare);
     const Opening* neck = highest_opening(openings, k_wide_rim * width);
     if (!neck)
         return shape;
-    shape.rise = in_tenths(rise_of(*neck, front));
+    shape.rise = in_tenths(rise_of(*neck, front), k_max_seat_shape);
     const std::vector<Vec3> hems = low_centres(openings, low + 0.5 * tall);
     if (!hems.empty())
         shape.hems = in_tenths(front.dot(mean_of(hems) - neck->centre));
     if (!cues.cuffs.empty())
         shape.cuffs = in_tenths(front.dot(mean_of(cues.cuffs) - neck->centre));
     return shape;
+}
+
+double profile_of(const std::vector<ClothPatch>& cloth, const Skeleton& worn, const Vec3& front)
+{
+    const Vec3 left = Vec3::UnitY().cross(front), hips = 0.5 * (worn.head(lfemur) + worn.head(rfemur));
+    const double shoulders = (worn.head(lhumerus) - worn.head(rhumerus)).norm();
+    const auto middle = [&](double height) -> std::optional<double> {
+        std::vector<double> depths;
+        for (const ClothPatch& patch : cloth)
+            if (const Vec3 p = patch.centre.cast<double>() - hips;
+                std::abs(p.y() - height) < k_profile_slice * shoulders && std::abs(p.dot(left)) < 0.5 * shoulders)
+                depths.push_back(p.dot(front));
+        if (depths.size() < k_min_slice)
+            return {};
+        return quantile(depths, k_outermost_of_few) + quantile(depths, 1 - k_outermost_of_few);
+    };
+    const auto chest = middle(worn.head(thorax).y() - hips.y()), seat = middle(0);
+    if (!chest || !seat)
+        return 0;
+    return std::clamp((*chest - *seat) / (k_tenth * shoulders), -k_max_front_shape, k_max_front_shape);
 }
 
 }  // namespace garmentfit

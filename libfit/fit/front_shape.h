@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "clearance_field.h"
+#include "garmentfit/skeleton.h"
 #include "type_guess.h"
 
 namespace garmentfit {
 
-/// Offsets along a direction that may be the front, in tenths of the garment's width at its top, at most 3. Each of
-/// them changes its sign with the direction.
+/// Offsets along a direction that may be the front, in tenths of the garment's width at its top, at most 3, and at
+/// most 0.7 of seat, lap and rise. Each of them changes its sign with the direction.
 struct FrontShape {
     double torso = 0;  ///< of the middle of the cloth against its sides, mean over six heights: backs are rounder
     double waist = 0;  ///< the same at the top: trousers stand further out over the seat
@@ -31,5 +32,9 @@ const Opening* highest_opening(const std::vector<Opening>& openings, double leas
 /// @param front  unit, horizontal. Cost O(n log n) of the cloth's patches.
 FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings,
                        const GarmentCues& cues, const Vec3& front);
+
+/// Of the middle between front and back at the chest of a body against that at its seat, along the front, in tenths of the
+/// distance between its shoulders, at most 3: busts are in front, seats behind. 0 where there is no cloth at one of them.
+double profile_of(const std::vector<ClothPatch>& cloth, const Skeleton& worn, const Vec3& front);
 
 }  // namespace garmentfit

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tuning.h"
+
 namespace {
 
 using namespace garmentfit;
@@ -30,10 +32,17 @@ FrontShape shape_of(const std::vector<ClothPatch>& cloth, const Vec3& front)
 
 TEST(FrontShape, ASeatLiesBehindTheRim)
 {
-    const auto skirt = tube([](double depth) { return depth > 0.1 ? -0.02 : 0.0; });
-    EXPECT_NEAR(shape_of(skirt, Vec3::UnitZ()).seat, -1, 0.2) << "twice 2 cm on a width of 40 cm";
-    EXPECT_NEAR(shape_of(skirt, -Vec3::UnitZ()).seat, 1, 0.2);
+    const auto skirt = tube([](double depth) { return depth > 0.1 ? -0.01 : 0.0; });
+    EXPECT_NEAR(shape_of(skirt, Vec3::UnitZ()).seat, -0.5, 0.1) << "twice 1 cm on a width of 40 cm";
+    EXPECT_NEAR(shape_of(skirt, -Vec3::UnitZ()).seat, 0.5, 0.1);
     EXPECT_NEAR(shape_of(tube([](double) { return 0.0; }), Vec3::UnitZ()).seat, 0, 0.1);
+}
+
+TEST(FrontShape, ARolledWaistbandSaysNoMoreThanASeat)
+{
+    const auto trousers = tube([](double depth) { return depth > 0.1 ? 0.08 : 0.0; });
+    EXPECT_EQ(shape_of(trousers, Vec3::UnitZ()).seat, k_max_seat_shape) << "not 4";
+    EXPECT_EQ(shape_of(trousers, -Vec3::UnitZ()).seat, -k_max_seat_shape);
 }
 
 TEST(FrontShape, ATopAndBottomBehindTheMiddleAreABow)
@@ -70,11 +79,30 @@ TEST(FrontShape, AWaistIsHigherBehind)
     waist.rim.resize(64, 3);
     for (int i = 0; i < 64; ++i) {
         const double angle = i * M_PI / 32;
-        waist.rim.row(i) << 0.2 * std::sin(angle), -0.02 * std::cos(angle), 0.13 * std::cos(angle);
+        waist.rim.row(i) << 0.2 * std::sin(angle), -0.01 * std::cos(angle), 0.13 * std::cos(angle);
     }
     const auto trousers = tube([](double) { return 0.0; });
-    EXPECT_NEAR(front_shape(trousers, { waist }, {}, Vec3::UnitZ()).rise, 1, 0.2) << "4 cm on a width of 40 cm";
-    EXPECT_NEAR(front_shape(trousers, { waist }, {}, -Vec3::UnitZ()).rise, -1, 0.2);
+    EXPECT_NEAR(front_shape(trousers, { waist }, {}, Vec3::UnitZ()).rise, 0.5, 0.1) << "2 cm on a width of 40 cm";
+    EXPECT_NEAR(front_shape(trousers, { waist }, {}, -Vec3::UnitZ()).rise, -0.5, 0.1);
+}
+
+// The tube is a dress, worn by a body with its chest 10 cm and its hips 40 cm below the top, and shoulders of 30 cm.
+TEST(FrontShape, ABustIsInFrontOfASeat)
+{
+    Skeleton worn;
+    worn.root = { 0, -0.4, 0 };
+    for (const int bone : { lhipjoint, rhipjoint })
+        worn.tails[bone] = worn.root;
+    worn.tails[upperback] = { 0, -0.1, 0 };
+    worn.tails[lclavicle] = { 0.15, 0, 0 };
+    worn.tails[rclavicle] = { -0.15, 0, 0 };
+    const auto dress = tube([](double depth) { return depth < 0.25 ? 0.02 : -0.01; });
+    EXPECT_NEAR(profile_of(dress, worn, Vec3::UnitZ()), 2, 0.2) << "twice 3 cm on shoulders of 30 cm";
+    EXPECT_NEAR(profile_of(dress, worn, -Vec3::UnitZ()), -2, 0.2);
+    worn.root.y() = -0.8;
+    for (const int bone : { lhipjoint, rhipjoint })
+        worn.tails[bone] = worn.root;
+    EXPECT_EQ(profile_of(dress, worn, Vec3::UnitZ()), 0) << "it ends above the seat";
 }
 
 }  // namespace
