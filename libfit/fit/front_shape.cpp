@@ -107,11 +107,11 @@ std::optional<double> middle_line(const std::vector<Point>& points, double heigh
     return depth_at(slice, k_outermost_of_few) + depth_at(slice, 1 - k_outermost_of_few);
 }
 
-// Of the seat and the belly against the rim, m.
-double seat_of(const std::vector<Point>& points, double high, double width)
+// Of the seat and the belly against the rim, m. Above the lowest place of a rim that is higher behind there is a back only.
+double seat_of(const std::vector<Point>& points, double rim_low, double width)
 {
-    const auto rim = middle_line(points, high - k_rim_depth * width, width),
-               seat = middle_line(points, high - k_seat_depth * width, width);
+    const auto rim = middle_line(points, rim_low - k_rim_depth * width, width),
+               seat = middle_line(points, rim_low - k_seat_depth * width, width);
     return rim && seat ? *seat - *rim : 0;
 }
 
@@ -215,12 +215,13 @@ FrontShape front_shape(const std::vector<ClothPatch>& cloth, const std::vector<O
         }
     shape.torso /= std::max(count, 1);
     shape.waist = in_tenths(middle_against_sides(slices.back()).value_or(0));
-    shape.seat = in_tenths(seat_of(points, high, width), k_max_seat_shape);
+    const Opening* neck = highest_opening(openings, k_wide_rim * width);
+    const double rim = neck ? neck->rim.col(1).minCoeff() : high;
+    shape.seat = in_tenths(seat_of(points, rim, width), k_max_seat_shape);
     shape.lap = in_tenths(lap_of(points, high, width), k_max_seat_shape);
     shape.bow = in_tenths(bow_of(slices));
     shape.bare = std::clamp(bare_of(slices_of(points, low, low + tall, k_bare_slices), width) / k_tenth, -k_max_bare,
                             k_max_bare);
-    const Opening* neck = highest_opening(openings, k_wide_rim * width);
     if (!neck)
         return shape;
     shape.rise = in_tenths(rise_of(*neck, front), k_max_seat_shape);

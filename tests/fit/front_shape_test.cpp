@@ -72,18 +72,34 @@ TEST(FrontShape, ThighsMakeTheLapBroaderThanTheBack)
     EXPECT_LT(shape_of(trousers, -Vec3::UnitZ()).lap, -0.5);
 }
 
-TEST(FrontShape, AWaistIsHigherBehind)
+// Rim of the tube, `drop` lower in front than behind, m.
+Opening slanted_waist(double drop)
 {
     Opening waist;
     waist.girth = 1;
     waist.rim.resize(64, 3);
     for (int i = 0; i < 64; ++i) {
         const double angle = i * M_PI / 32;
-        waist.rim.row(i) << 0.2 * std::sin(angle), -0.01 * std::cos(angle), 0.13 * std::cos(angle);
+        waist.rim.row(i) << 0.2 * std::sin(angle), -0.5 * drop * (1 + std::cos(angle)), 0.13 * std::cos(angle);
     }
+    return waist;
+}
+
+TEST(FrontShape, AWaistIsHigherBehind)
+{
     const auto trousers = tube([](double) { return 0.0; });
+    const Opening waist = slanted_waist(0.02);
     EXPECT_NEAR(front_shape(trousers, { waist }, {}, Vec3::UnitZ()).rise, 0.5, 0.1) << "2 cm on a width of 40 cm";
     EXPECT_NEAR(front_shape(trousers, { waist }, {}, -Vec3::UnitZ()).rise, -0.5, 0.1);
+}
+
+TEST(FrontShape, ASeatIsFoundBelowASlantedWaist)
+{
+    auto shorts = tube([](double depth) { return depth > 0.16 ? -0.01 : 0.0; });
+    std::erase_if(shorts,
+                  [](const ClothPatch& patch) { return patch.centre.y() > -0.04f * (1 + patch.centre.z() / 0.13f); });
+    EXPECT_NEAR(front_shape(shorts, { slanted_waist(0.08) }, {}, Vec3::UnitZ()).seat, -0.5, 0.15)
+        << "twice 1 cm on a width of 40 cm, though the uppermost cloth is all behind";
 }
 
 // The tube is a dress, worn by a body with its chest 10 cm and its hips 40 cm below the top, and shoulders of 30 cm.
