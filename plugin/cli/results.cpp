@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "garmentfit/animated_gltf.h"
+#include "garmentfit/filters/animation.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/rig_file.h"
 #include "garmentfit/filters/warnings.h"
@@ -119,25 +119,22 @@ std::string numbered(const std::string& stem, std::size_t frame)
 /// A series of PLY files for each mesh, and all of them as one animation.
 void write_frames(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
-    constexpr double k_seconds = 3;  // length of the animation; a matter of taste
     if (dressing.frames.empty())
         return;
     fs::create_directories(folder);
     const Frame& frame = session.body.frame.frame;
     const std::vector<std::size_t> worn = dressing.worn();
-    std::vector<MovingMesh> meshes { { "body", session.body.triangles, {}, { 0.55, 0.35, 0.25 } } };
-    for (const std::size_t i : worn)
-        meshes.push_back({ session.garments[i].path.stem().string(),
-                           session.scene.garments[i].mesh.triangles,
-                           {},
-                           { 0.1, 0.3 / double(i + 1), 0.5 } });
-    for (const RecoverFrame& state : dressing.frames)
-        for (std::size_t m = 0; m < meshes.size(); ++m) {
-            meshes[m].frames.push_back(m == 0 ? state.body : state.garments[worn[m - 1]]);
-            write_ply(folder / numbered(meshes[m].name, meshes[m].frames.size() - 1),
-                      frame.to_file(meshes[m].frames.back()), meshes[m].triangles);
-        }
-    write_animated_glb(folder / "animation.glb", meshes, k_seconds / double(dressing.frames.size()));
+    std::vector<std::string> names;
+    for (const GarmentFile& garment : session.garments)
+        names.push_back(garment.path.stem().string());
+    for (std::size_t f = 0; f < dressing.frames.size(); ++f) {
+        const RecoverFrame& state = dressing.frames[f];
+        write_ply(folder / numbered("body", f), frame.to_file(state.body), session.body.triangles);
+        for (const std::size_t i : worn)
+            write_ply(folder / numbered(names[i], f), frame.to_file(state.garments[i]),
+                      session.scene.garments[i].mesh.triangles);
+    }
+    write_animation(session.scene, dressing, names, folder / "animation.glb");
 }
 
 /// Only certified garments stay.

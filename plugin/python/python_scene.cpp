@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include "garmentfit/error.h"
+#include "garmentfit/filters/animation.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/frame_choice.h"
 #include "garmentfit/filters/joint_names.h"
@@ -159,6 +160,15 @@ std::shared_ptr<const Appearance> look_of(const MeshFile& file, const StrippedBo
     return std::make_shared<const Appearance>(left ? appearance_of(file.appearance(), *left) : file.appearance());
 }
 
+/// Of files: "shirt" of "shirt.obj".
+std::vector<std::string> stems_of(const std::vector<std::string>& names)
+{
+    std::vector<std::string> stems;
+    for (const std::string& name : names)
+        stems.push_back(std::filesystem::path(name).stem().string());
+    return stems;
+}
+
 }  // namespace
 
 const Rig& PythonScene::rig() const
@@ -260,10 +270,10 @@ void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, co
     const auto part = [](std::string name, const std::shared_ptr<const Appearance>& look) {
         return OutfitPart { std::move(name), look ? *look : Appearance() };
     };
+    const std::vector<std::string> names = stems_of(s.names);
     std::vector<OutfitPart> garments;
-    for (std::size_t i = 0; i < s.names.size(); ++i)
-        garments.push_back(part(std::filesystem::path(s.names[i]).stem().string(),
-                                i < s.garment_looks.size() ? s.garment_looks[i] : nullptr));
+    for (std::size_t i = 0; i < names.size(); ++i)
+        garments.push_back(part(names[i], i < s.garment_looks.size() ? s.garment_looks[i] : nullptr));
     OutfitRequest request { path, bone_names_called(bones), hide_covered_skin };
     request.influences = influences;
     const nb::gil_scoped_release other_threads_run;
@@ -271,6 +281,14 @@ void write_outfit_of(const PythonScene& s, const std::filesystem::path& path, co
         request.avatar = avatar_in(*s.body_file, s.body_frame);
     request.is_stripped = s.is_stripped;
     write_outfit(s.scene, part("body", s.body_look), garments, request);
+}
+
+void write_animation_of(const PythonScene& s, const std::filesystem::path& path, double seconds)
+{
+    if (!s.scene.recovered)
+        throw InvalidInput(ErrorCode::missing_input, "there are no frames before the pose is recovered");
+    const nb::gil_scoped_release other_threads_run;
+    write_animation(s.scene, *s.scene.recovered, stems_of(s.names), path, seconds);
 }
 
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress)

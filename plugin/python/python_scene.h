@@ -66,6 +66,11 @@ void set_garment_look(PythonScene& scene, const MeshFile& file, const StrippedBo
 void write_outfit_of(const PythonScene& scene, const std::filesystem::path& path, const std::string& bones,
                      bool hide_covered_skin, int influences);
 
+/// The frames on the pose path as one GLB that other programs can play. Other Python threads run meanwhile.
+/// @param seconds  how long it is
+/// @throws InvalidInput where there are none.
+void write_animation_of(const PythonScene& scene, const std::filesystem::path& path, double seconds);
+
 /// Runs a filter of the table on a copy. Other Python threads run meanwhile; progress(fraction, stage) returns False to
 /// stop.
 PythonScene run(const PythonScene& given, const std::string& name, const nb::dict& values, const nb::object& progress);

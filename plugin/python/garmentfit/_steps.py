@@ -215,6 +215,13 @@ class Dressing(_Result):
         """States on the pose path to the body's input pose: at most `frames`, without those that are not certified."""
         return [Frame(*frame) for frame in self._scene.frames()]
 
+    def write_animation(self, path: Union[str, "os.PathLike[str]"], *, seconds: float = 3) -> None:
+        """Writes the frames as one GLB that other programs can play: each is a morph target of body and clothes.
+
+        seconds: how long the animation is.
+        """
+        self._scene.write_animation(Path(path), float(seconds))
+
     def write_outfit(self, path: Union[str, "os.PathLike[str]"], *, bones: str = "own",
                      hide_covered_skin: bool = False, influences: int = 4) -> None:
         """Writes body and clothes as one skinned GLB, or VRM by its name: one skeleton, and weights for all meshes, so

@@ -222,6 +222,21 @@ def _glb_json(path):
     return json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
 
 
+def test_frames_are_written_as_an_animation(dressed, body, skirt, tmp_path):
+    dressed.write_animation(tmp_path / "dressing.glb", seconds=2)
+    gltf = _glb_json(tmp_path / "dressing.glb")
+    assert [mesh["name"] for mesh in gltf["meshes"]] == ["body", "skirt"]
+    assert all(len(mesh["primitives"][0]["targets"]) == len(dressed.frames) - 1 for mesh in gltf["meshes"])
+    times = gltf["accessors"][gltf["animations"][0]["samplers"][0]["input"]]
+    assert times["count"] == len(dressed.frames) and times["max"][0] <= 2
+    with pytest.raises(InvalidInput, match="length"):
+        dressed.write_animation(tmp_path / "none.glb", seconds=0)
+    fit = garmentfit.fit_skeleton(garmentfit.rig_body(body), skirt, type="skirt")
+    with pytest.raises(InvalidInput, match="frames"):
+        garmentfit.drape_garment(fit, settling_steps=2).write_animation(tmp_path / "none.glb")
+    assert not (tmp_path / "none.glb").exists()
+
+
 def test_an_outfit_is_one_skinned_file(dressed, body, tmp_path):
     dressed.write_outfit(tmp_path / "new" / "outfit.glb", bones="mixamo", hide_covered_skin=True)
     outfit = _glb_json(tmp_path / "new" / "outfit.glb")
