@@ -20,8 +20,7 @@ void write_animation(const Scene& scene, const Dressing& dressing, const std::ve
     const std::vector<std::size_t> worn = dressing.worn();
     std::vector<MovingMesh> meshes { { "body", scene.body->surface.triangles, {}, { 0.55, 0.35, 0.25 } } };
     for (const std::size_t i : worn)
-        meshes.push_back(
-            { garments.at(i), scene.garments[i].mesh.triangles, {}, { 0.1, 0.3 / double(i + 1), 0.5 } });
+        meshes.push_back({ garments.at(i), scene.garments[i].mesh.triangles, {}, { 0.1, 0.3 / double(i + 1), 0.5 } });
     for (const RecoverFrame& state : dressing.frames)
         for (std::size_t m = 0; m < meshes.size(); ++m)
             meshes[m].frames.push_back(m == 0 ? state.body : state.garments[worn[m - 1]]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Eigenvalues>
@@ -178,20 +179,31 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
         * Eigen::AlignedBox3d(Vec3(mesh.positions.colwise().minCoeff()), Vec3(mesh.positions.colwise().maxCoeff()))
               .volume(),
                  margin = k_filling_margin * diagonal(mesh.positions);
-    const std::vector<char> all(std::size_t(mesh.triangles.rows()), 1);
+    std::vector<std::size_t> inner_first(patches.size());  // of shells in each other, the outermost is left
+    std::iota(inner_first.begin(), inner_first.end(), std::size_t(0));
+    std::stable_sort(inner_first.begin(), inner_first.end(), [&](std::size_t a, std::size_t b) {
+        return box_of(mesh, patches[a]).volume() < box_of(mesh, patches[b]).volume();
+    });
+    std::vector<char> is_cloth(std::size_t(mesh.triangles.rows()), 1);
     std::vector<std::vector<int>> fillings;
-    for (std::size_t p = 0; p < patches.size() && patches.size() > 1; ++p) {
+    for (const std::size_t p : inner_first) {
         if (closed_ends[p] >= int(k_least_ends) || !is_solid(mesh, topology, patches[p]))
             continue;
         const TriangleMesh solid { mesh.positions, mesh.triangles(patches[p], Eigen::all) };
         const double enclosed = std::abs(volume(solid)), around = area(solid);
         if (enclosed < least || is_panel(thickness_of(enclosed, around), around))
             continue;
-        Eigen::AlignedBox3d rest = box_of(mesh, other_faces(all, patches[p]));
+        Eigen::AlignedBox3d rest = box_of(mesh, other_faces(is_cloth, patches[p]));
+        if (rest.isEmpty())
+            continue;
         rest.extend(rest.min() - Vec3::Constant(margin)).extend(rest.max() + Vec3::Constant(margin));
-        if (rest.contains(box_of(mesh, patches[p])))
-            fillings.push_back(patches[p]);
+        if (!rest.contains(box_of(mesh, patches[p])))
+            continue;
+        for (const int f : patches[p])
+            is_cloth[f] = 0;
+        fillings.push_back(patches[p]);
     }
+    std::sort(fillings.begin(), fillings.end());
     return fillings;
 }
 

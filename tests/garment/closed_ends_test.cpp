@@ -194,6 +194,18 @@ TEST(ClosedEnds, OfAClothThatASolidFillsAreOpen)
     }
 }
 
+TEST(ClosedEnds, OfSolidsInEachOtherTheOutermostIsTheCloth)
+{
+    const auto ball = [](double radius) {
+        return fixtures::polygonise([&](const Vec3& p) { return p.norm() - radius; }, Vec3::Constant(-0.5),
+                                    Vec3::Constant(0.5), 0.05);
+    };
+    const TriangleMesh outer = ball(0.4);
+    const OpenedGarment result = opened(fixtures::joined(ball(0.35), outer));
+    EXPECT_EQ(result.left_out.solids, 1);
+    EXPECT_EQ(result.garment.triangles.rows(), outer.triangles.rows());
+}
+
 TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
 {
     const TriangleMesh open = tube(Cap::none, Cap::none);
