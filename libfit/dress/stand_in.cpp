@@ -227,13 +227,25 @@ void lengthen_ways_between(const Parts& cloth, const Positions& positions, const
                 ways.row(v) = way;
     };
     const auto is_marked = [&](int v) { return marks[v] != 0; };
+    const auto place = [&](int v) { return Vec3(positions.row(v)); };
+    const auto count_parts = [](double length, int fewest) {
+        return std::clamp(int(std::ceil(length / k_places_apart)), fewest, k_most_parts);
+    };
     for (const auto& ends : cloth.topology.edges().rowwise())
-        if (std::all_of(ends.begin(), ends.end(), is_marked))
-            for (const double share : k_places_between)
-                take_along(ends, (1 - share) * positions.row(ends[0]) + share * positions.row(ends[1]));
+        if (std::all_of(ends.begin(), ends.end(), is_marked)) {
+            const Vec3 a = place(ends[0]), along = place(ends[1]) - a;
+            const int parts = count_parts(along.norm(), k_parts_of_edge);
+            for (int i = 1; i < parts; ++i)
+                take_along(ends, a + double(i) / parts * along);
+        }
     for (const auto& corners : cloth.rest.triangles.rowwise())
-        if (std::all_of(corners.begin(), corners.end(), is_marked))
-            take_along(corners, Vec3(positions(corners, Eigen::all).colwise().mean()));
+        if (std::all_of(corners.begin(), corners.end(), is_marked)) {
+            const Vec3 a = place(corners[0]), p = place(corners[1]) - a, q = place(corners[2]) - a;
+            const int parts = count_parts(std::max({ p.norm(), q.norm(), (p - q).norm() }), k_parts_of_triangle);
+            for (int i = 1; i < parts; ++i)
+                for (int j = 1; i + j < parts; ++j)
+                    take_along(corners, a + (double(i) * p + double(j) * q) / parts);
+        }
 }
 
 /// Beyond the skin, in turns with half of the way to the stand-in, which lies clear of it also where the skin of one limb
@@ -258,7 +270,8 @@ Positions ways_out(const Parts& cloth, const Positions& positions, const std::ve
 /// vain, less of the space is taken along.
 Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress)
 {
-    const double reach = k_pushing_reach * mean_edge_length(cloth.rest.positions, cloth.topology.edges());
+    const double edge = mean_edge_length(cloth.rest.positions, cloth.topology.edges()),
+                 reach = std::min(k_pushing_reach * edge, k_longest_reach);
     double softness = 1;
     Best best { positions };
     std::vector<char> marks(positions.rows());

@@ -196,10 +196,10 @@ inline constexpr int k_most_links = 8;
 inline constexpr int k_evening_rounds = 6, k_futile_evenings = 3, k_evening_links = 3;
 inline constexpr double k_evening_hold = 1e-3;
 /// How often what meets the body is pushed out of it, at most, and in vain; how far round these places cloth goes along,
-/// in mean edges; and how far beyond the skin, m, and so much further in each round. fitted: guesses, on the same clothes
-/// and, the reach, on four others
+/// in mean edges, and in m at most, as ways out of two sides of a limb cancel each other; and how far beyond the skin, m,
+/// and so much further in each round. fitted: guesses, on the same clothes and, the reaches, on six others
 inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8;
-inline constexpr double k_pushing_reach = 5, k_pushing_step = 1e-3;
+inline constexpr double k_pushing_reach = 5, k_longest_reach = 0.2, k_pushing_step = 1e-3;
 /// By how much ways grow less from place to place, on the mean, in shares of the distance. unit: below a half, sheets keep
 /// their order
 inline constexpr double k_steepest_way = 0.3;
@@ -209,8 +209,11 @@ inline constexpr double k_harder_push = 0.85;
 inline constexpr int k_patient_pushes = 2;
 /// Ways that are blended, the nearest. unit: more change them by little
 inline constexpr int k_most_ways = 64;
-/// Where edges are looked at, in shares of them, that may pass through the body between two vertices outside. fitted: guess
-inline constexpr std::array<double, 3> k_places_between { 0.25, 0.5, 0.75 };
+/// Places between vertices outside that are looked at, as the body may reach through there: so far apart, m, by parts of
+/// an edge, at least and at most so many. fitted: guesses; at three places an edge and one a triangle, a dress of edges
+/// of 6 cm kept crossings with the body
+inline constexpr double k_places_apart = 0.01;
+inline constexpr int k_parts_of_edge = 4, k_parts_of_triangle = 3, k_most_parts = 20;
 /// Crossings that such a garment is given with, up to which all are untangled; of more, a few fewer than given are left.
 /// fitted: guess, between 20 of a polo shirt, which come apart, and 14,000 of doubled sheets, which do not
 inline constexpr std::size_t k_few_crossings = 1000;
