@@ -8,7 +8,7 @@
 namespace garmentfit {
 
 /// The ways of places, n x 3: nearly their own for those that have one, blended ones for those near them, fading with the
-/// distance. If `radius` is three times the longest way, it is a motion of space that grows by less from place to place
+/// distance. If `radius` is twice and a half the longest way, it is a motion of space that grows by less from place to place
 /// than they are apart: sheets of cloth between which there is an order keep it, however near they are to each other and
 /// whatever triangles they are made of, as long as edges are short against `radius`.
 /// Cost O(n log n).

@@ -199,10 +199,10 @@ inline constexpr double k_evening_hold = 1e-3;
 /// in mean edges, and in m at most, as ways out of two sides of a limb cancel each other; and how far beyond the skin, m,
 /// and so much further in each round. fitted: guesses, on the same clothes and, the reaches, on six others
 inline constexpr int k_pushing_rounds = 40, k_futile_pushes = 8;
-inline constexpr double k_pushing_reach = 5, k_longest_reach = 0.2, k_pushing_step = 1e-3;
-/// By how much ways grow less from place to place, on the mean, in shares of the distance. unit: below a half, sheets keep
+inline constexpr double k_pushing_reach = 4, k_longest_reach = 0.2, k_pushing_step = 1e-3;
+/// By how much ways grow less from place to place, on the mean, in shares of the distance. unit: below .6, sheets keep
 /// their order
-inline constexpr double k_steepest_way = 0.3;
+inline constexpr double k_steepest_way = 0.4;
 /// By how much less space is taken along in each round after so many in vain. fitted: guess; of 1, .85, .7 and .5 on six
 /// clothes
 inline constexpr double k_harder_push = 0.85;

@@ -83,14 +83,15 @@ std::vector<tinygltf::Node> nodes_of(const std::vector<SkinnedMesh>& meshes, con
 
 JointWeights weights_of(const SkinnedMesh& mesh)
 {
-    JointWeights weights = mesh.more_weights.rows() > 0 ? mesh.more_weights : joint_weights_of(mesh.weights);
-    if (weights.rows() != mesh.surface.positions.rows() || weights.cols() != bone_count)
+    const bool has_more = mesh.more_weights.rows() > 0;
+    const Eigen::Index rows = has_more ? mesh.more_weights.rows() : mesh.weights.weights.rows(),
+                       bones = has_more ? mesh.more_weights.cols() : Eigen::Index(bone_count);
+    if (rows != mesh.surface.positions.rows() || bones != bone_count)
         throw InvalidInput(ErrorCode::count_mismatch,
                            "skinned GLB: " + mesh.name + " has " + std::to_string(mesh.surface.positions.rows())
-                               + " vertices and weights of " + std::to_string(weights.rows()) + " over "
-                               + std::to_string(weights.cols())
+                               + " vertices and weights of " + std::to_string(rows) + " over " + std::to_string(bones)
                                + " bones; give a row for each vertex and a column for each bone");
-    return weights;
+    return has_more ? mesh.more_weights : joint_weights_of(mesh.weights);
 }
 
 GlbModel skinned_model(const Bones& bones, const std::vector<SkinnedMesh>& meshes)
