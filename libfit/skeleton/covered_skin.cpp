@@ -127,21 +127,10 @@ private:
 
 TriangleMesh joined_clothes(const std::vector<SkinnedCloth>& clothes, const BoneTransforms& transforms)
 {
-    Eigen::Index vertices = 0, faces = 0;
-    for (const SkinnedCloth& cloth : clothes) {
-        vertices += cloth.surface.positions.rows();
-        faces += cloth.surface.triangles.rows();
-    }
-    TriangleMesh all { Positions(vertices, 3), Triangles(faces, 3) };
-    vertices = faces = 0;
-    for (const SkinnedCloth& cloth : clothes) {
-        const auto& [positions, triangles] = cloth.surface;
-        all.positions.middleRows(vertices, positions.rows()) = blend_linearly(positions, cloth.weights, transforms);
-        all.triangles.middleRows(faces, triangles.rows()) = triangles.array() + int(vertices);
-        vertices += positions.rows();
-        faces += triangles.rows();
-    }
-    return all;
+    std::vector<TriangleMesh> posed;
+    for (const auto& [surface, weights] : clothes)
+        posed.push_back({ blend_linearly(surface.positions, weights, transforms), surface.triangles });
+    return joined(posed);
 }
 
 /// Draws pictures, several at once. look(i, picture) gets that of directions[i].

@@ -19,6 +19,24 @@ struct Depths {
 
 }  // namespace
 
+TriangleMesh joined(const std::vector<TriangleMesh>& clothes)
+{
+    Eigen::Index vertices = 0, faces = 0;
+    for (const TriangleMesh& cloth : clothes) {
+        vertices += cloth.positions.rows();
+        faces += cloth.triangles.rows();
+    }
+    TriangleMesh all { Positions(vertices, 3), Triangles(faces, 3) };
+    vertices = faces = 0;
+    for (const auto& [positions, triangles] : clothes) {
+        all.positions.middleRows(vertices, positions.rows()) = positions;
+        all.triangles.middleRows(faces, triangles.rows()) = triangles.array() + int(vertices);
+        vertices += positions.rows();
+        faces += triangles.rows();
+    }
+    return all;
+}
+
 std::vector<Vec3> viewing_directions(int count, int phase, int phases)
 {
     std::vector<Vec3> directions;

@@ -12,6 +12,9 @@
 
 namespace garmentfit {
 
+/// All clothes as one mesh.
+TriangleMesh joined(const std::vector<TriangleMesh>& clothes);
+
 /// `count` directions evenly over half a sphere, which together with their opposites cover all of it. `phase` of
 /// `phases` turns: other directions in each.
 std::vector<Vec3> viewing_directions(int count, int phase = 0, int phases = 1);

@@ -18,19 +18,6 @@ using namespace skeleton_tuning;
 
 constexpr double k_lift = 1e-5;  // unit: share of the diagonal; a ray begins off the faces around its vertex
 
-TriangleMesh joined(const std::vector<TriangleMesh>& clothes)
-{
-    TriangleMesh all;
-    for (const TriangleMesh& cloth : clothes) {
-        const int first = int(all.positions.rows());
-        all.positions.conservativeResize(first + cloth.positions.rows(), 3);
-        all.positions.bottomRows(cloth.positions.rows()) = cloth.positions;
-        all.triangles.conservativeResize(all.triangles.rows() + cloth.triangles.rows(), 3);
-        all.triangles.bottomRows(cloth.triangles.rows()) = cloth.triangles.array() + first;
-    }
-    return all;
-}
-
 /// Evens out the motion of what moves.
 void smooth(const MeshTopology& topology, Positions& motion)
 {
