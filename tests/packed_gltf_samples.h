@@ -15,6 +15,7 @@
 #include <meshoptimizer.h>
 #include <nlohmann/json.hpp>
 
+#include "data_uri.h"
 #include "gltf_unpack.h"
 #include "mesh_file_samples.h"
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <set>
 
+#include "data_uri.h"
 #include "garmentfit/error.h"
 
 namespace garmentfit {
@@ -208,22 +209,6 @@ std::string merge_buffers(const FileBytes& file, ordered_json& json, const std::
         }
     json["buffers"] = ordered_json::array({ { { "byteLength", all.size() } } });
     return all;
-}
-
-std::string data_uri(std::string_view mime_type, std::string_view bytes)
-{
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string uri = "data:" + std::string(mime_type) + ";base64,";
-    uri.reserve(uri.size() + bytes.size() * 4 / 3 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0);
-        for (std::size_t k = 0; k < 4; ++k)
-            uri += k <= count ? alphabet[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return uri;
 }
 
 std::string file_of_picture(const ordered_json& image)

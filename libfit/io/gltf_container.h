@@ -41,8 +41,6 @@ std::string bytes_of(const GltfContainer& container);
 /// @throws InvalidInput: a view of a buffer that there is not
 std::string merge_buffers(const FileBytes& file, nlohmann::ordered_json& json, const std::vector<std::string>& buffers);
 
-std::string data_uri(std::string_view mime_type, std::string_view bytes);
-
 /// Copies pictures from beside the file into it, so that it can be written to another folder.
 /// Those that are missing stay as they are.
 void embed_pictures(nlohmann::ordered_json& json, const std::filesystem::path& folder);

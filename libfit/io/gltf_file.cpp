@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "data_uri.h"
 #include "garmentfit/error.h"
 #include "gltf_container.h"
 #include "gltf_materials.h"

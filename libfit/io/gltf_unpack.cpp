@@ -18,6 +18,7 @@
 #include <draco/compression/decode.h>
 #include <meshoptimizer.h>
 
+#include "data_uri.h"
 #include "garmentfit/error.h"
 #include "gltf_model.h"
 #include "scene_file.h"

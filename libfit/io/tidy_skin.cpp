@@ -6,10 +6,10 @@
 #include <limits>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "data_uri.h"
 #include "gltf_append.h"
 #include "gltf_scene.h"
 #include "joint_tree.h"
@@ -96,48 +96,24 @@ void replace_sets(GltfContainer& container, const ordered_json& attributes, cons
     }
 }
 
-// ---- pictures ------------------------------------------------------------------------------------------------------
-
-/// What base64 stands for; other characters are left out.
-std::string decode_base64(std::string_view text)
-{
-    constexpr std::string_view k_alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    std::uint32_t bits = 0;
-    int count = 0;  // of bits that are not written yet
-    for (const char letter : text)
-        if (const std::size_t value = k_alphabet.find(letter); value != std::string_view::npos) {
-            bits = bits << 6 | std::uint32_t(value);
-            count += 6;
-            if (count >= 8) {
-                count -= 8;
-                bytes += char(bits >> count & 0xFF);
-            }
-        }
-    return bytes;
-}
-
 }  // namespace
 
 void move_pictures_into_buffer(GltfContainer& container)
 {
-    constexpr std::string_view k_start = "data:", k_coding = ";base64,";
     if (!container.json.contains("images"))
         return;
     for (ordered_json& picture : container.json["images"]) {
-        const std::string uri = picture.value("uri", std::string());
-        const std::size_t coding = uri.find(k_coding);
-        if (!uri.starts_with(k_start) || coding == std::string::npos)
+        const std::optional<EmbeddedData> data = read_data_uri(picture.value("uri", std::string()));
+        if (!data)
             continue;
         std::string& buffer = *container.own_buffer();
         buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
-        const std::string bytes = decode_base64(std::string_view(uri).substr(coding + k_coding.size()));
         picture.erase("uri");
         picture["bufferView"] = count_of(container.json, "bufferViews");
-        picture["mimeType"] = uri.substr(k_start.size(), coding - k_start.size());
+        picture["mimeType"] = data->mime_type;
         container.json["bufferViews"].push_back(
-            { { "buffer", 0 }, { "byteOffset", buffer.size() }, { "byteLength", bytes.size() } });
-        buffer += bytes;
+            { { "buffer", 0 }, { "byteOffset", buffer.size() }, { "byteLength", data->bytes.size() } });
+        buffer += data->bytes;
         container.json["buffers"][0]["byteLength"] = buffer.size();
     }
 }

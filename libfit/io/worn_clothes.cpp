@@ -314,6 +314,17 @@ std::optional<StrippedBody> find_body(const MeshFile& avatar, Wears wears)
     return body;
 }
 
+void require_no_body(const MeshFile& garment)
+{
+    const std::optional<StrippedBody> figure = find_body(garment, Wears::strip);
+    if (!figure->stripped.empty())
+        throw InvalidInput(ErrorCode::invalid_input,
+                           garment.path().filename().string() + ": shows a body in clothes ("
+                               + list_of(figure->stripped)
+                               + "), and not a garment alone; delete the body from the file, and save each garment by "
+                                 "itself");
+}
+
 std::vector<std::string> notes_on(const StrippedBody& body)
 {
     std::vector<std::string> notes = body.warnings;

@@ -70,22 +70,6 @@ bool is_skinned(const MeshFile& file)
     return (file.format() == "glb" || file.format() == "gltf") && has_skin(file.path());
 }
 
-/// Of a dressed figure the body would be cloth, too, and no pose would be found for it.
-void require_no_body(const MeshFile& garment)
-{
-    const std::optional<StrippedBody> figure
-        = is_skinned(garment) ? find_body(garment, Wears::strip) : std::optional<StrippedBody>();
-    if (!figure || figure->stripped.empty())
-        return;
-    std::string clothes;
-    for (const std::string& name : figure->stripped)
-        clothes += (clothes.empty() ? "" : ", ") + name;
-    throw InvalidInput(
-        ErrorCode::invalid_input,
-        garment.path().filename().string() + ": shows a body in clothes (" + clothes
-            + "), and not a garment alone; delete the body from the file, and save each garment by itself");
-}
-
 OwnRig read_own_rig(const BodyFile& body)
 {
     if (!is_skinned(body.file))

@@ -119,6 +119,7 @@ void bind_mesh_file(nb::module_& m)
         "triangles_of_body",
         [](const MeshFile& file, const StrippedBody& left) { return array_of(triangles_of(file, left)); }, "file"_a,
         "left"_a);
+    m.def("require_no_body", &require_no_body, "garment"_a);
 }
 
 void bind_snapshot(nb::module_& m)

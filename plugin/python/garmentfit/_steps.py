@@ -271,6 +271,8 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
     for i, layer in enumerate(layers):
         garment = layer if isinstance(layer, Garment) else Garment(layer)
         mesh = as_mesh(garment.mesh)
+        if mesh.file is not None:
+            _core.require_no_body(mesh.file)
         named = mesh.name if len(layers) == 1 or mesh.name != "the garment" else f"garment {i + 1}"
         dressed.add_garment(mesh.positions, mesh.triangles, garment.type, unit, up, garment.front or front,
                             dict(_sizes_of(garment, parameters)), named)

@@ -305,6 +305,12 @@ def test_clothes_of_an_avatar_are_left_out_of_the_body(dressed, body, skirt, tmp
     assert sorted(faces)[0] <= 1 and sorted(faces)[1:] == [len(skirt.triangles)]
 
 
+def test_a_dressed_figure_is_no_garment(dressed, body, tmp_path):
+    dressed.write_outfit(tmp_path / "figure.glb", bones="mixamo")
+    with pytest.raises(InvalidInput, match=r"figure.glb: shows a body in clothes \(skirt\)"):
+        garmentfit.dress(body, garmentfit.read_mesh(tmp_path / "figure.glb"), **QUICK)
+
+
 def test_a_skin_of_a_garments_file_is_warned_of(dressed, body, tmp_path):
     _write_part_of_outfit(tmp_path / "skinned.glb", dressed, left_out="body")
 

@@ -37,6 +37,10 @@ struct StrippedBody {
 /// clothes are kept.
 GARMENTFIT_API std::optional<StrippedBody> find_body(const MeshFile& avatar, Wears wears);
 
+/// Of a dressed figure that is given as a garment the body would be cloth, too, and no pose would be found for it.
+/// @throws InvalidInput naming the clothes that find_body would leave out, if there are any
+GARMENTFIT_API void require_no_body(const MeshFile& garment);
+
 /// Which parts were left out, and which could not be, in whole sentences for the user.
 GARMENTFIT_API std::vector<std::string> notes_on(const StrippedBody& body);
 
