@@ -79,8 +79,7 @@ class Grading {
 public:
     /// @param tightness  of the garment as given
     Grading(const GarmentMesh& given, Tightness tightness, const ClothOptions& cloth) :
-        given_(given), tightness_(std::move(tightness)), allowed_(material_of(cloth).largest_stretch),
-        largest_enlargement_(cloth.largest_enlargement)
+        given_(given), tightness_(std::move(tightness)), largest_enlargement_(cloth.largest_enlargement)
     {
     }
 
@@ -91,15 +90,14 @@ public:
         tightness_.set_rest(garment().positions);
     }
 
-    bool is_tight(const ClothMotion& motion) const { return stretch_of(motion) > allowed_; }
+    bool is_tight(const ClothMotion& motion) const { return tightness_.needed_size(motion.cloth(), 1) > 1; }
 
     /// Enlarges the garment where the body stretches it too far. @return false if that takes more than is allowed
     bool enlarge_if_tight(ClothMotion& motion)
     {
-        const double stretch = stretch_of(motion);
-        if (stretch <= allowed_)
+        if (!is_tight(motion))
             return true;
-        const double larger = size_ * (1 + stretch) / (1 + k_enlarged_stretch_share * allowed_);
+        const double larger = size_ * tightness_.needed_size(motion.cloth(), k_enlarged_stretch_share);
         if (larger > 1 + largest_enlargement_)
             return false;
         enlarge(motion, larger);
@@ -111,11 +109,8 @@ public:
     GarmentMesh garment() const { return { size_ * given_.positions, given_.triangles }; }
 
 private:
-    double stretch_of(const ClothMotion& motion) const { return tightness_.largest_stretch(motion.cloth()); }
-
     const GarmentMesh& given_;
     Tightness tightness_;
-    double allowed_;  // stretch
     double largest_enlargement_;
     double size_ = 1;
 };

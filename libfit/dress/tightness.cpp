@@ -69,12 +69,17 @@ std::vector<Tightness::PartStretch> Tightness::measure_parts(const Positions& po
     return result;
 }
 
-double Tightness::largest_stretch(const Positions& positions) const
+double Tightness::allowed_at(int part) const
 {
-    double largest = 0;
+    return part == part_of(upperneck) ? std::max(allowed_, k_neck_stretch) : allowed_;
+}
+
+double Tightness::needed_size(const Positions& positions, double share) const
+{
+    double size = 0;
     for (const PartStretch& part : measure_parts(positions))
-        largest = std::max(largest, part.mean);
-    return largest;
+        size = std::max(size, (1 + part.mean) / (1 + share * allowed_at(part.part)));
+    return size;
 }
 
 TooTight Tightness::missing_girth(const PartStretch& part, double stretch, double growth) const
@@ -87,7 +92,7 @@ std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, do
 {
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
-        if (part.mean > share * allowed_)
+        if (part.mean > share * allowed_at(part.part))
             result.push_back(missing_girth(part, part.mean, growth[part.part]));
     return sort_worst_first(result);
 }
@@ -98,7 +103,7 @@ std::vector<TooTight> Tightness::list_tight_parts_at_rest(const Positions& posit
         return list_tight_parts(positions, 1, {});
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
-        if (part.tightest > allowed_)
+        if (part.tightest > allowed_at(part.part))
             result.push_back(missing_girth(part, std::min(part.tightest, caught_), 0));
     return sort_worst_first(result);
 }

@@ -22,7 +22,7 @@ public:
     /// @param edges     of the garment; must outlive this
     /// @param weights   skin weights of the garment's vertices
     /// @param skeleton  in the pose of the garment
-    /// @param allowed   stretch that the fabric gives
+    /// @param allowed   stretch that the fabric gives; round the neck it may be more, for necklines end in a rib, or open
     /// @param index     of the garment, from the inside out
     Tightness(const Positions& rest, const Edges& edges, const SkinWeights& weights, const Skeleton& skeleton,
               double allowed, int index = 0);
@@ -30,8 +30,9 @@ public:
     /// From now on the rest shape is this: the same garment in another size.
     void set_rest(const Positions& rest) { rest_ = rest; }
 
-    /// The largest mean stretch round a part of the body; 0: nowhere stretched.
-    double largest_stretch(const Positions& positions) const;
+    /// How many times as large the garment would have to be, for its mean stretch round each part of the body to be a
+    /// share of what is allowed there; 0 where it goes round none.
+    double needed_size(const Positions& positions, double share) const;
 
     /// Lists the parts stretched beyond a share of what is allowed, worst first, on a body below its full size.
     /// @param growth  by how much its girth under the cloth still has to grow, from growth_left
@@ -51,6 +52,7 @@ public:
     std::vector<PartStretch> measure_parts(const Positions& positions) const;
 
 private:
+    double allowed_at(int part) const;
     TooTight missing_girth(const PartStretch& part, double stretch, double growth) const;
 
     Positions rest_;

@@ -92,6 +92,9 @@ inline constexpr double k_crease_withdrawal = 0.5;
 /// |cosine| between an edge and a bone: below it, the edge runs round the bone (within 30 degrees of straight across).
 /// Fitted: guess.
 inline constexpr double k_across_bone = 0.5;
+/// Stretch that every garment gives round the neck, at least: knits have a rib there, shirts and jackets open. The most
+/// that knits but ribs give. Fitted: guess, on two strangers' T-shirts and hoodies that lacked girth at the neck alone.
+inline constexpr double k_neck_stretch = 0.35;
 /// A part is judged when its edges would go round it this often: a hem that just reaches it does not stretch as a
 /// whole. Fitted: guess, on the house pairs.
 inline constexpr double k_fewest_rounds = 6;

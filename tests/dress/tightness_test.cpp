@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "fixtures.h"
 #include "garmentfit/fit_map.h"
@@ -44,7 +45,8 @@ TEST(Tightness, NamesThePartAndTheGirthThatItLacks)
     const Positions rest = tube(skeleton, lfemur, 0.08), worn = tube(skeleton, lfemur, 0.1);
     const Edges edges = edges_of(tube_triangles());
     Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15, 2);
-    EXPECT_NEAR(tightness.largest_stretch(worn), 0.25, 1e-6);
+    EXPECT_NEAR(tightness.needed_size(worn, 0), 1.25, 1e-6);
+    EXPECT_NEAR(tightness.needed_size(worn, 1), 1.25 / 1.15, 1e-6);
     const auto tight = tightness.list_tight_parts(worn, 1, {});
     ASSERT_EQ(tight.size(), 1u);
     EXPECT_EQ(tight[0].garment, 2);
@@ -54,7 +56,7 @@ TEST(Tightness, NamesThePartAndTheGirthThatItLacks)
     EXPECT_EQ(tightness.list_tight_parts_at_rest(worn).size(), 1u);
     EXPECT_TRUE(tightness.list_tight_parts(worn, 2, {}).empty());
     tightness.set_rest(worn);
-    EXPECT_NEAR(tightness.largest_stretch(worn), 0, 1e-9);
+    EXPECT_NEAR(tightness.needed_size(worn, 0), 1, 1e-9);
 }
 
 TEST(Tightness, CountsACaughtEdgeAsHalfStretched)
@@ -63,7 +65,7 @@ TEST(Tightness, CountsACaughtEdgeAsHalfStretched)
     const Positions rest = tube(skeleton, lfemur, 0.05), worn = tube(skeleton, lfemur, 0.1);  // twice as wide
     const Edges edges = edges_of(tube_triangles());
     const Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15);
-    EXPECT_NEAR(tightness.largest_stretch(worn), 0.5, 1e-6);
+    EXPECT_NEAR(tightness.needed_size(worn, 0), 1.5, 1e-6);
 }
 
 // literature: [kirk_1966_extensibility], pressure is tension over radius.
@@ -90,7 +92,20 @@ TEST(Tightness, OfAKnitCountsEdgesThatAreStretchedAsFarAsItGives)
     const Edges edges = edges_of(tube_triangles());
     const Tightness rib(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.5);
     EXPECT_EQ(rib.list_tight_parts_at_rest(worn).size(), 1u) << "two thirds are more than it gives";
-    EXPECT_NEAR(rib.largest_stretch(worn), 2. / 3, 1e-6);
+    EXPECT_NEAR(rib.needed_size(worn, 0), 5. / 3, 1e-6);
+}
+
+TEST(Tightness, LetsNecklinesGiveMoreThanTheFabric)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    for (const auto& [bone, radius, is_tight] :
+         { std::tuple(upperneck, 0.06, false), std::tuple(upperneck, 0.08, true), std::tuple(lfemur, 0.06, true) }) {
+        const Positions rest = tube(skeleton, bone, 0.05), worn = tube(skeleton, bone, radius);
+        const Edges edges = edges_of(tube_triangles());
+        const Tightness tightness(rest, edges, fixtures::on_bone(bone, rest.rows()), skeleton, 0.15);
+        EXPECT_EQ(!tightness.list_tight_parts_at_rest(worn).empty(), is_tight) << bone << " " << radius;
+        EXPECT_EQ(tightness.needed_size(worn, 1) > 1, is_tight) << bone << " " << radius;
+    }
 }
 
 /// Where every other vertex of a tube round a bone is turned about it by a share of the way to the next one, so that its
