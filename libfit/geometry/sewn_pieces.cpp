@@ -16,6 +16,7 @@
 #include "segment.h"
 #include "surface_measures.h"
 #include "tuning.h"
+#include "used_vertices.h"
 #include "weld.h"
 
 namespace garmentfit {
@@ -143,7 +144,7 @@ public:
     std::vector<Foot> find(const std::vector<int>& vertices, std::size_t on, double reach)
     {
         if (!trees_[on])
-            trees_[on].emplace(TriangleMesh { rest_.positions, rest_.triangles(pieces_[on].triangles, Eigen::all) });
+            trees_[on].emplace(surface_of(pieces_[on]));
         const TriangleTree& tree = *trees_[on];
         std::vector<Foot> feet(vertices.size());
         parallel_for<std::size_t>(
@@ -152,9 +153,9 @@ public:
                 const Vec3 place = rest_.positions.row(vertices[i]);
                 if (pieces_[on].box.exteriorDistance(place) > reach)
                     return;
-                const auto nearest = tree.nearest_triangle(place);
-                if (const double distance = nearest ? (nearest->point - place).norm() : INFINITY; distance <= reach)
-                    feet[i] = foot_at(vertices[i], pieces_[on].triangles[nearest->triangle], nearest->point, distance);
+                if (const auto nearest = tree.nearest_triangle_within(place, reach))
+                    feet[i] = foot_at(vertices[i], pieces_[on].triangles[nearest->triangle], nearest->point,
+                                      (nearest->point - place).norm());
             },
             k_grain);
         return feet;
@@ -162,6 +163,14 @@ public:
 
 private:
     Vec3 at(int v) const { return rest_.positions.row(v); }
+
+    /// With its own vertices alone: there may be thousands of pieces.
+    TriangleMesh surface_of(const Piece& piece) const
+    {
+        Triangles triangles = rest_.triangles(piece.triangles, Eigen::all);
+        const std::vector<int> vertices = used_vertices(triangles);
+        return { rest_.positions(vertices, Eigen::all), numbered_among(vertices, std::move(triangles)) };
+    }
 
     Foot foot_at(int vertex, int triangle, const Vec3& point, double distance) const
     {
@@ -265,14 +274,14 @@ bool is_folded_back(const GarmentMesh& rest, const MeshTopology& topology, int v
 
 /// Ties along the seams of a piece with itself, as between front and back where the sleeves join them: borders that are
 /// near to each other and far along the cloth. None where these are few.
-std::vector<Tie> find_own_seams(const GarmentMesh& rest, const MeshTopology& topology, const Piece& piece)
+std::vector<Tie> find_own_seams(const GarmentMesh& rest, const MeshTopology& topology, const Piece& piece,
+                                EdgesAround& around)
 {
     if (piece.thickness > 0 || piece.border.empty())
         return {};
     const double reach = seam_reach(piece.border_edge);
     const auto at = [&](int v) { return Vec3(rest.positions.row(v)); };
     const NearestPoint border(rest.positions(piece.border, Eigen::all));
-    EdgesAround around(topology, std::size_t(rest.positions.rows()));
     std::vector<Tie> ties;
     for (const int v : piece.border) {
         around.look_at(v);
@@ -327,6 +336,8 @@ std::vector<Tie> find_seam(Feet& feet, const std::vector<Piece>& pieces, std::si
     const double reach
         = std::max(seam_reach(edge), panel_seam_distance(std::min(pieces[p].thickness, pieces[q].thickness)));
     const double wide = std::min(k_gaping_edges * edge, k_gaping_distance);
+    if (pieces[p].box.exteriorDistance(pieces[q].box) > std::max(reach, wide))
+        return {};
     if (wide > reach)
         if (std::vector<Tie> ties = ties_within(feet, pieces, p, q, wide, k_gaping_share); !ties.empty())
             return ties;
@@ -444,8 +455,9 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
 {
     const std::vector<Piece> pieces = collect_pieces(rest, topology, garments);
     Sewing sewing(pieces.size(), rest.positions.rows());
+    EdgesAround around(topology, std::size_t(rest.positions.rows()));
     for (std::size_t p = 0; p < pieces.size(); ++p)
-        sewing.add_seam(p, p, find_own_seams(rest, topology, pieces[p]));
+        sewing.add_seam(p, p, find_own_seams(rest, topology, pieces[p], around));
     std::vector<char> is_on_border(std::size_t(rest.positions.rows()), 0);
     for (const Piece& piece : pieces)
         for (const int v : piece.border)
