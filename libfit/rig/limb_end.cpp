@@ -96,4 +96,15 @@ bool has_foot(const Centreline& line, double size)
         || foot_angle(line, size) > k_least_foot_angle;
 }
 
+bool shows_hand(const Centreline& line, double size)
+{
+    return widening(line, k_palm * size, size) > k_wider_end && end_girth(line) < k_thin_hand * size;
+}
+
+bool shows_foot(const Centreline& line, double size)
+{
+    return widening(line, k_instep * size, size) > k_wider_end && end_girth(line) < k_thin_foot * size
+        && foot_angle(line, size) > k_least_foot_angle;
+}
+
 }  // namespace garmentfit

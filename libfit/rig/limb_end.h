@@ -26,4 +26,8 @@ Narrowest find_narrowest(const Centreline& line, const Vec3& tip, const TipDista
 bool has_hand(const Centreline& line, double size);
 bool has_foot(const Centreline& line, double size);
 
+/// Stricter, for what may be clothes: widens, and ends thin like fingers, or, a leg, bends at its end like toes.
+bool shows_hand(const Centreline& line, double size);
+bool shows_foot(const Centreline& line, double size);
+
 }  // namespace garmentfit

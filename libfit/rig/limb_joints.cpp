@@ -70,7 +70,7 @@ LimbJoints place_arm(const LabelledSurface& surface, const LimbLine& arm, const 
     const Narrowest narrow = find_narrowest(
         arm.line, joints.tip, { k_least_hand * size, k_hand * size, k_most_hand * size, k_hand_spread * size });
     require_part(narrow.row >= 0, "wrist", arm.tip());
-    joints.widens = narrow.widens;
+    joints.widens = narrow.widens || shows_hand(arm.line, size);
     joints.whole = has_hand(arm.line, size);
     const auto [line, wrist] = find_last_joint(surface, arm, joints.whole, narrow.row, "wrist", size);
     joints.end = line.points[wrist];
@@ -124,7 +124,7 @@ LimbJoints place_leg(const LabelledSurface& surface, const LimbLine& leg, const 
     const Narrowest narrow = find_narrowest(
         leg.line, leg.tip(), { k_least_foot * size, k_usual_foot * size, k_most_foot * size, k_foot_spread * size });
     LimbJoints joints;
-    joints.widens = narrow.widens;
+    joints.widens = narrow.widens || shows_foot(leg.line, size);
     joints.whole = has_foot(leg.line, size);
     const auto [line, shin] = find_last_joint(surface, leg, joints.whole, narrow.row, "ankle", size);
     joints.root = hip;

@@ -15,7 +15,7 @@ namespace garmentfit {
 struct LimbJoints {
     Vec3 root, middle, end, tip;
     bool whole = true;  ///< with a hand or a foot
-    bool widens = true;  ///< beyond its narrowest part: evidence for a hand or foot
+    bool widens = true;  ///< beyond its narrowest part, for long or to a thin end: evidence for a hand or foot
 };
 
 double length_of(const LimbJoints& limb);  ///< m, root to end
