@@ -8,6 +8,7 @@ namespace garmentfit {
 namespace {
 
 constexpr double k_smallest_cotangent = 1e-3;  // unit: keeps the matrix positive definite with obtuse triangles
+constexpr double k_largest_cotangent = 1e6;  // unit: keeps it finite, and solvable, with triangles without area
 constexpr double k_no_length = 1e-300;  // unit: avoids 0 / 0
 
 }  // namespace
@@ -22,8 +23,8 @@ CotangentLaplacian cotangent_laplacian(const TriangleMesh& mesh)
             const Vec3 a = mesh.positions.row(i) - mesh.positions.row(o),
                        b = mesh.positions.row(j) - mesh.positions.row(o);
             const double twice_area = a.cross(b).norm();
-            const double half_cotangent
-                = 0.5 * std::max(k_smallest_cotangent, a.dot(b) / std::max(twice_area, k_no_length));
+            const double half_cotangent = 0.5
+                * std::clamp(a.dot(b) / std::max(twice_area, k_no_length), k_smallest_cotangent, k_largest_cotangent);
             areas[o] += twice_area / 6;  // derived: a third of the triangle
             entries.emplace_back(i, i, half_cotangent);
             entries.emplace_back(j, j, half_cotangent);
