@@ -18,8 +18,10 @@
 #include "joint_labels.h"
 #include "proxy_surface.h"
 #include "rig_validation.h"
+#include "shell_figure.h"
 #include "side_classification.h"
 #include "skin_transfer.h"
+#include "skin_weights.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -125,8 +127,7 @@ struct Contracted {
     CurveSkeleton curves;
 };
 
-VisibleRig name_sides(const CurveSkeleton& curves, const BodyGraph& graph, const BodyJoints& joints,
-                      const RigOptions& options)
+Sides sides_of(const BodyJoints& joints, const RigOptions& options)
 {
     Sides sides = classify_sides(joints, options.front);
     if (options.swap_sides) {
@@ -134,12 +135,24 @@ VisibleRig name_sides(const CurveSkeleton& curves, const BodyGraph& graph, const
         sides.left_leg = 1 - sides.left_leg;
         sides.front = -sides.front;
     }
-    VisibleRig found { {}, visible_bones(curves, graph, sides) };
+    return sides;
+}
+
+VisibleRig name_bones(const BodyJoints& joints, const Sides& sides, VisibleBones visible, const RigOptions& options)
+{
+    VisibleRig found { {}, std::move(visible) };
     found.rig.skeleton = correct(build_skeleton(joints, sides), options.joints);
     found.rig.up = sides.up;
     found.rig.front = sides.front;
     found.rig.side_confidence = sides.confidence;
     return found;
+}
+
+VisibleRig name_sides(const CurveSkeleton& curves, const BodyGraph& graph, const BodyJoints& joints,
+                      const RigOptions& options)
+{
+    const Sides sides = sides_of(joints, options);
+    return name_bones(joints, sides, visible_bones(curves, graph, sides), options);
 }
 
 /// Refuses what may be a figure of other proportions; the figures are then looked at.
@@ -290,6 +303,26 @@ Rig rig_as_human(const BodyMesh& body, const RigOptions& options, Copies& copies
     });
 }
 
+/// Weights of a figure of shells on its own vertices. A limb's shells have too few vertices for an equilibrium of heat:
+/// upper and lower bone share them by their place along it.
+SkinWeights weigh_shells(const VisibleRig& found, const TriangleMesh& surface)
+{
+    const Skeleton& s = found.rig.skeleton;
+    Eigen::MatrixXd weights = heat_weights(surface, s, found.visible);
+    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v)
+        for (const LimbBones& limb : { k_left_arm, k_right_arm, k_left_leg, k_right_leg })
+            if (const auto& visible = found.visible[std::size_t(v)]; visible[limb.lower]) {
+                const Vec3 along = s.tail(limb.lower) - s.tail(limb.root);
+                const double beyond
+                    = (Vec3(surface.positions.row(v)) - s.tail(limb.upper)).dot(along) / along.squaredNorm();
+                const double lower = std::clamp(0.5 + 0.5 * beyond / k_shell_bend, 0.0, 1.0);
+                weights.row(v).setZero();
+                weights(v, limb.upper) = 1 - lower;
+                weights(v, limb.lower) = lower;
+            }
+    return strongest_four(std::move(weights));
+}
+
 constexpr const char* k_covered_legs = "its legs do not show, as in a gown, and are placed by a human's proportions";
 constexpr const char* k_other_lengths = "the lengths between head, hands and feet are not a human's";
 
@@ -337,17 +370,31 @@ public:
             const BodyJoints joints = label_figure(body.proxy, body.curves, figure);
             VisibleRig found = name_sides(body.curves, figure.graph, joints, options_);
             const HumanLikeness human = human_likeness(body.proxy, found.rig.skeleton);
-            const double score = -0.5 * human.squares - figure.cost - k_divided_cost * count_divided(joints) - doubt;
-            if (best_ && score <= score_)
-                return;
-            say_how_human(human, figure.cost, found.rig);
-            if (figure.graph.has_covered_legs && human.furthest.empty())
-                found.rig.not_human = k_covered_legs;
-            score_ = score;
-            best_ = std::move(found);
-            proxy_ = body.proxy;
+            if (take(std::move(found), human, figure.cost, k_divided_cost * count_divided(joints) + doubt, body.proxy,
+                     false)
+                && figure.graph.has_covered_legs && human.furthest.empty())
+                best_->rig.not_human = k_covered_legs;
         } catch (const InvalidInput&) {
             // another triangulation may do
+        }
+    }
+
+    /// At the shells of the surface as given. Its own vertices get the weights, as a closed one joins limbs that touch.
+    void look_at_shells(const BodyMesh& body)
+    {
+        const std::optional<ShellFigure> figure = shell_figure(body.surface);
+        if (!figure)
+            return;
+        try {
+            const Sides sides = sides_of(figure->joints, options_);
+            VisibleBones visible;
+            for (const int curve : figure->curve_of_vertex)
+                visible.push_back(bones_of_curve(curve, sides));
+            VisibleRig found = name_bones(figure->joints, sides, std::move(visible), options_);
+            const HumanLikeness human = human_likeness(body.closed, found.rig.skeleton);
+            take(std::move(found), human, figure->cost, 0, body.surface, true);
+        } catch (const InvalidInput&) {
+            // its curves may show another figure
         }
     }
 
@@ -357,13 +404,36 @@ public:
     /// @pre has_found()
     Rig weigh_best(const BodyMesh& body, const Progress& progress)
     {
-        return weigh(*std::move(best_), proxy_, body, progress);
+        if (!is_of_shells_)
+            return weigh(*std::move(best_), proxy_, body, progress);
+        Rig rig = best_->rig;
+        rig.weights = weigh_shells(*best_, proxy_);
+        rig.radii = bone_radii(rig.skeleton, rig.weights, body.surface.positions);
+        progress.at(1);
+        return rig;
     }
 
 private:
+    /// @param cost  of the names. @param doubt  further costs
+    /// @return whether this is the likeliest figure so far
+    bool take(VisibleRig found, const HumanLikeness& human, double cost, double doubt, const TriangleMesh& proxy,
+              bool is_of_shells)
+    {
+        const double score = -0.5 * human.squares - cost - doubt;
+        if (best_ && score <= score_)
+            return false;
+        say_how_human(human, cost, found.rig);
+        score_ = score;
+        best_ = std::move(found);
+        proxy_ = proxy;
+        is_of_shells_ = is_of_shells;
+        return true;
+    }
+
     const RigOptions& options_;
     std::optional<VisibleRig> best_;
-    TriangleMesh proxy_;
+    TriangleMesh proxy_;  ///< whose vertices the visible bones are of
+    bool is_of_shells_ = false;  ///< the proxy is the surface as given
     double score_ = 0;
 };
 
@@ -374,6 +444,7 @@ void look_for_figures(FigureSearch& search, const BodyMesh& body, const RigOptio
 {
     for (const Contracted& copy : copies.all())
         search.look_at(copy);
+    search.look_at_shells(body);
     for (; copies.has_more() && !search.is_sure(); progress.at(0.2))
         try {
             if (const Contracted* const copy = copies.add_next(progress.part(0, 0.2)))

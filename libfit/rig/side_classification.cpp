@@ -93,10 +93,12 @@ Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_
         evidence += cue.weight * cue.forward.dot(front);
         weights += cue.weight;
     }
+    if (weights < k_no_evidence)
+        evidence = front.z();
     sides.left_leg = evidence >= 0 ? 0 : 1;
     sides.left_arm = same_order ? sides.left_leg : 1 - sides.left_leg;
     sides.front = evidence >= 0 ? front : Vec3(-front);
-    sides.confidence = weights > 0 ? std::abs(evidence) / weights : 0;
+    sides.confidence = weights < k_no_evidence ? 0 : std::abs(evidence) / weights;
     return sides;
 }
 

@@ -17,6 +17,7 @@ struct Sides {
 /// A human is nearly mirror symmetric, so front and back are classified by weighted evidence: toes point forward, knees
 /// flex back, hips and elbows flex forward, the face is in front of the neck. Each cue is transported along its limb to
 /// the trunk without twist. O(n).
+/// Where no cue has any weight, the front is +z, with a confidence of 0.
 /// @param known_front  replaces all cues. The confidence then says how well the found limbs agree with it.
 Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_front = {});
 
