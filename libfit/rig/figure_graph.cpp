@@ -102,12 +102,18 @@ struct Choice {
     double cost = std::numeric_limits<double>::max();
 };
 
-/// 1 for an end as far from the left limbs as from the right ones, such as a tail's, to 0 for one at a side.
+/// From the plane that mirrors a pair's ends, a share of the figure's length; 0 where the pair is one end.
+double off_middle(const Candidates& c, const Choice& choice, const int (&pair)[2], int end)
+{
+    const Vec3 apart = c.places[pair[0]] - c.places[pair[1]], middle = 0.5 * (c.places[pair[0]] + c.places[pair[1]]);
+    return (c.places[end] - middle).dot(apart) / std::max(apart.norm(), k_no_length) / choice.size;
+}
+
+/// 1 for an end in the planes that mirror hands and feet, such as a tail's, to 0 for one at a side.
 double share_in_middle(const Candidates& c, const Choice& choice, int end)
 {
-    const auto far = [&](int other) { return (c.places[end] - c.places[other]).norm() / choice.size; };
-    return std::exp(-squared((far(choice.hand[0]) - far(choice.hand[1])) / k_middle_spread)
-                    - squared((far(choice.foot[0]) - far(choice.foot[1])) / k_middle_spread));
+    return std::exp(-squared(off_middle(c, choice, choice.hand, end) / k_middle_spread)
+                    - squared(off_middle(c, choice, choice.foot, end) / k_middle_spread));
 }
 
 /// Of what the choice leaves over: tails, wings, hair. Short ends such as fingers cost little.

@@ -145,7 +145,8 @@ BodyJoints label_figure(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     const LabelledSurface whole { proxy, skeleton, figure.graph }, of_legs { proxy, skeleton, leg_graph },
         of_arms { proxy, skeleton, arm_graph };
     const Slicer slicer(proxy);
-    const Vec3 up = find_up(whole);
+    // legs are only covered where the figure stands; its trunk's curve may end at one side of the hem
+    const Vec3 up = figure.graph.has_covered_legs ? Vec3(Vec3::UnitY()) : find_up(whole);
 
     BodyJoints joints;
     joints.size = figure.leg_size;

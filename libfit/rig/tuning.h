@@ -236,8 +236,8 @@ inline constexpr double k_arm_ratio_spread = 0.5, k_trunk_ratio_spread = 0.6, k_
 inline constexpr double k_arm_thickness = 0.62, k_thickness_spread = 0.4;
 /// fitted: guesses. Length of an end that is no limb, a share of the figure's, and the most that one costs.
 inline constexpr double k_rest_spread = 0.13, k_most_rest_cost = 9;
-/// fitted: guesses, on the variants. Share of that cost that an end in the middle, such as a tail's, is spared, and the
-/// difference of its distances from the ends of a pair, a share of the figure's length.
+/// fitted: guesses, on the variants. Share of that cost that an end in the middle, such as a tail's, is spared, and its
+/// distance from the plane between the ends of a pair, a share of the figure's length.
 inline constexpr double k_tail_discount = 0.7, k_middle_spread = 0.12;
 /// fitted: guesses. Difference between the distances of a pair's ends from the middle, a share of the figure's length,
 /// and the most that one costs: a walking figure is not symmetric.

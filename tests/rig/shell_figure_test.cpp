@@ -20,7 +20,8 @@ constexpr double k_clearly_human = 0.6;  // below it, hosts warn
 /// A box of six sides; `split` gives each side its own corners, as files with pictures on blocks do.
 TriangleMesh block(const Vec3& middle, const Vec3& size, bool split)
 {
-    const int sides[6][4] { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 4, 5, 1 }, { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 } };
+    const int sides[6][4] { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 4, 5, 1 },
+                            { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 } };
     TriangleMesh mesh { Positions(split ? 24 : 8, 3), Triangles(12, 3) };
     const auto corner = [&](int c) -> Vec3 {
         return middle + 0.5 * Vec3(c & 4 ? 1 : -1, c & 2 ? 1 : -1, c & 1 ? 1 : -1).cwiseProduct(size);
@@ -81,8 +82,11 @@ TEST(ShellFigure, BlocksAreHeadTrunkArmsAndLegsHoweverTheyTouch)
         const std::optional<ShellFigure> figure = shell_figure(figure_of_blocks(b));
         ASSERT_TRUE(figure);
         EXPECT_LT(figure->cost, 3);
-        const Vec3 wrist = b.arms == Arms::down ? Vec3(6, 15, 0) : b.arms == Arms::out ? Vec3(13, 22, 0) : Vec3(6, 22, 7);
-        EXPECT_LT((figure->joints.arms[0].end - k_unit * wrist).norm(), 2 * k_unit) << figure->joints.arms[0].end / k_unit;
+        const Vec3 wrist = b.arms == Arms::down ? Vec3(6, 15, 0)
+            : b.arms == Arms::out               ? Vec3(13, 22, 0)
+                                                : Vec3(6, 22, 7);
+        EXPECT_LT((figure->joints.arms[0].end - k_unit * wrist).norm(), 2 * k_unit)
+            << figure->joints.arms[0].end / k_unit;
         EXPECT_LT((figure->joints.arms[0].root - k_unit * Vec3(6, 22, 0)).norm(), 2.1 * k_unit)
             << figure->joints.arms[0].root / k_unit;
         EXPECT_LT((figure->joints.legs[1].root - k_unit * Vec3(-2, 12, 0)).norm(), k_unit);
