@@ -120,12 +120,15 @@ std::array<LimbJoints, 2> place_covered_legs(const LabelledSurface& surface, con
     if ((feet[0] - feet[1]).dot(across) < 0)
         std::swap(feet[0], feet[1]);
     std::array<LimbJoints, 2> legs;
+    const bool is_one_end = g.legs[0].back() == g.legs[1].back();
+    const Vec3 off = feet[0] - shoulders, before = off - off.dot(up) * up - off.dot(across) * across;
     for (const int i : { 0, 1 }) {
         LimbJoints& leg = legs[i];
         leg.root = shoulders - k_neck_to_hips * stature * up + (i == 0 ? 0.5 : -0.5) * k_hip_width * stature * across;
         leg.end = leg.root - (k_neck_to_ankle - k_neck_to_hips) * stature * up;
         leg.middle = 0.5 * (leg.root + leg.end);
-        leg.tip = g.legs[0].back() == g.legs[1].back() ? Vec3(leg.end - k_ankle_height * stature * up) : feet[i];
+        // one end is the middle of the hem, or the toes of a foot below it
+        leg.tip = is_one_end ? Vec3(leg.end - k_ankle_height * stature * up + before) : feet[i];
         leg.whole = leg.widens = false;
     }
     return legs;

@@ -98,7 +98,7 @@ Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_
     sides.left_leg = evidence >= 0 ? 0 : 1;
     sides.left_arm = same_order ? sides.left_leg : 1 - sides.left_leg;
     sides.front = evidence >= 0 ? front : Vec3(-front);
-    sides.confidence = weights < k_no_evidence ? 0 : std::abs(evidence) / weights;
+    sides.confidence = weights < k_no_evidence ? 0 : std::abs(evidence) / std::max(weights, k_whole_evidence);
     return sides;
 }
 

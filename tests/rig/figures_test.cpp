@@ -151,6 +151,23 @@ TEST(Slow, LegsInAGownArePlacedAsAHumans)
     }
 }
 
+TEST(Slow, ToesThatMergeBelowAHemShowTheFrontThoughArmsAreHeldBack)
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 45, .elbow_angle = -10 });
+    const auto gown = [&](const Vec3& p) {
+        const double cone = std::hypot(p.x(), p.z() / 0.8) - (0.15 + 0.2 * (1.05 - p.y()));
+        const Vec3 beyond = (p - Vec3(0, 0.05, 0.15)).cwiseAbs() - Vec3(0.14, 0.05, 0.3);
+        return std::min({ fixtures::person_distance(person.skeleton, p), beyond.maxCoeff(),
+                          std::max({ 0.9 * cone, p.y() - 1.05, 0.12 - p.y() }) });
+    };
+    const TriangleMesh mesh = fixtures::polygonise(gown, Vec3(-1, -0.2, -0.6), Vec3(1, 2, 0.8), 0.025);
+    const Rig rig = rig_body(make_body(mesh.positions, mesh.triangles));
+    EXPECT_NE(rig.not_human.find("legs do not show"), std::string::npos) << rig.not_human;
+    EXPECT_GT(rig.front.z(), 0.9);
+    EXPECT_GT(rig.skeleton.tail(lhipjoint).x(), 0);
+    EXPECT_NEAR(rig.skeleton.tail(ltibia).x(), -rig.skeleton.tail(rtibia).x(), 0.03);
+}
+
 TEST(Figures, JointsOfACartoonAreTakenWhereAllAreGiven)
 {
     const TriangleMesh mesh = human("man_a_pose");

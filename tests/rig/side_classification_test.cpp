@@ -52,14 +52,36 @@ TEST(SideClassification, AGivenFrontReplacesTheCues)
     EXPECT_GT(sides.confidence, 0.95);
 }
 
-TEST(SideClassification, StraightLimbsWithoutFeetGiveNoEvidence)
+BodyJoints without_feet(double elbow_angle, int left)
 {
-    BodyJoints joints = joints_of(fixtures::person_skeleton({ .elbow_angle = 0 }), 0);
+    BodyJoints joints = joints_of(fixtures::person_skeleton({ .elbow_angle = elbow_angle }), left);
     for (LimbJoints& leg : joints.legs) {
         leg.middle = 0.5 * (leg.root + leg.end);
         leg.tip = leg.end;
     }
-    EXPECT_LT(classify_sides(joints).confidence, 0.2);
+    return joints;
+}
+
+TEST(SideClassification, StraightLimbsWithoutFeetGiveNoEvidence)
+{
+    EXPECT_LT(classify_sides(without_feet(0, 0)).confidence, 0.2);
+}
+
+TEST(SideClassification, WithoutEvidenceTheFrontIsZ)
+{
+    for (const int left : { 0, 1 }) {
+        const Sides sides = classify_sides(without_feet(0, left));
+        EXPECT_EQ(sides.left_leg, left);
+        EXPECT_GT(sides.front.z(), 0.95);
+    }
+}
+
+TEST(SideClassification, ElbowsThatHardlyBendAreLittleEvidence)
+{
+    const Sides sides = classify_sides(without_feet(5, 0));
+    EXPECT_EQ(sides.left_leg, 0);
+    EXPECT_LT(sides.confidence, 0.2);
+    EXPECT_GT(classify_sides(without_feet(60, 0)).confidence, 0.2);
 }
 
 }  // namespace
