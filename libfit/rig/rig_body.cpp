@@ -382,6 +382,8 @@ public:
     /// At the shells of the surface as given. Its own vertices get the weights, as a closed one joins limbs that touch.
     void look_at_shells(const BodyMesh& body)
     {
+        if (!body.repaired)
+            return;  // one shell
         const std::optional<ShellFigure> figure = shell_figure(body.surface);
         if (!figure)
             return;
