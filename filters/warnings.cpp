@@ -98,6 +98,11 @@ void warn_of_left_out(std::vector<std::string>& warnings, const std::string& nam
     add(left_out.solids, "solid", "", left_out.lids > 0 ? "" : " inside");
     add(left_out.lids, "lid", " and ", " inside");
     add(left_out.specks, "speck", ", and ", " far from the cloth");
+    if (left_out.garments > 0)
+        warnings.push_back(
+            name + " has " + count_text(left_out.garments, "other garment")
+            + " beside it; left out, and drawn into one point of the cloth; to dress in another one, give"
+              " it in a file of its own");
     if (!pieces.empty())
         warnings.push_back(name + " has " + pieces + " (" + count_text(left_out.faces, "face")
                            + "); taken for no cloth, left out, and drawn into one point of the cloth");

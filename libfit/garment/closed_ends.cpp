@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "caps.h"
+#include "garments_beside.h"
 #include "hollow_ends.h"
 #include "lids_and_fillings.h"
 #include "nearest.h"
@@ -69,9 +70,8 @@ struct Findings {
     std::vector<int> kept;  // faces of none of them
 };
 
-Findings find_what_is_no_cloth(const GarmentMesh& garment)
+Findings find_what_is_no_cloth(Caps& found, const GarmentMesh& garment)
 {
-    Caps found(garment);
     const TriangleMesh mesh = found.mesh();
     const Parts& patches = found.patches();
     std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
@@ -137,10 +137,30 @@ private:
     std::vector<char> is_cloth_;
 };
 
+/// @param others  faces of each other garment
+OpenedGarment leave_out_garments(GarmentMesh garment, const Parts& others)
+{
+    std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
+    leave_out(others, is_kept);
+    OpenedGarment result;
+    result.garment = { std::move(garment.positions), garment.triangles(marked(is_kept), Eigen::all) };
+    Gatherer gatherer(result.garment.positions, result.garment.triangles);
+    result.left_out.garments = gatherer.gather(garment.triangles, others, result.left_out.faces);
+    return result;
+}
+
 /// Without caps, lids, fillings and specks.
 OpenedGarment leave_out_caps(const GarmentMesh& garment)
 {
-    const Findings found = find_what_is_no_cloth(garment);
+    Caps caps(garment);
+    if (const Parts others = find_garments_beside(caps.mesh(), caps.patches()); !others.empty()) {
+        const OpenedGarment alone = leave_out_garments(garment, others);
+        OpenedGarment result = leave_out_caps(alone.garment);
+        result.left_out.garments += alone.left_out.garments;
+        result.left_out.faces += alone.left_out.faces;
+        return result;
+    }
+    const Findings found = find_what_is_no_cloth(caps, garment);
     OpenedGarment result { { garment.positions, garment.triangles(found.kept, Eigen::all) },
                            int(found.caps.size() + found.lids.size()),
                            {} };

@@ -258,7 +258,8 @@ Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i
     }
     json["closed_ends"] = closed_ends(scene, i);
     const LeftOut left_out = left_out_of(scene, i);
-    json["left_out"] = { { "solids", left_out.solids },
+    json["left_out"] = { { "garments", left_out.garments },
+                         { "solids", left_out.solids },
                          { "lids", left_out.lids },
                          { "specks", left_out.specks },
                          { "faces", left_out.faces } };

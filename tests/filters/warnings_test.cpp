@@ -103,6 +103,17 @@ TEST(Warnings, SayWhatWasLeftOutOfAGarment)
                  "cloth, left out, and drawn into one point of the cloth" }));
 }
 
+TEST(Warnings, SayThatAnotherGarmentStandsBesideIt)
+{
+    Scene scene = worn_scene();
+    scene.garments.resize(2);
+    scene.draped->garments[0].left_out = { .garments = 1, .faces = 208 };
+    EXPECT_EQ(
+        warnings_of(scene),
+        (Lines { "skirt has 1 other garment beside it; left out, and drawn into one point of the cloth; to dress in "
+                 "another one, give it in a file of its own" }));
+}
+
 TEST(Warnings, SayThatAFrontIsUncertain)
 {
     Scene scene = worn_scene();

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "used_vertices.h"
 
 namespace garmentfit {
 namespace {
@@ -86,6 +87,45 @@ TEST(ClosedEnds, OfAnOpenGarmentAreNone)
     const TriangleMesh open = tube(Cap::none, Cap::none);
     EXPECT_EQ(opened(open).closed_ends, 0);
     EXPECT_EQ(opened(open).garment.triangles, open.triangles);
+}
+
+TriangleMesh shorts(const Vec3& offset, double scale)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const double waist = skeleton.root.y() + 0.1;
+    TriangleMesh mesh = fixtures::garment_round(
+        skeleton, 0.02, [&](const Vec3& p) { return p.y() < waist && p.y() > waist - 0.45 && std::abs(p.x()) < 0.26; },
+        0.04);
+    const std::vector<int> used = used_vertices(mesh.triangles);
+    mesh = { mesh.positions(used, Eigen::all), numbered_among(used, mesh.triangles) };
+    mesh.positions = (scale * mesh.positions).rowwise() + offset.transpose();
+    return mesh;
+}
+
+TEST(ClosedEnds, AGarmentBesideALargerOneIsLeftOut)
+{
+    const TriangleMesh mine = shorts(Vec3::Zero(), 1), other = shorts(Vec3(0.8, 0.1, 0), 0.9);
+    const OpenedGarment result = opened(fixtures::joined(other, mine));
+    EXPECT_EQ(result.left_out.garments, 1);
+    EXPECT_EQ(result.left_out.faces, other.triangles.rows());
+    EXPECT_EQ(result.garment.triangles.rows(), mine.triangles.rows());
+    EXPECT_EQ(result.garment.positions.bottomRows(mine.positions.rows()), mine.positions);
+    const Positions gathered = result.garment.positions.topRows(other.positions.rows());
+    EXPECT_EQ(gathered, gathered.row(0).replicate(gathered.rows(), 1));
+}
+
+TEST(ClosedEnds, WhatIsNoGarmentBesideALargerOneIsKept)
+{
+    const TriangleMesh mine = shorts(Vec3::Zero(), 1);
+    EXPECT_EQ(opened(fixtures::joined(mine, shorts(Vec3(0, 0.8, 0), 0.9))).left_out.garments, 0) << "above it";
+    EXPECT_EQ(opened(fixtures::joined(mine, shorts(Vec3(0.8, 0, 0), 0.3))).left_out.garments, 0) << "a doll's";
+    TriangleMesh tall = tube(Cap::none, Cap::none, 0.8);
+    tall.positions.col(1).array() += mine.positions.col(1).minCoeff();
+    EXPECT_EQ(opened(fixtures::joined(mine, tall)).left_out.garments, 0) << "a sleeve";
+    EXPECT_EQ(
+        opened(fixtures::joined(tube(Cap::none, Cap::none, -0.3), tube(Cap::none, Cap::none, 0.3))).left_out.garments,
+        0)
+        << "a pair of socks";
 }
 
 TEST(ClosedEnds, OfTwoPiecesAreCountedTogether)

@@ -9,8 +9,9 @@
 
 namespace garmentfit {
 
-/// Pieces of a garment's mesh that are no cloth, and share no vertex with it.
+/// Pieces of a garment's mesh that are no cloth of it, and share no vertex with it.
 struct LeftOut {
+    int garments = 0;  ///< that stand beside it
     int solids = 0;  ///< that fill it
     int lids = 0;  ///< that lie loosely in its openings
     int specks = 0;  ///< small pieces far from all cloth
@@ -30,7 +31,7 @@ struct OpenedGarment {
 };
 
 /// Leaves out the caps: flat discs with steep cloth all around them, and flat fans around a vertex; and lids and solids
-/// that hide the inside of the garment. A surface that is closed everywhere keeps its caps unless they are three or
+/// that hide the inside of the garment. Of whole garments that stand side by side, the largest is the one. A surface that is closed everywhere keeps its caps unless they are three or
 /// more: a sphere, a block or a pillow is no garment.
 /// Where no body passes after that, the floors of its hollows are left out, too: of cuffs, ankles, hems and
 /// necks that end in bowls, domes or funnels, and of solids; and those of both sleeves where hem and neck are open.
