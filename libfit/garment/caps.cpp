@@ -157,8 +157,9 @@ std::vector<std::vector<int>> Caps::find_steep() const
 {
     std::vector<char> is_candidate(regions_.size());
     for (std::size_t r = 0; r < regions_.size(); ++r)
-        is_candidate[r]
-            = is_flat_disc(regions_[r], k_cap_depth) && regions_[r].steep > k_cap_outline * regions_[r].girth;
+        is_candidate[r] = is_flat_disc(regions_[r], k_cap_depth)
+            && regions_[r].steep > k_cap_outline * regions_[r].girth
+            && regions_[r].open < k_cap_border * regions_[r].girth;
     std::vector<std::vector<int>> caps;
     for (std::size_t r = 0; r < regions_.size(); ++r)  // the sides of a block are next to each other
         if (is_candidate[r] && std::none_of(regions_[r].next_to.begin(), regions_[r].next_to.end(), [&](int other) {
@@ -235,8 +236,10 @@ void Caps::add_to_outline(int side, Region& region) const
     const Vec3 a = positions_.row(faces_(f, side % 3)), b = positions_.row(faces_(f, (side % 3 + 1) % 3));
     const double length = (b - a).norm();
     region.girth += length;
-    if (other < 0)
+    if (other < 0) {
+        region.open += length;
         return;
+    }
     region.next_to.push_back(region_of_[other / 3]);
     const Vec3 normal = region.area.stableNormalized(), along = (b - a).stableNormalized(),
                apex = positions_.row(faces_(other / 3, (other % 3 + 2) % 3));

@@ -34,6 +34,7 @@ private:
         Vec3 area = Vec3::Zero();  // m^2, sum of area vectors: of a flat region its area times its normal
         double girth = 0;  // m, of its outline
         double steep = 0;  // m, of the outline where the next face is steep
+        double open = 0;  // m, of the outline where there is no next face
         double side = 0;  // m, of the outline, signed by the side on which the next face is
         std::vector<int> next_to = {};  // regions
         bool is_taken = false;  // in part, by a fan

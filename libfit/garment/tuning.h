@@ -62,6 +62,9 @@ inline constexpr double k_steep_sine = 0.77, k_cap_outline = 0.9;
 inline constexpr double k_cap_roundness = 0.2;
 /// fitted: likewise. Depth of a cap, and of a fan, as a share of the root of its area: hems are not flat.
 inline constexpr double k_cap_depth = 0.05, k_fan_depth = 0.35;
+/// fitted: guess, on a skirt of a game, two of whose pleats, from rim to rim one triangle each, have 0.08. Share of a
+/// cap's outline where there is no cloth.
+inline constexpr double k_cap_border = 0.05;
 /// fitted: guess. Faces that close a hole among others, at least, as a fan or from rim to rim: vertices of cloth have
 /// up to 12.
 inline constexpr std::size_t k_fan_faces = 16;

@@ -89,6 +89,34 @@ TEST(ClosedEnds, OfAnOpenGarmentAreNone)
     EXPECT_EQ(opened(open).garment.triangles, open.triangles);
 }
 
+/// A skirt in box pleats, each of which has one facet in front, from waist to hem.
+TriangleMesh pleated_skirt()
+{
+    constexpr int pleats = 6;
+    const double height = 0.5, front = 0.045, inner = 0.13, outer = 0.15;
+    TriangleMesh skirt { Positions(8 * pleats, 3), Triangles(8 * pleats, 3) };
+    for (int k = 0; k < 4 * pleats; ++k) {
+        const double angle = 2 * std::numbers::pi * (k / 4) / pleats, radius = k % 4 == 0 || k % 4 == 3 ? inner : outer,
+                     across = k % 4 < 2 ? -front / 2 : front / 2;
+        const double x = radius * std::cos(angle) - across * std::sin(angle),
+                     z = radius * std::sin(angle) + across * std::cos(angle);
+        const int next = (k + 1) % (4 * pleats), above = 4 * pleats;
+        skirt.positions.row(k) << x, 0, z;
+        skirt.positions.row(k + above) << x, height, z;
+        skirt.triangles.row(2 * k) << k, k + above, next;
+        skirt.triangles.row(2 * k + 1) << next, k + above, next + above;
+    }
+    return skirt;
+}
+
+TEST(ClosedEnds, PleatsFromWaistToHemAreNone)
+{
+    const TriangleMesh skirt = pleated_skirt();
+    const OpenedGarment result = opened(skirt);
+    EXPECT_EQ(result.closed_ends, 0);
+    EXPECT_EQ(result.garment.triangles, skirt.triangles);
+}
+
 TriangleMesh shorts(const Vec3& offset, double scale)
 {
     const Skeleton skeleton = fixtures::person_skeleton({});
