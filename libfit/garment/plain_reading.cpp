@@ -98,18 +98,24 @@ bool has_many_borders(const TriangleMesh& cloth)
     return border_length(cloth.positions, topology) > k_longest_borders * diagonal(cloth.positions);
 }
 
-/// Whether two borders of one piece lie in each other and no tube leads to either: those of a cuff of two sheets, which
-/// are joined where the sleeve begins.
+/// Whether two borders are those of two sheets, which are joined elsewhere: one lies in the other, and no tube leads to
+/// either, as at a cuff, where a sleeve of one sheet begins; or both are at the same place, and one faces where the
+/// other comes from, as at a hem, where the sheets are joined at the neck.
+bool are_rims_of_two_sheets(const Opening& one, const Opening& other)
+{
+    const double radius = std::min(one.girth, other.girth) / (2 * std::numbers::pi),
+                 apart = (one.centre - other.centre).norm() / radius;
+    const bool have_no_tube = std::max(one.tube_length, other.tube_length) < k_doubled_tube * radius,
+               are_opposed = one.facing.dot(other.facing) < -k_opposed_facing;
+    return (apart < k_doubled_rims && have_no_tube) || (apart < k_opposed_rims && are_opposed);
+}
+
 bool has_doubled_rims(const std::vector<Opening>& openings)
 {
     for (std::size_t i = 0; i < openings.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) {
-            const Opening &one = openings[i], &other = openings[j];
-            const double radius = std::min(one.girth, other.girth) / (2 * std::numbers::pi);
-            if (one.piece == other.piece && (one.centre - other.centre).norm() < k_doubled_rims * radius
-                && std::max(one.tube_length, other.tube_length) < k_doubled_tube * radius)
+        for (std::size_t j = 0; j < i; ++j)
+            if (openings[i].piece == openings[j].piece && are_rims_of_two_sheets(openings[i], openings[j]))
                 return true;
-        }
     return false;
 }
 

@@ -94,6 +94,14 @@ TEST(PlainReading, OfACuffOfTwoSheetsServesNot)
     EXPECT_FALSE(read_plainly(garment_of(cuffed)).serves);
 }
 
+// Two sheets that are joined at the upper end only.
+TEST(PlainReading, OfTwoSheetsThatAreNotJoinedAtTheHemServesNot)
+{
+    TriangleMesh sheets = thick_tube(0.15, 0.6, 0.004);
+    sheets.triangles.conservativeResize(sheets.triangles.rows() - 2 * k_around, 3);
+    EXPECT_FALSE(read_plainly(garment_of(sheets)).serves);
+}
+
 TEST(OutwardCloth, OfThickClothTheOuterSheetIsTheSameInAnyUnit)
 {
     const TriangleMesh thick = thick_tube(0.25, 0.4, 0.015);
