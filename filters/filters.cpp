@@ -101,8 +101,9 @@ void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Param
 
 /// Runs draping and recovering again after a change of the scene. It stays so where that tells more.
 /// @param change  @return whether there is anything to change
+/// @param worst  outcome with which it stays so
 void run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene,
-                 const Parameters& parameters, const Progress& progress)
+                 const Parameters& parameters, const Progress& progress, Outcome worst = Outcome::too_small)
 {
     Scene other = scene;
     if (progress.is_late() || !change(other))
@@ -113,7 +114,7 @@ void run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> s
     if (stages.front() == Stage::drape)
         other.draped.reset();
     if (succeeds([&] { run_stages_once(stages, other, parameters, progress); })
-        && outcome_of(*final_dressing(other)) != Outcome::not_certified)
+        && outcome_of(*final_dressing(other)) <= worst)
         scene = std::move(other);
 }
 
@@ -123,7 +124,9 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
     if (stages.back() < Stage::drape)
         return;
     run_changed(give_up_stand_ins, stages, scene, parameters, progress.part(1, 1));
-    run_changed(find_linings, stages, scene, parameters, progress.part(1, 1));
+    const bool is_too_small = outcome_of(*final_dressing(scene)) == Outcome::too_small;
+    run_changed(find_linings, stages, scene, parameters, progress.part(1, 1),
+                is_too_small ? Outcome::done : Outcome::too_small);
     for (int k = 0; k < k_enlarging_rounds; ++k)
         run_changed([&](Scene& other) { return enlarge_too_small(other, parameters); }, stages, scene, parameters,
                     progress.part(1, 1));

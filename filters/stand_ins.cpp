@@ -136,6 +136,15 @@ bool is_surely_clean(WornGarment worn, const Dressing& end, const Triangles& bod
     return certify_all(alone, { end.body, body });
 }
 
+/// Whether the body did not reach its size in cloth that passes through itself there: folds in each other may hold what
+/// is wide enough.
+bool may_be_caught(const Dressing& end)
+{
+    return end.scale_reached < 1 && std::any_of(end.garments.begin(), end.garments.end(), [](const WornGarment& worn) {
+               return worn.certificate.self_crossings > 0 || !worn.certificate.kept_self_crossings.empty();
+           });
+}
+
 /// Whether what follows its stand-in is not clean, or far more strained than that, or found no rest of its own where it
 /// should.
 bool follows_badly(const Dressing& end, std::size_t garment, bool is_rough, const Triangles& body)
@@ -178,7 +187,7 @@ bool give_up_stand_ins(Scene& scene)
 bool find_linings(Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
-    if (!end || outcome_of(*end) != Outcome::not_certified)
+    if (!end || outcome_of(*end) == Outcome::done || (outcome_of(*end) == Outcome::too_small && !may_be_caught(*end)))
         return false;
     bool any = false;
     for (GarmentInput& garment : scene.garments)

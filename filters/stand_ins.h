@@ -26,7 +26,8 @@ Scene lead(Scene scene);
 /// @return whether there is one
 bool give_up_stand_ins(Scene& scene);
 
-/// Where a dressing ended uncertified, garments that moved as they are are to follow the inner sheets of their wraps.
+/// Where a dressing ended uncertified, or the body did not reach its size in cloth that passes through itself, garments
+/// that moved as they are are to follow the inner sheets of their wraps.
 /// @return whether there is one
 bool find_linings(Scene& scene);
 

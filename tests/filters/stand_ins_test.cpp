@@ -240,6 +240,10 @@ TEST(StandIns, AreLookedForWhereAGarmentMovedAsItIsInVain)
     Scene too_small = scene;
     too_small.recovered->scale_reached = 0.9;
     EXPECT_FALSE(find_linings(too_small));
+    too_small.recovered->garments.emplace_back();
+    EXPECT_FALSE(find_linings(too_small)) << "its cloth crosses itself nowhere";
+    too_small.recovered->garments[0].certificate.kept_self_crossings = { { 0, 1 } };
+    EXPECT_TRUE(find_linings(too_small)) << "folds in each other may hold it";
     EXPECT_TRUE(find_linings(scene));
     ASSERT_TRUE(scene.garments[0].stand_in.value());
     EXPECT_FALSE(scene.garments[0].stand_in.value()->is_needed);
