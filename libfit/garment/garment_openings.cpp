@@ -92,6 +92,7 @@ Opening opening_of(const Positions& positions, const Ring& ring)
         area += 0.5 * (at(b) - opening.centre).cross(at(a) - opening.centre);
     if (area.norm() > 0)
         opening.facing = area.normalized();
+    opening.roundness = 4 * std::numbers::pi * area.norm() / std::pow(std::max(opening.girth, k_no_length), 2);
     return opening;
 }
 
@@ -389,6 +390,13 @@ bool is_slit(const Positions& rim, double widest)
     return width < k_slit_roundness * length && std::numbers::pi * width < widest;
 }
 
+/// A slit in the shape of a V or a U, between a collar and what is worn in it. The long borders of open fronts enclose as
+/// little.
+bool is_bent_slit(const Opening& opening, double diagonal)
+{
+    return opening.girth < k_longest_slit * diagonal && opening.roundness < k_bent_slit_roundness;
+}
+
 /// The borders of a garment that a body can pass through, and the tubes that lead to them.
 class Openings {
 public:
@@ -435,7 +443,7 @@ private:
         const double widest = k_widest_hole * diagonal_;
         const auto is_narrow = [&](const Ring& ring) {
             const Opening opening = opening_of(cloth_.positions, ring);
-            return opening.girth < widest || is_slit(opening.rim, widest);
+            return opening.girth < widest || is_slit(opening.rim, widest) || is_bent_slit(opening, diagonal_);
         };
         std::vector<Ring> sure;
         std::copy_if(rings_.begin(), rings_.end(), std::back_inserter(sure), std::not_fn(is_narrow));

@@ -14,6 +14,7 @@ struct Opening {
     Vec3 facing = Vec3::Zero();  ///< unit, outwards: mean normal of a disc that closes it
     Vec3 low, high;  ///< corners of its bounding box
     double girth = 0;  ///< m, length of its edge
+    double roundness = 0;  ///< area of a disc that closes it over that of a circle of this girth
     double tube_length = 0;  ///< m along the cloth from the opening to where the tube widens, forks or ends
     Vec3 tube_end = Vec3::Zero();  ///< centroid of its last slice
     double tube_girth = 0;  ///< m, median of its slices

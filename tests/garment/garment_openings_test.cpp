@@ -182,6 +182,22 @@ TEST(GarmentOpenings, HolesInTheSideOfATubeAreNone)
     EXPECT_EQ(count_openings(outward_cloth(make_garment(slit.positions, slit.triangles))), 2u);
 }
 
+TEST(GarmentOpenings, ASlitInTheShapeOfAVIsNone)
+{
+    TriangleMesh mesh = tube_with_window(0.15, 0.7, 0, 0, 0);
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Vec3 at = mesh.positions(mesh.triangles.row(f), Eigen::all).colwise().mean().transpose();
+        const double above = at.y() - 0.3;  // m, the tip
+        const bool is_in_slit
+            = at.z() > 0 && above > 0 && above < 0.06 && std::abs(std::abs(at.x()) - 0.5 * above) < 0.005;
+        if (!is_in_slit)
+            kept.push_back(f);
+    }
+    mesh.triangles = mesh.triangles(kept, Eigen::all).eval();
+    EXPECT_EQ(openings_of_cloth(mesh).size(), 2u);
+}
+
 TEST(GarmentOpenings, ANeckThatGoesOnInAPlacketIsNoSlit)
 {
     EXPECT_EQ(openings_of_cloth(tube_with_window(0.15, 0.7, 0.13, 0.6, 0.35)).size(), 3u);
