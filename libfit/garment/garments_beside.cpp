@@ -2,11 +2,9 @@
 #include "garments_beside.h"
 
 #include <algorithm>
-#include <map>
 
 #include <Eigen/Geometry>
 
-#include "disjoint_sets.h"
 #include "garment_openings.h"
 #include "plain_reading.h"
 #include "surface_measures.h"
@@ -18,7 +16,7 @@ namespace {
 
 using namespace garment_tuning;
 
-/// Patches whose boxes meet, one after the other.
+/// Patches that stand together.
 struct Group {
     std::vector<int> faces;
     Eigen::AlignedBox3d box;
@@ -36,27 +34,34 @@ Group group_of(const TriangleMesh& mesh, const std::vector<int>& patch)
     return group;
 }
 
+/// Joins those that are not apart along an axis, one after the other.
+std::vector<Group> joined_along(std::vector<Group> groups, int axis, double gap)
+{
+    std::sort(groups.begin(), groups.end(),
+              [axis](const Group& a, const Group& b) { return a.box.min()[axis] < b.box.min()[axis]; });
+    std::vector<Group> result;
+    for (Group& next : groups) {
+        if (result.empty() || next.box.min()[axis] > result.back().box.max()[axis] + gap) {
+            result.push_back(std::move(next));
+            continue;
+        }
+        Group& group = result.back();
+        group.faces.insert(group.faces.end(), next.faces.begin(), next.faces.end());
+        group.box.extend(next.box);
+        group.area += next.area;
+    }
+    return result;
+}
+
+/// What stands apart from left to right, or from front to back.
 std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
 {
     std::vector<Group> single;
     for (const std::vector<int>& patch : patches)
         single.push_back(group_of(mesh, patch));
-    DisjointSets joined(int(single.size()));
-    for (int i = 0; i < int(single.size()); ++i)
-        for (int j = 0; j < i; ++j)
-            if (single[i].box.intersects(single[j].box))
-                joined.join(i, j);
-    std::map<int, Group> groups;  // by the root
-    for (int i = 0; i < int(single.size()); ++i) {
-        Group& group = groups[joined.root(i)];
-        group.faces.insert(group.faces.end(), single[i].faces.begin(), single[i].faces.end());
-        group.box.extend(single[i].box);
-        group.area += single[i].area;
-    }
-    std::vector<Group> result;
-    for (auto& [root, group] : groups)
-        result.push_back(std::move(group));
-    return result;
+    const double gap = k_beside_gap * diagonal(mesh.positions);
+    std::vector<Group> across = joined_along(single, 0, gap);
+    return across.size() > 1 ? across : joined_along(std::move(single), 2, gap);
 }
 
 /// Length that two ranges have in common; negative where they are apart.
@@ -65,11 +70,10 @@ double overlap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, int a
     return std::min(a.max()[axis], b.max()[axis]) - std::max(a.min()[axis], b.min()[axis]);
 }
 
+/// @param main  apart from it sideways
 bool stands_beside(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& main)
 {
-    const double gap = k_beside_gap * main.diagonal().norm();
-    const bool is_apart = overlap(box, main, 0) < -gap || overlap(box, main, 2) < -gap;
-    return is_apart && box.diagonal().norm() > k_beside_size * main.diagonal().norm()
+    return box.diagonal().norm() > k_beside_size * main.diagonal().norm()
         && overlap(box, main, 1) > k_beside_overlap * std::min(box.sizes().y(), main.sizes().y());
 }
 

@@ -12,7 +12,7 @@ namespace garmentfit {
 
 /// The faces of each whole garment that stands beside the largest one: nearly as large, at its height, apart from it
 /// sideways, and each with openings of its own for a trunk and limbs. A pair of socks, sleeves that are not sewn on,
-/// and clothes over each other, are none. O(p^2) for p patches; where something stands beside, another reading of each.
+/// and clothes over each other, are none. O(n log n); where something stands beside, another reading of each.
 /// @param mesh  y up
 /// @param patches  the faces of each
 std::vector<std::vector<int>> find_garments_beside(const TriangleMesh& mesh,

@@ -153,9 +153,9 @@ inline constexpr double k_lid_roundness = 0.3, k_lid_depth = 0.3, k_lid_cover = 
 /// fitted: likewise. The rim is nearer to the cloth than this, for this share of its vertices; the middle is farther,
 /// in half widths. Share of the cloth near the rim, by its area, that is as steep as at a cap: a neck has 0.67.
 inline constexpr double k_lid_reach = 0.15, k_lid_outline = 0.9, k_lid_middle = 0.5, k_lid_steep = 0.5;
-/// fitted: guess, on one file of two shirts, which are 0.9 and 0.6 apart. A garment that stands beside another: gap
-/// between the boxes round them and least size, as shares of the other's diagonal, and how much of the lower one's height
-/// they share.
+/// fitted: guess, on one file of two shirts, 0.09 diagonals apart, one of which is 0.8 as large. A garment that stands
+/// beside another: gap as a share of the diagonal round both, least size as a share of the other's diagonal, and how much
+/// of the lower one's height they share.
 inline constexpr double k_beside_gap = 0.02, k_beside_size = 0.5, k_beside_overlap = 0.5;
 /// fitted: guess, on two crumpled cuffs of a web shop, 0.3 and 0.45. Largest depth of a lid of many triangles from rim
 /// to rim.
