@@ -217,6 +217,7 @@ void write_dressed_avatar(const std::filesystem::path& path, const std::filesyst
         tidy_weights(avatar.container, avatar.file, avatar.model, skin, joint_weights(skin));
         if (!covered.empty())
             hide_covered(avatar, covered);
+        free_skinned_meshes(avatar.container.json);
         add_garments(avatar.container, skin, garments);
     } catch (const ordered_json::exception& error) {  // a member of an unexpected type
         avatar.file.fail("is not valid glTF: " + first_line(error.what()) + "; export the file again");

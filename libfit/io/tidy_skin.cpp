@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -96,7 +97,60 @@ void replace_sets(GltfContainer& container, const ordered_json& attributes, cons
     }
 }
 
+// ---- nodes of skinned meshes ---------------------------------------------------------------------------------------
+
+bool lists(const ordered_json& owner, const char* member, std::size_t node)
+{
+    const auto list = owner.find(member);
+    return list != owner.end() && std::find(list->begin(), list->end(), node) != list->end();
+}
+
+/// The node that has this one among its children; none for a root.
+std::optional<std::size_t> node_above(const ordered_json& nodes, std::size_t node)
+{
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (lists(nodes[i], "children", node))
+            return i;
+    return {};
+}
+
+std::size_t root_above(const ordered_json& nodes, std::size_t node)
+{
+    for (std::size_t up = 0; up < nodes.size(); ++up)  // nodes in a circle, which no scene shows, have no root
+        if (const std::optional<std::size_t> above = node_above(nodes, node))
+            node = *above;
+    return node;
+}
+
+void remove_child(ordered_json& parent, std::size_t node)
+{
+    ordered_json& children = parent["children"];
+    children.erase(std::find(children.begin(), children.end(), node));
+    if (children.empty())
+        parent.erase("children");
+}
+
 }  // namespace
+
+void free_skinned_meshes(ordered_json& json)
+{
+    ordered_json& nodes = json["nodes"];
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!nodes[i].contains("skin") || !nodes[i].contains("mesh") || nodes[i].contains("children"))
+            continue;
+        for (const char* transform : { "matrix", "translation", "rotation", "scale" })
+            nodes[i].erase(transform);
+        const std::optional<std::size_t> parent = node_above(nodes, i);
+        if (!parent)
+            continue;
+        const std::size_t root = root_above(nodes, *parent);
+        remove_child(nodes[*parent], i);
+        if (json.contains("scenes"))
+            for (ordered_json& scene : json["scenes"])
+                if (lists(scene, "nodes", root))
+                    scene["nodes"].push_back(i);
+    }
+}
 
 void move_pictures_into_buffer(GltfContainer& container)
 {

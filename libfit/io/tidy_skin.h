@@ -12,6 +12,10 @@ namespace garmentfit {
 /// Pictures that are in the JSON as text. Viewers show them there, but a GLB is to have them in its buffer.
 void move_pictures_into_buffer(GltfContainer& container);
 
+/// Skinned meshes stand at the root of their scene, without transforms: glTF has programs ignore those of their nodes and
+/// of the nodes above (glTF 2.0, sec. 3.7.3.3), and not all do. Nodes keep their numbers; one with children stays.
+void free_skinned_meshes(nlohmann::ordered_json& json);
+
 /// Meshes of which a vertex has weights that the format does not allow (a sum other than 1, a joint twice, negative
 /// ones, none) or joints in slots without weight get other values in the accessors of joints and weights. Other meshes
 /// keep theirs, bit for bit.

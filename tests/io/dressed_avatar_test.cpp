@@ -115,6 +115,33 @@ TEST_F(DressedAvatar, KeepsAllThatTheFileHas)
     EXPECT_EQ(container.own_buffer()->substr(view.at("byteOffset"), view.at("byteLength")), "\x89PNG no picture");
 }
 
+TEST_F(DressedAvatar, StandsAtTheRootWithoutTransforms)
+{
+    GltfContainer container = read_gltf_container(read_file(folder / "avatar.glb"));
+    Json& nodes = container.json["nodes"];
+    std::size_t skinned = 0;
+    while (!nodes[skinned].contains("skin"))
+        ++skinned;
+    const std::size_t armature = nodes.size();
+    nodes.push_back({ { "name", "armature" }, { "children", container.json["scenes"][0]["nodes"] } });
+    nodes[skinned]["scale"] = { 2, 2, 2 };
+    container.json["scenes"][0]["nodes"] = { armature };
+    const std::vector<std::size_t> joints = [&] {
+        std::vector<std::size_t> all = nodes[armature]["children"];
+        std::erase(all, skinned);
+        return all;
+    }();
+    save("nested.glb", bytes_of(container));
+
+    write_dressed_avatar(folder / "out.glb", folder / "nested.glb", { garment_on(4) });
+    const Json json = json_of(folder / "out.glb");
+    EXPECT_EQ(json.at("scenes")[0].at("nodes"), (Json { armature, skinned, json.at("nodes").size() - 1 }));
+    EXPECT_EQ(json.at("nodes")[armature].at("children"), Json(joints));
+    EXPECT_FALSE(json.at("nodes")[skinned].contains("scale"));
+    const MeshFile before = MeshFile::read(folder / "nested.glb"), after = MeshFile::read(folder / "out.glb");
+    EXPECT_EQ(after.positions().topRows(before.positions().rows()), before.positions());
+}
+
 TEST_F(DressedAvatar, ClothesHangOnTheJointsOfTheFile)
 {
     const AvatarGarment garment = garment_on(4);
