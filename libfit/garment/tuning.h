@@ -34,8 +34,8 @@ inline constexpr double k_slit_roundness = 0.25;
 /// .16. Of 553 openings of 150 garments those as short have .28 or more, where no tube leads to them. Girth in diagonals,
 /// area over that of a circle of the same girth.
 inline constexpr double k_longest_slit = 0.6, k_bent_slit_roundness = 0.22;
-/// fitted: likewise, on the openings above. Slices of the tube, below which there is none: cuffs that narrow have 11, the holes 1 to 5, for
-/// the cloth around them widens.
+/// fitted: likewise, on the openings above. Slices of the tube, below which there is none: cuffs that narrow have 11,
+/// the holes 1 to 5, for the cloth around them widens.
 inline constexpr double k_shortest_cuff = 7;
 /// fitted: guess. Width of a tube's slices as a share of the garment's diagonal: two or three edges.
 inline constexpr double k_slice = 0.02;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -99,26 +100,24 @@ void replace_sets(GltfContainer& container, const ordered_json& attributes, cons
 
 // ---- nodes of skinned meshes ---------------------------------------------------------------------------------------
 
-bool lists(const ordered_json& owner, const char* member, std::size_t node)
+/// Of each node the one that has it among its children; a root has itself.
+std::vector<std::size_t> parents_in(const ordered_json& nodes)
 {
-    const auto list = owner.find(member);
-    return list != owner.end() && std::find(list->begin(), list->end(), node) != list->end();
-}
-
-/// The node that has this one among its children; none for a root.
-std::optional<std::size_t> node_above(const ordered_json& nodes, std::size_t node)
-{
+    std::vector<std::size_t> parents(nodes.size());
+    std::iota(parents.begin(), parents.end(), std::size_t(0));
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (lists(nodes[i], "children", node))
-            return i;
-    return {};
+        if (const auto children = nodes[i].find("children"); children != nodes[i].end())
+            for (const std::size_t child : *children)
+                if (child < parents.size())
+                    parents[child] = i;
+    return parents;
 }
 
-std::size_t root_above(const ordered_json& nodes, std::size_t node)
+std::size_t root_above(const std::vector<std::size_t>& parents, std::size_t node)
 {
-    for (std::size_t up = 0; up < nodes.size(); ++up)  // nodes in a circle, which no scene shows, have no root
-        if (const std::optional<std::size_t> above = node_above(nodes, node))
-            node = *above;
+    std::size_t steps = 0;
+    while (parents[node] != node && ++steps < parents.size())  // a circle, which no scene shows, has no root
+        node = parents[node];
     return node;
 }
 
@@ -135,20 +134,20 @@ void remove_child(ordered_json& parent, std::size_t node)
 void free_skinned_meshes(ordered_json& json)
 {
     ordered_json& nodes = json["nodes"];
+    const std::vector<std::size_t> parents = parents_in(nodes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].contains("skin") || !nodes[i].contains("mesh") || nodes[i].contains("children"))
             continue;
         for (const char* transform : { "matrix", "translation", "rotation", "scale" })
             nodes[i].erase(transform);
-        const std::optional<std::size_t> parent = node_above(nodes, i);
-        if (!parent)
+        if (parents[i] == i)
             continue;
-        const std::size_t root = root_above(nodes, *parent);
-        remove_child(nodes[*parent], i);
+        remove_child(nodes[parents[i]], i);
         if (json.contains("scenes"))
             for (ordered_json& scene : json["scenes"])
-                if (lists(scene, "nodes", root))
-                    scene["nodes"].push_back(i);
+                if (const auto shown = scene.find("nodes"); shown != scene.end()
+                    && std::find(shown->begin(), shown->end(), root_above(parents, i)) != shown->end())
+                    shown->push_back(i);
     }
 }
 

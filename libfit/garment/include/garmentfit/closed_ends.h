@@ -31,8 +31,8 @@ struct OpenedGarment {
 };
 
 /// Leaves out the caps: flat discs with steep cloth all around them, and flat fans around a vertex; and lids and solids
-/// that hide the inside of the garment. Of whole garments that stand side by side, the largest is the one. A surface that is closed everywhere keeps its caps unless they are three or
-/// more: a sphere, a block or a pillow is no garment.
+/// that hide the inside of the garment. Of whole garments that stand side by side, the largest is the one. A surface
+/// that is closed everywhere keeps its caps unless they are three or more: a sphere, a block or a pillow is no garment.
 /// Where no body passes after that, the floors of its hollows are left out, too: of cuffs, ankles, hems and
 /// necks that end in bowls, domes or funnels, and of solids; and those of both sleeves where hem and neck are open.
 /// Any size: lengths are judged by the garment's own. Cost O(n log n); with hollows, and for clothes in parts, the
