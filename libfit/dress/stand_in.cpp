@@ -9,6 +9,7 @@
 #include "crowding.h"
 #include "embedded_motion.h"
 #include "exact_crossings.h"
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/pieces.h"
 #include "given_crossings.h"
 #include "nearest.h"
@@ -525,7 +526,7 @@ std::optional<StandIn> make_stand_in(const GarmentMesh& garment)
         return StandIn { widened(*std::move(lining)) };
     if (garment.positions.rows() < k_led)
         return {};
-    const TriangleMesh cloth = welded(garment);
+    const TriangleMesh cloth = welded(open_ends(garment).garment);  // ends that are closed may no longer be found in it
     const bool is_fine = cloth.positions.rows() >= k_fine;
     if (cloth.positions.rows() < k_led)
         return {};

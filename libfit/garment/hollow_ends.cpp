@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numeric>
 
+#include "disjoint_sets.h"
 #include "garment_openings.h"
 #include "garment_wrap.h"
 #include "hollows.h"
@@ -132,15 +134,51 @@ void fill_up(std::vector<int>& hollow_of, const MeshTopology& topology)
     }
 }
 
+/// Adds patches that lie within a hollow: of what is left of the cloth each one whose neighbours are all on the hollow,
+/// and which is smaller than that is. They would float in the opening.
+void add_islands(std::vector<int>& hollow_of, const MeshTopology& topology, const TriangleMesh& cloth)
+{
+    constexpr int k_unknown = -1, k_none = -2;
+    const int faces = int(hollow_of.size());
+    DisjointSets parts(faces);
+    for (int side = 0; side < 3 * faces; ++side)
+        if (const int other = topology.opposite(side); other >= 0 && hollow_of[side / 3] == hollow_of[other / 3])
+            parts.join(side / 3, other / 3);
+    std::vector<double> areas(hollow_of.size());  // m^2, by root
+    std::vector<int> within(hollow_of.size(), k_unknown);  // hollow, by root
+    std::map<int, double> area_of_hollow;
+    for (int f = 0; f < faces; ++f) {
+        const double area = area_vector(cloth.positions, cloth.triangles, f).norm();
+        areas[parts.root(f)] += area;
+        if (hollow_of[f] >= 0) {
+            area_of_hollow[hollow_of[f]] += area;
+            continue;
+        }
+        int& hollow = within[parts.root(f)];
+        for (int side = 3 * f; side < 3 * f + 3; ++side) {
+            const int other = topology.opposite(side), next = other >= 0 ? hollow_of[other / 3] : k_none;
+            if (other >= 0 && next < 0)
+                continue;  // of the same patch
+            hollow = hollow == k_unknown || hollow == next ? next : k_none;
+        }
+    }
+    for (int f = 0; f < faces; ++f)
+        if (const int root = parts.root(f), hollow = within[root];
+            hollow_of[f] < 0 && hollow >= 0 && areas[root] < area_of_hollow[hollow])
+            hollow_of[f] = hollow;
+}
+
 /// The garment's faces on each hollow of a surface that lies round it.
 std::vector<std::vector<int>> faces_on(const std::vector<Hollow>& hollows, const TriangleMesh& surface,
                                        const GarmentMesh& garment)
 {
     std::vector<int> hollow_of = hollow_of_faces(garment, surface, hollows);
     const Weld weld(garment);
-    fill_up(hollow_of,
-            { garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }),
-              int(weld.gather(garment.positions).rows()) });
+    const TriangleMesh cloth { weld.gather(garment.positions),
+                               garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }) };
+    const MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
+    fill_up(hollow_of, topology);
+    add_islands(hollow_of, topology, cloth);
     std::vector<std::vector<int>> faces(hollows.size());
     for (int f = 0; f < int(hollow_of.size()); ++f)
         if (hollow_of[f] >= 0)

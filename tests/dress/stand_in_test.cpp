@@ -10,6 +10,7 @@
 #include "crowding.h"
 #include "fixtures.h"
 #include "garmentfit/certificate.h"
+#include "garmentfit/closed_ends.h"
 #include "nearest.h"
 #include "topology.h"
 
@@ -187,6 +188,41 @@ TEST(StandIn, OfClothOfSomeThousandVerticesIsRough)
     EXPECT_LT(stand_in->mesh.positions.rows(), 3000);
     EXPECT_TRUE(stand_in->is_rough);
     EXPECT_FALSE(stand_in->is_needed);
+}
+
+/// A tube about the y axis, whose lower end is closed by a fan.
+TriangleMesh capped_tube()
+{
+    constexpr int around = 80, rows = 70;
+    TriangleMesh mesh { Positions(around * rows + 1, 3), Triangles(2 * around * (rows - 1) + around, 3) };
+    int f = 0;
+    for (int i = 0; i < rows; ++i)
+        for (int k = 0; k < around; ++k) {
+            const double angle = 2 * std::numbers::pi * k / around;
+            const int here = i * around + k, next = i * around + (k + 1) % around;
+            mesh.positions.row(here) << 0.1 * std::sin(angle), 0.6 * i / rows, 0.1 * std::cos(angle);
+            if (i == 0)
+                mesh.triangles.row(f++) << around * rows, next, here;
+            if (i + 1 == rows)
+                continue;
+            mesh.triangles.row(f++) << here, next, here + around;
+            mesh.triangles.row(f++) << next, next + around, here + around;
+        }
+    mesh.positions.row(around * rows).setZero();
+    return mesh;
+}
+
+TEST(StandIn, OfClothWithAClosedEndIsOpenThere)
+{
+    const TriangleMesh tube = capped_tube();
+    const GarmentMesh garment = make_garment(tube.positions, tube.triangles);
+    ASSERT_EQ(open_ends(garment).closed_ends, 1);
+    const auto stand_in = make_stand_in(garment);
+    ASSERT_TRUE(stand_in);
+    EXPECT_TRUE(stand_in->is_rough);
+    EXPECT_EQ(open_ends(stand_in->mesh).closed_ends, 0) << "remeshed, an end may not be found again";
+    const MeshTopology topology(stand_in->mesh.triangles, int(stand_in->mesh.positions.rows()));
+    EXPECT_EQ(topology.border_loops().size(), 2u);
 }
 
 TEST(StandIn, IsNotRoughWherePiecesMightComeApart)

@@ -166,6 +166,23 @@ TEST(HollowEnds, OfBothSleevesAreLeftOutWhereHemAndNeckAreOpen)
     EXPECT_EQ(count_openings(outward_cloth(garment_of(shirt))), 4u);
 }
 
+TEST(HollowEnds, AreLeftOutWithTheFoldsInThem)
+{
+    TriangleMesh shirt = shirt_with_closed_sleeves();
+    const auto is_fold = [](const Vec3& p) { return std::abs(p.x()) > 0.35 && std::hypot(p.y() - 0.5, p.z()) < 0.016; };
+    std::vector<int> fold;
+    for (int v = 0; v < int(shirt.positions.rows()); ++v)
+        if (is_fold(shirt.positions.row(v)))
+            fold.push_back(v);
+    for (const int v : fold)
+        shirt.positions(v, 0) += shirt.positions(v, 0) > 0 ? 0.03 : -0.03;
+    ASSERT_GE(fold.size(), 4u);
+    const OpenedGarment opened = open_ends(garment_of(shirt));
+    EXPECT_EQ(opened.closed_ends, 2);
+    for (const int v : fold)
+        EXPECT_FALSE((opened.garment.triangles.array() == v).any()) << "it floats in the cuff";
+}
+
 TEST(HollowEnds, AreNotFoldsOfASkirt)
 {
     const TriangleMesh skirt
