@@ -50,9 +50,7 @@ public:
         double sum = 0;
         for (int i = -k_steps_of_others; i <= k_steps_of_others; ++i) {
             const double other = i * k_step;
-            const double share = (1 - k_children) * normal(other, k_wearer_spread)
-                + k_children * normal(other - k_child_size, k_child_spread);
-            sum += share * k_step * likelihood(log_factor, other);
+            sum += density_of_others(other) * k_step * likelihood(log_factor, other);
         }
         return sum;
     }
@@ -155,6 +153,12 @@ double weight_near(const std::vector<Hypothesis>& hypotheses, double factor)
 }
 
 }  // namespace
+
+double density_of_others(double log_stature)
+{
+    return (1 - k_children) * normal(log_stature, k_wearer_spread)
+        + k_children * normal(log_stature - k_child_size, k_child_spread);
+}
 
 Vec3 extents_of(const Positions& positions, const Triangles& triangles)
 {

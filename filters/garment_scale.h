@@ -22,6 +22,10 @@ Vec3 extents_of(const Positions& positions, const Triangles& triangles);
 /// alike.
 bool is_normalised(const Positions& positions, const Triangles& triangles);
 
+/// Density of the size of those for whom garments are made, who are not as large as the body that wears them.
+/// @param log_stature  natural logarithm of their stature over the body's
+double density_of_others(double log_stature);
+
 /// @param wearers  of the garment in the unit guessed (wearer_heights)
 /// @param length  of the garment as it hangs, from its highest to its lowest point, in the unit guessed, m
 /// @param height  of the body, m

@@ -2,10 +2,12 @@
 #include "other_wearings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "attempt.h"
+#include "garment_scale.h"
 #include "garmentfit/filters/outcome.h"
 #include "tuning.h"
 
@@ -28,6 +30,23 @@ double furthest_slip(const Dressing& end)
     return furthest;
 }
 
+double size_of(const Scene& scene, std::size_t garment)
+{
+    const Dressing* end = final_dressing(scene);
+    return end && end->is_worn(garment) ? end->garments[garment].size : 1;
+}
+
+bool is_another_size(double size) { return size > 1 + k_same_size; }
+
+std::size_t most_enlarged(const Scene& scene)
+{
+    std::size_t most = 0;
+    for (std::size_t i = 1; i < scene.garments.size(); ++i)
+        if (size_of(scene, i) > size_of(scene, most))
+            most = i;
+    return most;
+}
+
 End end_of(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
@@ -45,6 +64,8 @@ std::size_t garment_at_fault(const Scene& scene, std::size_t refused)
     if (!found)
         return refused;
     const Dressing& end = *found;
+    if (const std::size_t most = most_enlarged(scene); is_another_size(size_of(scene, most)))
+        return most;
     if (outcome_of(end) == Outcome::done) {
         const auto worst
             = std::max_element(end.overstretches.begin(), end.overstretches.end(),
@@ -67,7 +88,7 @@ Rejected rejected(const FitResult& fit, const std::string& reason)
     return { fit.type, fit.up, fit.front, fit.probability, reason };
 }
 
-std::string reason_against(const Scene& scene)
+std::string reason_against(const Scene& scene, std::size_t garment)
 {
     const Dressing* found = final_dressing(scene);
     if (!found)
@@ -75,6 +96,8 @@ std::string reason_against(const Scene& scene)
     const Dressing& end = *found;
     if (outcome_of(end) != Outcome::done)
         return explain(end, names_of(scene));
+    if (const double size = size_of(scene, garment); is_another_size(size))
+        return "it has to be " + std::to_string(std::lround(100 * (size - 1))) + "% larger";
     return largest_stretch(end) > k_torn ? "the cloth is stretched too far" : "it slips down";
 }
 
@@ -100,13 +123,23 @@ FitResult with_probability_of(const FitResult& first, FitResult second)
     return second;
 }
 
+double plausibility_of(const Scene& scene, std::size_t garment)
+{
+    return plausibility(scene.fits[garment].probability, end_of(scene), size_of(scene, garment));
+}
+
+bool is_worn_well(const Scene& scene)
+{
+    return end_of(scene) == End::worn && !is_another_size(size_of(scene, most_enlarged(scene)));
+}
+
 // The more plausible scene of two stays, the other way of wearing the garment is listed in `rejected`.
 void keep_better(Scene& scene, Scene&& other, std::size_t garment)
 {
-    const auto plausibility_in = [&](const Scene& s) { return plausibility(s.fits[garment].probability, end_of(s)); };
+    const auto plausibility_in = [&](const Scene& s) { return plausibility_of(s, garment); };
     const bool wins = plausibility_in(other) > plausibility_in(scene);
     const Scene& worse = wins ? scene : other;
-    const Rejected loser = rejected(worse.fits[garment], reason_against(worse));
+    const Rejected loser = rejected(worse.fits[garment], reason_against(worse, garment));
     if (wins) {
         const std::vector<Rejected> before = std::exchange(scene, std::move(other)).fits[garment].rejected;
         auto& all = scene.fits[garment].rejected;
@@ -117,12 +150,16 @@ void keep_better(Scene& scene, Scene&& other, std::size_t garment)
 
 }  // namespace
 
-double plausibility(double probability, End end) { return probability * k_end_likelihoods[static_cast<int>(end)]; }
+double plausibility(double probability, End end, double size)
+{
+    const double of_size = is_another_size(size) ? density_of_others(-std::log(size)) / density_of_others(0) : 1;
+    return probability * k_end_likelihoods[static_cast<int>(end)] * of_size;
+}
 
 void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress)
 {
     std::vector<int> tried(scene.garments.size(), 0);
-    while (end_of(scene) != End::worn && !progress.is_late()) {
+    while (!is_worn_well(scene) && !progress.is_late()) {
         const std::size_t garment = garment_at_fault(scene, refused);
         if (++tried[garment] > k_other_wearings)
             return;
@@ -136,7 +173,7 @@ void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t re
         if (fit.probability < k_worth_trying)
             return;
         fit = with_probability_of(scene.fits[garment], fit);
-        if (plausibility(fit.probability, End::worn) <= plausibility(scene.fits[garment].probability, end_of(scene)))
+        if (plausibility(fit.probability, End::worn) <= plausibility_of(scene, garment))
             return;
         const bool has_ended = succeeds([&] {
             try {

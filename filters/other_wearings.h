@@ -32,8 +32,10 @@ enum class End {
 };
 
 /// How much speaks for a way of wearing a garment once it was tried: its probability before, times that of such an end
-/// if garments are worn as they should (decision 23). Comparable for ways of wearing one garment.
-double plausibility(double probability, End end);
+/// if garments are worn as they should, and that of the size which it needs (decision 23). Comparable for ways of wearing
+/// one garment.
+/// @param size  factor by which the garment was made larger for this way
+double plausibility(double probability, End end, double size = 1);
 
 /// How to dress a scene that has its rig.
 struct DressingSteps {

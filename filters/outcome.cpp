@@ -84,8 +84,11 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
     }
     if (end.scale_reached < 1)
         text << "; a body of " << percent(end.scale_reached) << "% of the thickness would fit";
-    if (!parts.empty())
-        text << "; a garment " << std::ceil(100 * enlargement) << "% larger would not be stretched there";
+    if (!parts.empty()) {
+        const double size = end.is_worn(garment) ? end.garments[garment].size : 1;
+        text << "; a garment " << std::ceil(100 * (enlargement + (size - 1) * (1 + enlargement))) << "% larger "
+             << (size > 1 ? "than given " : "") << "would not be stretched there";
+    }
     if (const std::optional<Fabric> fabric = fabric_that_would_do(end, garment))
         text << "; in " << fabric_names()[static_cast<int>(*fabric)] << ", which gives "
              << std::lround(100 * material_of(*fabric).largest_stretch) << "%, it would do";

@@ -14,6 +14,7 @@ struct Way {
     End end = End::worn;
     Vec3 front = Vec3::UnitZ();
     std::vector<Bone> covered = { lfemur, rfemur };
+    double size = 1;
 };
 
 FitResult fit_of(const Way& way)
@@ -40,6 +41,14 @@ void end_with(Scene& scene, End end)
     scene.draped = dressing;
 }
 
+void make_larger(Scene& scene, double size)
+{
+    if (!scene.draped)
+        return;
+    scene.draped->garments[0].positions.setZero(3, 3);
+    scene.draped->garments[0].size = size;
+}
+
 // The ways of the first garment, the most probable first.
 struct Trial {
     std::vector<Way> ways;
@@ -51,6 +60,7 @@ struct Trial {
         scene.garments.resize(2);
         scene.fits = { fit_of(ways[0]), {} };
         end_with(scene, ways[0].end);
+        make_larger(scene, ways[0].size);
     }
 
     void run(std::size_t refused = 0)
@@ -67,6 +77,7 @@ struct Trial {
             if (end == End::refused)
                 throw RefusedGarment(0, "it lies across the bones");
             end_with(s, end);
+            make_larger(s, ways[s.garments[0].skipped].size);
         };
         try_other_wearings(scene, { fit, drape }, refused, {});
     }
@@ -124,6 +135,27 @@ TEST(OtherWearings, ReplaceWhatCannotBeDrapedAlsoAmongSeveralGarments)
     hopeless.run();
     EXPECT_EQ(hopeless.probability(), 0.7);
     EXPECT_FALSE(hopeless.scene.draped);
+}
+
+TEST(OtherWearings, InTheSizeOfTheGarmentReplaceOneForWhichItIsMadeMuchLarger)
+{
+    const std::vector<Bone> shirt { upperback, thorax }, skirt { lfemur, rfemur };
+    Trial trial({ { 0.56, End::worn, Vec3::UnitZ(), skirt, 1.72 }, { 0.3, End::worn, Vec3::UnitZ(), shirt, 1.1 } });
+    trial.run();
+    EXPECT_EQ(trial.probability(), 0.3);
+    ASSERT_EQ(trial.scene.fits[0].rejected.size(), 1u);
+    EXPECT_EQ(trial.scene.fits[0].rejected[0].reason, "it has to be 72% larger");
+
+    Trial next_size({ { 0.56, End::worn, Vec3::UnitZ(), skirt, 1.15 }, { 0.3, End::worn, Vec3::UnitZ(), shirt } });
+    next_size.run();
+    EXPECT_EQ(next_size.fitted, 0) << "clothes of two sizes are worn alike";
+}
+
+TEST(OtherWearings, AreLessPlausibleTheLargerTheGarmentHasToBe)
+{
+    EXPECT_EQ(plausibility(0.5, End::worn, 1.2), 0.5);
+    EXPECT_LT(plausibility(0.5, End::worn, 1.3), plausibility(0.5, End::worn, 1.2));
+    EXPECT_LT(plausibility(0.5, End::worn, 1.7), 0.05 * 0.5);
 }
 
 TEST(OtherWearings, ThatFellOffOrTornDoNotReplaceAMoreProbableOne)
