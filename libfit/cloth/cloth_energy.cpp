@@ -78,16 +78,6 @@ Eigen::Matrix3d ClothEnergy::Spring::tangent(const Positions& x) const
     return stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
 }
 
-Vec3 ClothEnergy::Spring::tangent_times(const Positions& x, const Vec3& longer) const
-{
-    const Vec3 edge = (x.row(i) - x.row(j)).transpose();
-    const double square = edge.squaredNorm();
-    if (!(square > 0))
-        return Vec3::Zero();
-    const Vec3 along = edge.dot(longer) / square * edge;
-    return stiffness * (along + std::max(0.0, 1 - length / std::sqrt(square)) * (longer - along));
-}
-
 Eigen::Matrix3d ClothEnergy::FramedSum::frame(const Positions& x) const
 {
     return kind == Kind::hinge ? hinge_frame(x, v) : triangle_frame(x, v);
@@ -214,8 +204,7 @@ void ClothEnergy::assemble()
     const auto quadratic_form = [](const SparseRows& form, const Eigen::VectorXd& stiffness) {
         return SparseRows(form * stiffness.asDiagonal() * SparseRows(form.transpose()));
     };
-    framed_ = quadratic_form(sum_gradients_, sum_stiffness);
-    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + framed_;
+    elastic_ = quadratic_form(spring_gradients_, spring_stiffness) + quadratic_form(sum_gradients_, sum_stiffness);
     SparseRows diagonal(n, n);  // set_time_step() writes to the diagonal, so each of its entries must exist
     diagonal.setIdentity();
     elastic_ += 0 * diagonal;
@@ -307,34 +296,11 @@ double ClothEnergy::elastic_energy(const Positions& x) const
     return sum;
 }
 
-void ClothEnergy::add_inertia(const Positions& x, Positions& sum) const
-{
-    for (Eigen::Index v = 0; v < x.rows(); ++v)
-        sum.row(v) += masses_[v] * inertia_ * x.row(v);
-}
-
-Positions ClothEnergy::apply_framed_form(const Positions& x) const
-{
-    Positions result = multiply(framed_, x);
-    add_inertia(x, result);
-    return result;
-}
-
-Positions ClothEnergy::tangent_times(const Positions& x, const Positions& displacement) const
-{
-    Positions loads(springs_.size(), 3);
-    const auto load = [&](Eigen::Index e) {
-        const Spring& s = springs_[e];
-        loads.row(e) = s.tangent_times(x, (displacement.row(s.i) - displacement.row(s.j)).transpose()).transpose();
-    };
-    parallel_for(loads.rows(), load, k_grain);
-    return multiply(spring_gradients_, loads) + apply_framed_form(displacement);
-}
-
 Positions ClothEnergy::apply_quadratic_form(const Positions& x) const
 {
     Positions result = multiply(elastic_, x);
-    add_inertia(x, result);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        result.row(v) += masses_[v] * inertia_ * x.row(v);
     return result;
 }
 

@@ -35,8 +35,6 @@ public:
 
         /// Without the pressure of a compressed one, which would make the tangent indefinite [choi_2002_buckling].
         Eigen::Matrix3d tangent(const Positions& x) const;
-        /// The same times what its two ends move apart by.
-        Vec3 tangent_times(const Positions& x, const Vec3& longer) const;
     };
     /// A weighted sum of four vertices that wants to be what it is at rest, in a frame that turns along with them.
     struct FramedSum {
@@ -69,9 +67,6 @@ public:
     const std::vector<double>& masses() const { return masses_; }  ///< kg
     const std::vector<double>& areas() const { return areas_; }  ///< m^2, of the cloth around each vertex at rest
 
-    /// The tangent stiffness at x times a displacement, N: springs, hinges and ties with their frames held, inertia.
-    Positions tangent_times(const Positions& x, const Positions& displacement) const;
-
     // ---- the parts of the implicit time step, for its solver ----
 
     double inertia() const { return inertia_; }  ///< 1 / h^2 of the time step h, 1/s^2
@@ -80,8 +75,6 @@ public:
     Positions frame_loads(const Positions& x) const;
     /// The constant quadratic form (inertia, springs, hinges, ties) times x, N.
     Positions apply_quadratic_form(const Positions& x) const;
-    /// Of that form the part of inertia, hinges and ties.
-    Positions apply_framed_form(const Positions& x) const;
     const std::vector<Spring>& springs() const { return springs_; }
     const std::vector<FramedSum>& framed_sums() const { return sums_; }
     /// Approximately the inverse of that form times the residual, in single precision.
@@ -96,14 +89,12 @@ private:
     void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, const Materials& materials);
     void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials);
     void assemble();
-    void add_inertia(const Positions& x, Positions& sum) const;
     static Positions multiply(const SparseRows& matrix, const Positions& x);
 
     std::vector<double> masses_, areas_;
     std::vector<Spring> springs_;
     std::vector<FramedSum> sums_;
     SparseRows spring_gradients_, sum_gradients_;  // n x elements: how their loads act on the vertices
-    SparseRows framed_;  // the part of hinges and ties in elastic_
     SparseRows elastic_;  // constant part of the system, n x n, both triangles
     SinglePrecisionFactor factor_;
     double inertia_ = 0;

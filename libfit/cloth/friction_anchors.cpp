@@ -24,8 +24,13 @@ Vec3 FrictionAnchors::offset(int vertex, const Anchor& anchor, const Positions& 
 
 void FrictionAnchors::set_active_contacts(std::vector<ActiveContact> contacts, const Positions& x)
 {
+    std::vector<Vec3> before(anchors_.size(), Vec3::Zero());
+    for (const ActiveContact& contact : contacts_)
+        before[index_of(contact)] = contact.force;
     contacts_ = std::move(contacts);
-    for (const ActiveContact& contact : contacts_) {
+    for (ActiveContact& contact : contacts_) {
+        if (const Vec3& force = before[index_of(contact)]; !force.isZero(0))
+            contact.force += k_kept_normal_force * (force - contact.force);
         std::optional<Anchor>& anchor = anchors_[index_of(contact)];
         if (anchor)
             continue;

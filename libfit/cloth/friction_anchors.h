@@ -33,7 +33,9 @@ public:
 
     explicit FrictionAnchors(Eigen::Index vertices) : anchors_(2 * std::size_t(vertices)) { }
 
-    /// The contacts now, at most one for each vertex and kind. Contacts without an anchor get one, here.
+    /// The contacts now, at most one for each vertex and kind. Contacts without an anchor get one, here. Friction takes
+    /// the mean of the normal forces now and before: those now are an answer to the friction before, and where they
+    /// overshoot, both would go to and fro.
     void set_active_contacts(std::vector<ActiveContact> contacts, const Positions& x);
 
     /// The friction forces on the cloth at x, under the normal forces of the contacts.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The search for static equilibrium of ClothMotion: inexact Newton moves, in rounds between which friction lets go.
+// The search for static equilibrium of ClothMotion: quasi-Newton moves [liu_2017_quasi_newton], in rounds between which
+// friction lets go. Hanging cloth buckles, so most of what is in the way of balance is no linear system: the steps of a
+// move take the forces where they have led, while contacts stay those of its start.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,8 @@
 
 #include "cloth_motion.h"
 #include "friction_anchors.h"
-#include "newton_direction.h"
+#include "limited_memory.h"
+#include "tangent_factor.h"
 
 namespace garmentfit {
 namespace {
@@ -18,6 +21,10 @@ bool is_vertex_on_cloth(const SoftConstraint& contact)
 {
     return contact.weights[0] == 1 && *std::min_element(contact.vertices.begin(), contact.vertices.end()) >= 0;
 }
+
+double dot(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
+
+double longest(const Positions& ways) { return std::sqrt(ways.rowwise().squaredNorm().maxCoeff()); }
 
 bool is_on_obstacle(const SoftConstraint& contact)
 {
@@ -269,27 +276,58 @@ private:
             next_factor_ = moves_ + k_factor_period;
         }
         ++moves_;
-        const Positions direction = newton_direction(energy_, *factor_, from, constraints_, forces_);
         Positions displacements = Positions::Zero(motion_.x_.rows(), 3);
-        displacements.topRows(from.rows()) = share_along(direction, from) * direction;
+        const auto [way, foretold] = way_to_balance(from);
+        displacements.topRows(from.rows()) = way;
         motion_.move(displacements);
         find_forces();
+        steps_ = forces_.norm() < k_foretold * foretold.norm() ? std::min(k_most_steps, 2 * steps_)
+                                                               : std::max(k_least_steps, steps_ / 2);
+    }
+
+    /// By steps of L-BFGS, whose first guess is the factor, under the contacts and the friction of the start. What they
+    /// learn of the forces holds as long as these do.
+    /// @return the way of the cloth, and the forces at its end if contacts and friction stayed
+    std::pair<Positions, Positions> way_to_balance(const Positions& from)
+    {
+        LimitedMemory memory(k_most_steps);
+        const auto solve = [&](const Positions& forces) { return factor_->solve(forces); };
+        Positions x = from, forces = forces_;
+        double enough = 0;
+        for (int step = 0; step < steps_; ++step) {
+            const Positions direction = memory.direction(forces, solve);
+            const double work = dot(forces, direction);
+            if (step == 0)
+                enough = k_forces_left * k_forces_left * work;
+            if (!(work > 0))  // no way down is known
+                break;
+            const auto [share, forces_there] = share_along(direction, x, work);
+            x += share * direction;
+            memory.remember(share * direction, forces - forces_there);
+            forces = forces_there;
+            if (std::abs(dot(forces, direction)) < enough || longest(x - from) > k_reach_of_contacts)
+                break;
+        }
+        const Positions way = x - from;
+        return { std::min(1.0, k_largest_rest_move / std::max(longest(way), k_largest_rest_move)) * way, forces };
     }
 
     /// Contacts that open and close make the forces jump, so a whole step may go too far: then it is cut where the
     /// forces do less work against it.
-    double share_along(const Positions& direction, const Positions& from)
+    /// @param work  of the forces at x along the direction
+    /// @return the share of the direction to go, and the forces there
+    std::pair<double, Positions> share_along(const Positions& direction, const Positions& x, double work)
     {
-        const double longest = std::sqrt(direction.rowwise().squaredNorm().maxCoeff());
-        double share = longest > k_largest_rest_move ? k_largest_rest_move / longest : 1;
-        const double at_start = forces_.cwiseProduct(direction).sum();
+        double share = std::min(1.0, k_largest_rest_move / longest(direction));
+        Positions forces = forces_at(x + share * direction);
         for (int cut = 0; cut < k_most_cuts; ++cut) {
-            const double work = forces_at(from + share * direction).cwiseProduct(direction).sum();
-            if (work > -k_overshoot * at_start)
+            const double work_there = dot(forces, direction);
+            if (work_there > -k_overshoot * work)
                 break;
-            share *= std::clamp(at_start / (at_start - work), 0.1, 0.5);
+            share *= std::clamp(work / (work - work_there), 0.2, 0.5);
+            forces = forces_at(x + share * direction);
         }
-        return share;
+        return { share, forces };
     }
 
     ClothMotion& motion_;
@@ -298,7 +336,7 @@ private:
     std::optional<TangentFactor> factor_;
     FrictionAnchors anchors_;
     double grip_ = k_kinetic_friction;  // share of the friction coefficients
-    int moves_ = 0, next_factor_ = 0;
+    int moves_ = 0, next_factor_ = 0, steps_ = k_most_steps;  // steps_ of the next move at most
     std::optional<State> best_;
     Positions found_at_;  // the cloth, when contacts were found
     std::vector<ActiveContact> contacts_;

@@ -7,10 +7,10 @@
 #include "fixtures.h"
 #include "friction_anchors.h"
 #include "limited_memory.h"
-#include "newton_direction.h"
+#include "tangent_factor.h"
 #include "tuning.h"
 
-// Static equilibrium: the tangent of the forces, Newton directions, friction on the way, and cloth that finds it.
+// Static equilibrium: the tangent of the forces, quasi-Newton directions, friction on the way, and cloth that finds it.
 
 namespace {
 
@@ -78,40 +78,6 @@ TEST(TangentFactor, HoldsWhatAConstraintHolds)
     EXPECT_GT(given_way({ held }), 0);
 }
 
-TEST(NewtonDirection, KnowsWhatCouplesVerticesWithoutACommonEdge)
-{
-    const FreeCloth cloth(1);
-    const Positions x = stretched(cloth.mesh), way = Positions::Constant(x.rows(), 3, 1.0);
-    std::vector<SoftConstraint> touching;
-    for (int v = 0; v < 144; ++v)
-        touching.push_back({ { v, v + 144, -1, -1 }, { 1, -1, 0, 0 }, Vec3::Zero(), Vec3::UnitY(), 0.01, 0.01 });
-    // all go along, so only inertia resists
-    const Positions forces = cloth.energy.tangent_times(x, way);
-    TangentFactor factor(cloth.energy);
-    factor.factorise(x, touching);
-    EXPECT_LT(factor.solve(forces)(20, 1), 0.5) << "the factor takes the other side for fixed";
-    EXPECT_NEAR(newton_direction(cloth.energy, factor, x, touching, forces)(20, 1), 1, 0.3);
-}
-
-TEST(NewtonDirection, KnowsTheSpringsBesideABarrier)
-{
-    const FreeCloth cloth(0.1);
-    const Positions x = stretched(cloth.mesh);
-    const Vec3 normal = Vec3(1, 2, 3).normalized();
-    Positions forces = Positions::Zero(x.rows(), 3);
-    forces.row(20) = normal.cross(Vec3::UnitX()).transpose();
-    const auto way_under = [&](double stiffness) {
-        const std::vector<SoftConstraint> barrier {
-            { { 20, 100, 101, 118 }, { 1, -0.4, -0.3, -0.3 }, Vec3::Zero(), normal, stiffness, 0 }
-        };
-        TangentFactor factor(cloth.energy);
-        factor.factorise(x, barrier);
-        return newton_direction(cloth.energy, factor, x, barrier, forces);
-    };
-    const Positions way = way_under(1e5);  // to springs of 400 N/m that is a wall as well
-    EXPECT_LT((way_under(1e11) - way).norm(), 0.3 * way.norm());
-}
-
 TEST(FrictionAnchors, ResistWhatSlidesAcrossItsWay)
 {
     FrictionAnchors anchors(1);
@@ -177,6 +143,18 @@ TEST(FrictionAnchors, HoldAsSpringsWithinTheConeAndPullEvenlyBeyond)
     EXPECT_DOUBLE_EQ(friction_at(anchors, 0.02, 1), -1);  // 0.5 of 2 N
     EXPECT_NEAR(friction_at(anchors, 3, 1), -1, 1e-12);
     EXPECT_NEAR(friction_at(anchors, 3, 0.8), -0.8, 1e-12);
+}
+
+TEST(FrictionAnchors, TakeTheMeanOfTheNormalForcesNowAndBefore)
+{
+    FrictionAnchors anchors(1);
+    const Positions here = Eigen::RowVector3d(0, 0, 0);
+    anchors.set_active_contacts({ pressed(2) }, here);
+    anchors.set_active_contacts({ pressed(6) }, here);
+    EXPECT_DOUBLE_EQ(friction_at(anchors, 3, 1), -2);  // 0.5 of 4 N
+    for (int i = 0; i < 50; ++i)
+        anchors.set_active_contacts({ pressed(6) }, here);
+    EXPECT_NEAR(friction_at(anchors, 3, 1), -3, 1e-9);
 }
 
 TEST(FrictionAnchors, FollowWhatSlidAndThenHoldItWithLess)
