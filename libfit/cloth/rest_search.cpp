@@ -68,6 +68,7 @@ public:
         const int most = k_most_rest_moves + more;
         bool in_time = true;
         std::vector<double> left;  // after each round
+        int still_rounds = 0;
         for (int after_rest = -1;
              in_time && after_rest < more && moves_ < most && !has_stalled(left) && !is_hopeless(left);) {
             const Positions before = cloth();
@@ -76,7 +77,9 @@ public:
             in_time = make_round(left.empty() ? k_enough_at_first : 0, progress, most);
             left.push_back(typical_residual());
             const bool is_still = stands_still(cloth() - before);
-            if (after_rest >= 0 || (left.size() > 1 && residual_.is_at_rest() && is_still))
+            if (left.size() > 1 && residual_.is_at_rest() && is_still)
+                ++still_rounds;
+            if (after_rest >= 0 || still_rounds >= k_most_still_rounds || (still_rounds > 0 && is_well_balanced()))
                 ++after_rest;
         }
         if (!residual_.is_at_rest() && best_)
@@ -142,6 +145,13 @@ private:
                 best_ = { residual_, motion_.x_, found_at_, anchors_, grip_ };
         }
         return true;
+    }
+
+    /// Cloth that just balances may be about to give way somewhere.
+    bool is_well_balanced() const
+    {
+        return ForceResidual { residual_.mean / k_well_balanced, residual_.percentile_99 / k_well_balanced }
+            .is_at_rest();
     }
 
     bool is_balanced(double enough) const { return typical_residual() < enough || residual_.is_at_rest(); }
