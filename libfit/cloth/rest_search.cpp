@@ -16,15 +16,15 @@
 namespace garmentfit {
 namespace {
 
+double dot(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
+
+double longest(const Positions& ways) { return std::sqrt(ways.rowwise().squaredNorm().maxCoeff()); }
+
 // Whether a contact is one of a vertex of the cloth with a triangle of the cloth.
 bool is_vertex_on_cloth(const SoftConstraint& contact)
 {
     return contact.weights[0] == 1 && *std::min_element(contact.vertices.begin(), contact.vertices.end()) >= 0;
 }
-
-double dot(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
-
-double longest(const Positions& ways) { return std::sqrt(ways.rowwise().squaredNorm().maxCoeff()); }
 
 bool is_on_obstacle(const SoftConstraint& contact)
 {
@@ -171,7 +171,7 @@ private:
 
     bool contacts_are_old(const Positions& x) const
     {
-        return found_at_.rows() == 0 || (x - found_at_).rowwise().norm().maxCoeff() > k_contact_reach;
+        return found_at_.rows() == 0 || longest(x - found_at_) > k_contact_reach;
     }
 
     /// What is further apart does not come to block motion before contacts are found anew.
@@ -312,14 +312,15 @@ private:
             if (!(work > 0))  // no way down is known
                 break;
             const auto [share, forces_there] = share_along(direction, x, work);
-            x += share * direction;
-            memory.remember(share * direction, forces - forces_there);
+            const Positions way = share * direction;
+            x += way;
+            memory.remember(way, forces - forces_there);
             forces = forces_there;
             if (std::abs(dot(forces, direction)) < enough || longest(x - from) > k_reach_of_contacts)
                 break;
         }
         const Positions way = x - from;
-        return { std::min(1.0, k_largest_rest_move / std::max(longest(way), k_largest_rest_move)) * way, forces };
+        return { k_largest_rest_move / std::max(longest(way), k_largest_rest_move) * way, forces };
     }
 
     /// Contacts that open and close make the forces jump, so a whole step may go too far: then it is cut where the
