@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "cloth_motion.h"
@@ -61,25 +62,24 @@ public:
 
     const ForceResidual& residual() const { return residual_; }
 
-    /// Rounds until one moves nothing, and `more` after it. Where forces do not balance, ends where they did best.
+    /// Rounds until cloth that is pushed on comes back, and `more` after them. Where forces do not balance, ends where they
+    /// did best.
     /// @return whether there was time enough
     bool run(int more, const Progress& progress)
     {
         const int most = k_most_rest_moves + more;
         bool in_time = true;
         std::vector<double> left;  // after each round
-        int still_rounds = 0;
         for (int after_rest = -1;
              in_time && after_rest < more && moves_ < most && !has_stalled(left) && !is_hopeless(left);) {
-            const Positions before = cloth();
-            if (!left.empty())
+            if (after_rest < 0 && stands_still())
+                push_on();
+            else if (!left.empty())
                 let_go();
             in_time = make_round(left.empty() ? k_enough_at_first : 0, progress, most);
             left.push_back(typical_residual());
-            const bool is_still = stands_still(cloth() - before);
-            if (left.size() > 1 && residual_.is_at_rest() && is_still)
-                ++still_rounds;
-            if (after_rest >= 0 || still_rounds >= k_most_still_rounds || (still_rounds > 0 && is_well_balanced()))
+            remember_end();
+            if (after_rest >= 0 || (stands_still() && has_come_back()))
                 ++after_rest;
         }
         if (!residual_.is_at_rest() && best_)
@@ -102,13 +102,50 @@ private:
         return one.is_at_rest() != other.is_at_rest() ? one.is_at_rest() : one.percentile_99 < other.percentile_99;
     }
 
-    /// Single vertices may be anchored to and fro between two places for ever.
-    static bool stands_still(const Positions& way)
+    /// Of the last rounds, as long as forces balance.
+    void remember_end()
+    {
+        if (!residual_.is_at_rest())
+            ends_.clear();
+        else
+            ends_.push_back(cloth());
+        if (ends_.size() > std::size_t(k_rounds_of_drift) + 1)
+            ends_.pop_front();
+    }
+
+    /// Whether the cloth is where it was one round before, or two: it may go to and fro for ever between two balances,
+    /// each with other contacts.
+    bool stands_still() const
+    {
+        const std::size_t n = ends_.size();
+        return (n > 1 && is_still(ends_[n - 1] - ends_[n - 2])) || (n > 2 && is_still(ends_[n - 1] - ends_[n - 3]));
+    }
+
+    /// Single vertices may be anchored to and fro.
+    static bool is_still(const Positions& way)
     {
         Eigen::VectorXd lengths = way.rowwise().norm();
         const auto nearly_all = lengths.begin() + Eigen::Index(k_share_still * double(lengths.size() - 1));
         std::nth_element(lengths.begin(), nearly_all, lengths.end());
         return *nearly_all < k_still && lengths.maxCoeff() < k_nearly_still;
+    }
+
+    bool has_come_back() const
+    {
+        return pushed_from_.size() == std::size_t(k_most_pushes)
+            || (!pushed_from_.empty() && longest(cloth() - pushed_from_.back()) < k_back);
+    }
+
+    /// Along the drift of the last rounds. A fold that is about to give way creeps for tens of rounds under forces that
+    /// count as balanced: pushed on, it gives way at once, and everything else comes back.
+    void push_on()
+    {
+        Positions push = k_push_of_drift * (ends_.back() - ends_.front());
+        for (int v = 0; v < int(push.rows()); ++v)
+            push.row(v) *= k_longest_push / std::max(k_longest_push, push.row(v).norm());
+        pushed_from_.push_back(cloth());
+        ends_.clear();
+        move(push);
     }
 
     /// What is left on a vertex on the mean where none is jammed: such a vertex may have more than all others together. Of
@@ -145,13 +182,6 @@ private:
                 best_ = { residual_, motion_.x_, found_at_, anchors_, grip_ };
         }
         return true;
-    }
-
-    /// Cloth that just balances may be about to give way somewhere.
-    bool is_well_balanced() const
-    {
-        return ForceResidual { residual_.mean / k_well_balanced, residual_.percentile_99 / k_well_balanced }
-            .is_at_rest();
     }
 
     bool is_balanced(double enough) const { return typical_residual() < enough || residual_.is_at_rest(); }
@@ -274,6 +304,14 @@ private:
         find_forces();
     }
 
+    void move(const Positions& way)
+    {
+        Positions displacements = Positions::Zero(motion_.x_.rows(), 3);
+        displacements.topRows(way.rows()) = way;
+        motion_.move(displacements);
+        find_forces();
+    }
+
     void make_move()
     {
         const Positions from = cloth();
@@ -286,11 +324,8 @@ private:
             next_factor_ = moves_ + k_factor_period;
         }
         ++moves_;
-        Positions displacements = Positions::Zero(motion_.x_.rows(), 3);
         const auto [way, foretold] = way_to_balance(from);
-        displacements.topRows(from.rows()) = way;
-        motion_.move(displacements);
-        find_forces();
+        move(way);
         steps_ = forces_.norm() < k_foretold * foretold.norm() ? std::min(k_most_steps, 2 * steps_)
                                                                : std::max(k_least_steps, steps_ / 2);
     }
@@ -349,6 +384,8 @@ private:
     double grip_ = k_kinetic_friction;  // share of the friction coefficients
     int moves_ = 0, next_factor_ = 0, steps_ = k_most_steps;  // steps_ of the next move at most
     std::optional<State> best_;
+    std::deque<Positions> ends_;  // of the last rounds
+    std::vector<Positions> pushed_from_;  // the cloth, before each push
     Positions found_at_;  // the cloth, when contacts were found
     std::vector<ActiveContact> contacts_;
     std::vector<SoftConstraint> constraints_;  // of the last forces_at()
