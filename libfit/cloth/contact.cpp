@@ -15,30 +15,13 @@ namespace {
 
 std::uint64_t make_key(int i, int j) { return (std::uint64_t(std::uint32_t(i)) << 32) | std::uint32_t(j); }
 
-// Encloses the paths of the vertices, and `margin` beside them.
-template <class Row>
-Box swept_box(const Row& vertices, const Positions& start, const Positions& path, double margin)
+// Of the vertices first to last of a pair.
+double largest(const Eigen::VectorXd& values, const std::array<int, 4>& v, int first, int last)
 {
-    Box box;
-    for (int k = 0; k < int(vertices.size()); ++k) {
-        const Vec3 from = start.row(vertices[k]), to = from + Vec3(path.row(vertices[k]));
-        box.extend(from);
-        box.extend(to);
-    }
-    return { Vec3(box.min().array() - margin), Vec3(box.max().array() + margin) };
-}
-
-template <class VerticesOf>
-void refit_tree(BoxTree& tree, Eigen::Index count, const Positions& start, const Positions& path, double margin,
-                const VerticesOf& vertices_of)
-{
-    std::vector<Box> boxes(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-        boxes[i] = swept_box(vertices_of(i), start, path, margin);
-    if (tree.empty())
-        tree = BoxTree(boxes);
-    else
-        tree.refit(boxes);
+    double result = values[v[first]];
+    for (int k = first + 1; k < last; ++k)
+        result = std::max(result, values[v[k]]);
+    return result;
 }
 
 bool share_a_vertex(const std::array<int, 4>& v, int split)
@@ -107,72 +90,90 @@ ContactReason ContactDetector::reason_of(const std::array<int, 4>& vertices) con
     return vertex < first_layer_vertex_ ? ContactReason::body : ContactReason::layer;
 }
 
-// A segment with a margin is convex: it holds a smaller one when it holds both of its ends.
-double ContactDetector::spare_lacking(const SweptRegion& region) const
+// A segment with a margin is convex: it holds a smaller one when it holds both of its ends. The margins of a move are
+// smaller than those of the contacts at its end, so all are renewed by the largest ones: the pairs serve there, too.
+std::vector<char> ContactDetector::renew_region(const Positions& x, const Positions& displacements,
+                                                const Margins& margins)
 {
-    if (region_.start.rows() != region.start.rows())
-        return INFINITY;
-    const Margins slack { region_.margins.cloth - region.margins.cloth,
-                          region_.margins.obstacle - region.margins.obstacle };
-    double most = 0;
-    for (Eigen::Index v = 0; v < region.start.rows(); ++v) {
-        const auto of_vertex
-            = [&](const Margins& margins) { return v < cloth_vertices_ ? margins.cloth : margins.obstacle; };
-        const Vec3 from = region.start.row(v), to = from + Vec3(region.path.row(v)), begin = region_.start.row(v),
+    const Eigen::Index n = x.rows();
+    const bool is_first = region_.start.rows() != n;
+    asked_ = { std::max(asked_.cloth, margins.cloth), std::max(asked_.obstacle, margins.obstacle) };
+    if (is_first)
+        x_ = region_.start = region_.path = Positions::Zero(n, 3), region_.margins.setConstant(n, -1);
+    std::vector<char> renewed(n);
+    for (Eigen::Index v = 0; v < n; ++v) {
+        const auto of_vertex = [&](const Margins& m) { return v < cloth_vertices_ ? m.cloth : m.obstacle; };
+        const Vec3 from = x.row(v), to = from + Vec3(displacements.row(v)), begin = region_.start.row(v),
                    end = begin + Vec3(region_.path.row(v));
-        const double away = std::max(distance_to_segment(from, begin, end), distance_to_segment(to, begin, end));
-        if (const double beyond = away - of_vertex(slack); beyond > 0)
-            most = std::max(most, beyond / of_vertex(spare_));
+        const double slack = region_.margins[v] - of_vertex(margins);
+        if (slack >= 0 && distance_to_segment(from, begin, end) <= slack
+            && distance_to_segment(to, begin, end) <= slack)
+            continue;
+        renewed[v] = true;
+        const double spare = of_vertex(spare_), last_moved = (from - x_.row(v).transpose()).norm(),
+                     moves = (to - from).norm();
+        region_.start.row(v) = from;
+        region_.path.row(v) = to - from;
+        region_.margins[v]
+            = of_vertex(asked_) + (is_first || std::max(last_moved, moves) < k_spare_used_up * spare ? spare : 0);
     }
-    return most;
+    x_ = x;
+    is_path_empty_ = region_.path.isZero(0);
+    return renewed;
 }
 
-// Whether the trees of the obstacle, which stands still most of the time, serve for that region as they are.
-bool ContactDetector::has_same_obstacle(const SweptRegion& region) const
+// Encloses the regions of these vertices.
+template <class Vertices>
+Box ContactDetector::box_of(const Vertices& vertices) const
 {
-    const auto obstacle = [&](const Positions& all) { return all.bottomRows(all.rows() - cloth_vertices_); };
-    return region_.start.rows() == region.start.rows() && region_.margins.obstacle == region.margins.obstacle
-        && obstacle(region_.start) == obstacle(region.start) && obstacle(region_.path) == obstacle(region.path);
+    Box box;
+    double margin = 0;
+    for (const int v : vertices) {
+        const Vec3 from = region_.start.row(v);
+        box.extend(from);
+        box.extend(from + Vec3(region_.path.row(v)));
+        margin = std::max(margin, region_.margins[v]);
+    }
+    return { Vec3(box.min().array() - margin), Vec3(box.max().array() + margin) };
 }
 
-void ContactDetector::refit_trees()
+template <class VerticesOf>
+void ContactDetector::renew_tree(BoxTree& tree, std::size_t count, const std::vector<char>& renewed,
+                                 const VerticesOf& vertices_of) const
+{
+    const auto box = [&](std::size_t i) { return box_of(vertices_of(i)); };
+    if (tree.empty()) {
+        std::vector<Box> boxes(count);
+        for (std::size_t i = 0; i < count; ++i)
+            boxes[i] = box(i);
+        tree = BoxTree(boxes);
+        return;
+    }
+    const auto is_changed = [&](std::size_t i) {
+        const auto vertices = vertices_of(i);
+        return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return renewed[v]; });
+    };
+    tree.renew(is_changed, box);
+}
+
+void ContactDetector::renew_trees(const std::vector<char>& renewed)
 {
     parallel_for(6, [&](int i) {
-        if (i % 2 == 1 && obstacle_is_fitted_)
-            return;
         Surface& s = i % 2 == 0 ? cloth_ : obstacle_;
-        const double margin = i % 2 == 0 ? region_.margins.cloth : region_.margins.obstacle;
-        const auto refit = [&](BoxTree& tree, Eigen::Index count, const auto& vertices_of) {
-            refit_tree(tree, count, region_.start, region_.path, margin, vertices_of);
-        };
         if (i < 2)
-            refit(s.edge_tree, s.edges.rows(), [&](Eigen::Index e) { return s.edges.row(e); });
+            renew_tree(s.edge_tree, s.edges.rows(), renewed, [&](Eigen::Index e) { return s.edges.row(e); });
         else if (i < 4)
-            refit(s.triangle_tree, s.triangles.rows(), [&](Eigen::Index t) { return s.triangles.row(t); });
+            renew_tree(s.triangle_tree, s.triangles.rows(), renewed,
+                       [&](Eigen::Index t) { return s.triangles.row(t); });
         else
-            refit(s.vertex_tree, Eigen::Index(s.vertices.size()),
-                  [&](Eigen::Index v) { return std::array<int, 1> { s.vertices[v] }; });
+            renew_tree(s.vertex_tree, s.vertices.size(), renewed,
+                       [&](std::size_t v) { return std::array<int, 1> { s.vertices[v] }; });
     });
 }
 
-// A search that served more than once was worth its spare margins.
-void ContactDetector::choose_spare(double lacking)
+void ContactDetector::search(const std::vector<char>& renewed)
 {
-    const bool served_again = has_spare_ && detections_ > 1;
-    has_spare_ = served_again || (has_spare_ + lacking) / detections_ < k_spare_used_up;
-    detections_ = 0;
-}
-
-void ContactDetector::search(SweptRegion region)
-{
-    if (has_spare_) {
-        region.margins.cloth += spare_.cloth;
-        region.margins.obstacle += spare_.obstacle;
-    }
-    obstacle_is_fitted_ = has_same_obstacle(region);
-    is_path_empty_ = region.path.isZero(0);
-    region_ = std::move(region);
-    refit_trees();
+    renew_trees(renewed);
     std::vector<Found> parts(BoxTree::k_parts);
     find_vertex_faces(cloth_, obstacle_, parts);
     find_vertex_faces(obstacle_, cloth_, parts);
@@ -180,7 +181,10 @@ void ContactDetector::search(SweptRegion region)
     find_vertex_faces(cloth_, cloth_, parts);
     find_edge_edges(cloth_, cloth_, parts);
 
-    candidates_.clear();
+    const auto is_renewed = [&](const Candidate& c) {
+        return std::any_of(c.vertices.begin(), c.vertices.end(), [&](int v) { return renewed[v]; });
+    };
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_renewed), candidates_.end());
     for (const Found& found : parts) {
         candidates_.insert(candidates_.end(), found.apart.begin(), found.apart.end());
         for (const Candidate& c : found.touching)
@@ -214,8 +218,8 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
     if (c.reason == ContactReason::self && share_a_vertex(c.vertices, split))
         return;
     const Corners corners = corners_of(region_.start, c.vertices);
-    const double near
-        = (is_path_empty_ ? 0 : approach_bound(region_.path, c.vertices, split)) + sum_of(region_.margins, c.reason);
+    const double near = (is_path_empty_ ? 0 : approach_bound(region_.path, c.vertices, split))
+        + largest(region_.margins, c.vertices, 0, split) + largest(region_.margins, c.vertices, split, 4);
     if (are_surely_apart(c.kind, corners, near))
         return;
     c.distance = closest_points(c.kind, corners).distance;
@@ -225,12 +229,9 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
 
 void ContactDetector::detect(const Positions& x, const Positions& displacements, const Margins& margins)
 {
-    ++detections_;
-    SweptRegion asked { x, displacements, margins };
-    if (const double lacking = spare_lacking(asked); lacking > 0) {
-        choose_spare(lacking);
-        search(std::move(asked));
-    }
+    if (const std::vector<char> renewed = renew_region(x, displacements, margins);
+        std::find(renewed.begin(), renewed.end(), true) != renewed.end())
+        search(renewed);
     const bool stands_still = displacements.isZero(0);
     const Eigen::VectorXd moved = (x - region_.start).rowwise().norm();
     pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {

@@ -47,14 +47,14 @@ class ContactDetector {
 public:
     /// Indices of both surfaces begin at 0.
     /// @param body_vertices  of the obstacle; its other vertices belong to layers
-    /// @param spare          a search looks this much further than asked where little is moving: its pairs serve later
-    ///                       detections, too, as long as no vertex leaves the region that was searched
+    /// @param spare          a search looks this much further than asked round vertices that hardly move: its pairs serve
+    ///                       later detections, too, as long as these do not leave the region that was searched
     ContactDetector(const ContactSurface& cloth, const ContactSurface& obstacle, int body_vertices,
                     const Margins& spare = { 0, 0 });
 
     /// Finds all pairs that may meet when each vertex goes any fraction of its displacement, and up to its margin from
-    /// there. Cost O(n + c log n) where a search is due, c pairs of overlapping boxes. It grows with the square of the
-    /// margins once these are longer than the edges. Pairs of cloth that touch (distance 0) have no side to be kept on:
+    /// there. Cost O(n + c log n), c pairs of overlapping boxes of which one has a vertex that left the region searched
+    /// before. It grows with the square of the margins once these are longer than the edges. Pairs of cloth that touch (distance 0) have no side to be kept on:
     /// they are ignored from then on.
     void detect(const Positions& x, const Positions& displacements, const Margins& margins);
 
@@ -67,10 +67,10 @@ private:
         std::vector<int> vertices;  // those of triangles
         BoxTree vertex_tree, edge_tree, triangle_tree;
     };
-    /// Where vertices may go: along their paths from their starts, and beside them.
+    /// Where each vertex may go: along its path from its start, and beside that.
     struct SweptRegion {
         Positions start, path;
-        Margins margins;
+        Eigen::VectorXd margins;
     };
     /// A pair that may meet within the region searched.
     struct Candidate {
@@ -86,13 +86,16 @@ private:
     };
     static Surface make_surface(const ContactSurface& surface, int offset);
     ContactReason reason_of(const std::array<int, 4>& vertices) const;
-    /// How much further the last search would have had to look to serve for this region, as a share of the spare
-    /// margins. 0 where it serves.
-    double spare_lacking(const SweptRegion& region) const;
-    bool has_same_obstacle(const SweptRegion& region) const;
-    void refit_trees();
-    void choose_spare(double lacking);
-    void search(SweptRegion region);
+    /// Of each vertex whether it would leave the region that was searched for it. Then its region is renewed.
+    std::vector<char> renew_region(const Positions& x, const Positions& displacements, const Margins& margins);
+    template <class Vertices>
+    Box box_of(const Vertices& vertices) const;
+    template <class VerticesOf>
+    void renew_tree(BoxTree& tree, std::size_t count, const std::vector<char>& renewed,
+                    const VerticesOf& vertices_of) const;
+    void renew_trees(const std::vector<char>& renewed);
+    /// All pairs with a renewed vertex anew.
+    void search(const std::vector<char>& renewed);
     void find_vertex_faces(const Surface& a, const Surface& b, std::vector<Found>& parts);
     void find_edge_edges(const Surface& a, const Surface& b, std::vector<Found>& parts);
     void add_candidate(Candidate candidate, Found& found);
@@ -101,11 +104,10 @@ private:
     int cloth_vertices_, first_layer_vertex_;
     Surface cloth_, obstacle_;
     Margins spare_;
-    SweptRegion region_;  // the one searched last
-    bool has_spare_ = false;  // it was searched with the spare margins
-    int detections_ = 0;  // since then
+    Margins asked_ { 0, 0 };  // the largest ones so far
+    Positions x_;  // of the last detection
+    SweptRegion region_;
     bool is_path_empty_ = true;  // there
-    bool obstacle_is_fitted_ = false;  // its trees are those of the region
     std::vector<Candidate> candidates_;  // all pairs that may meet there
     std::array<std::unordered_set<std::uint64_t>, 2> ignored_;  // by kind: pairs of cloth that touched
     std::vector<ContactPair> pairs_;

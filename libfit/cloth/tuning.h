@@ -102,13 +102,12 @@ inline constexpr double k_active_distance = 1.6;
 /// one smooth sheet, whose number grows with the square of the vertices, are most of the pairs.
 /// fitted: guess, by the seconds of one coat at six resolutions.
 inline constexpr double k_self_contact_edges = 0.3;
-/// Fraction of the margins that a search for pairs adds to them, so that its pairs last for several steps near rest.
-/// Decides seconds, and results only by the order of sums.
-/// fitted: CPU time of the search for rest, .375, 1 and 2: on one coat of the house data 19.4, 17.9 and 21.8 s; on a
-/// jacket with .375, .7 and 1: 6.2, 5.5 and 5.1 s.
+/// Fraction of the margins that a search for pairs adds to them round vertices that hardly move, so that its pairs last for
+/// several steps near rest. Decides seconds, and results only by the order of sums.
+/// fitted: CPU time of the search for rest, .375, 1 and 2, where a search was of all vertices: on one coat of the house data
+/// 19.4, 17.9 and 21.8 s; on a jacket with .375, .7 and 1: 6.2, 5.5 and 5.1 s.
 inline constexpr double k_spare_margin = 1;
-/// Share of the spare margins that one detection uses up, from which on a search does without them: it would serve but
-/// once.
+/// Share of its spare margin that a vertex goes in one detection, from which on it gets none: it would serve but once.
 /// derived: where a search costs as the square of its margins, it pays to let it serve twice below sqrt(2) - 1.
 inline constexpr double k_spare_used_up = 0.41;
 /// Fraction of the velocity that a settling time step keeps: first it lets the cloth swing, then come to rest; and the

@@ -39,6 +39,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes)
     order_.resize(boxes.size());
     std::iota(order_.begin(), order_.end(), 0);
     boxes_.resize(boxes.size());
+    is_changed_.resize(boxes.size());
     if (boxes.empty())
         return;
     nodes_.reserve(2 * boxes.size());
@@ -75,15 +76,26 @@ int BoxTree::build(int node, int begin, int end, const std::vector<Box>& boxes)
 
 void BoxTree::refit(const std::vector<Box>& boxes)
 {
-    for (std::size_t i = 0; i < order_.size(); ++i)
-        boxes_[i] = rounded(boxes[order_[i]]);
+    renew([](int) { return true; }, [&](int i) { return boxes[i]; });
+}
+
+void BoxTree::renew_nodes()
+{
     for (int n = int(nodes_.size()) - 1; n >= 0; --n) {  // children come after their parents
         Node& node = nodes_[n];
         if (node.count == 0) {
-            node.box = nodes_[node.first].box;
-            node.box.extend(nodes_[node.first + 1].box);
+            const Node &one = nodes_[node.first], &other = nodes_[node.first + 1];
+            node.is_changed = one.is_changed || other.is_changed;
+            if (!node.is_changed)
+                continue;
+            node.box = one.box;
+            node.box.extend(other.box);
             continue;
         }
+        const auto first = is_changed_.begin() + node.first;
+        node.is_changed = std::find(first, first + node.count, true) != first + node.count;
+        if (!node.is_changed)
+            continue;
         node.box = boxes_[node.first];
         for (int i = node.first + 1; i < node.first + node.count; ++i)
             node.box.extend(boxes_[i]);

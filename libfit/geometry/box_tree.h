@@ -24,10 +24,15 @@ public:
     /// Renews all boxes and keeps the groups. O(n).
     void refit(const std::vector<Box>& boxes);
 
+    /// Renews the boxes of the primitives for which `is_changed(i)`, by `box_of(i)`. From then on overlaps() lists the pairs
+    /// of such primitives alone, with any other.
+    template <class IsChanged, class BoxOf>
+    void renew(const IsChanged& is_changed, const BoxOf& box_of);
+
     bool empty() const { return order_.empty(); }
 
-    /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`. Where `a` and `b` are
-    /// one tree, each pair of two primitives comes once. The search consists of k_parts parts that run on all threads.
+    /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`, at least one of which was
+    /// renewed last. Where `a` and `b` are one tree, each pair of two primitives comes once. The search consists of k_parts parts that run on all threads.
     /// Visits of one part come in a fixed order, so results gathered by part are the same for any number of threads.
     static constexpr int k_parts = 64;  ///< unit: enough to keep all threads busy; decides speed only
     template <class Visit>
@@ -45,9 +50,11 @@ private:
     struct Node {
         Bounds box;
         int first, count;  // leaves: range of order_; inner nodes: count = 0 and children at first, first + 1
+        bool is_changed;
     };
     static Bounds rounded(const Box& box);
     int build(int node, int begin, int end, const std::vector<Box>& boxes);
+    void renew_nodes();
     std::vector<int> front(int size) const;
     template <class F>
     static void descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f);
@@ -57,18 +64,30 @@ private:
     std::vector<Node> nodes_;
     std::vector<int> order_;
     std::vector<Bounds> boxes_;  // in the order of order_
+    std::vector<char> is_changed_;  // in that order
 };
+
+template <class IsChanged, class BoxOf>
+void BoxTree::renew(const IsChanged& is_changed, const BoxOf& box_of)
+{
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        is_changed_[i] = is_changed(order_[i]);
+        if (is_changed_[i])
+            boxes_[i] = rounded(box_of(order_[i]));
+    }
+    renew_nodes();
+}
 
 template <class F>
 void BoxTree::descend(const BoxTree& a, int na, const BoxTree& b, int nb, const F& f)
 {
     const Node &x = a.nodes_[na], &y = b.nodes_[nb];
-    if (!x.box.meets(y.box))
+    if (!(x.is_changed || y.is_changed) || !x.box.meets(y.box))
         return;
     if (x.count > 0 && y.count > 0) {
         for (int i = x.first; i < x.first + x.count; ++i)
             for (int j = y.first; j < y.first + y.count; ++j)
-                if (a.boxes_[i].meets(b.boxes_[j]))
+                if ((a.is_changed_[i] || b.is_changed_[j]) && a.boxes_[i].meets(b.boxes_[j]))
                     f(a.order_[i], b.order_[j]);
     } else if (y.count > 0 || (x.count == 0 && x.box.girth() >= y.box.girth())) {
         descend(a, x.first, b, nb, f);
@@ -84,6 +103,8 @@ template <class F>
 void BoxTree::descend(int node, const F& f) const
 {
     const Node& x = nodes_[node];
+    if (!x.is_changed)
+        return;
     if (x.count == 0) {
         descend(x.first, f);
         descend(x.first + 1, f);
@@ -92,7 +113,7 @@ void BoxTree::descend(int node, const F& f) const
     }
     for (int i = x.first; i < x.first + x.count; ++i)
         for (int j = i + 1; j < x.first + x.count; ++j)
-            if (boxes_[i].meets(boxes_[j]))
+            if ((is_changed_[i] || is_changed_[j]) && boxes_[i].meets(boxes_[j]))
                 f(order_[i], order_[j]);
 }
 

@@ -182,6 +182,8 @@ TEST(Contact, ASearchServesLaterDetectionsAsAFreshOneWould)
         EXPECT_EQ(meeting(lasting), meeting(fresh)) << "step " << step;
         if (step % 3 == 0)  // far enough for a new search, while the obstacle stands still
             x.topRows(n) += 6e-3 * Positions::Random(n, 3);
+        else if (step % 3 == 1)  // some, so that their pairs alone are searched anew
+            x.middleRows(n - 20, 30) += 6e-3 * Positions::Random(30, 3);
         else
             x += 5e-4 * Positions::Random(n + m, 3);
     }
@@ -278,6 +280,30 @@ TEST(BoxTree, FindsEachOverlappingPairOnceWithItselfAndWithAnother)
     for (auto pair = crosswise.begin(); pair != crosswise.end();)
         pair = pair->first < pair->second ? std::next(pair) : crosswise.erase(pair);
     EXPECT_EQ(within, crosswise);
+}
+
+TEST(BoxTree, FindsThePairsOfWhatWasRenewedAlone)
+{
+    std::srand(6);
+    const auto random_box = [] {
+        const Vec3 p = Vec3::Random();
+        return Box(p, p + 0.3 * (Vec3::Random() + Vec3::Ones()));
+    };
+    std::vector<Box> boxes(200);
+    std::generate(boxes.begin(), boxes.end(), random_box);
+    BoxTree tree(boxes);
+    const auto is_changed = [](int i) { return i % 7 == 3; };
+    tree.renew(is_changed, [&](int i) { return boxes[i] = random_box(); });
+    std::set<std::pair<int, int>> found, expected;
+    std::vector<std::vector<std::pair<int, int>>> parts(BoxTree::k_parts);
+    BoxTree::overlaps(tree, tree, [&](int part, int i, int j) { parts[part].push_back(std::minmax(i, j)); });
+    for (const auto& part : parts)
+        found.insert(part.begin(), part.end());
+    for (int i = 0; i < 200; ++i)
+        for (int j = i + 1; j < 200; ++j)
+            if ((is_changed(i) || is_changed(j)) && boxes[i].intersects(boxes[j]))
+                expected.emplace(i, j);
+    EXPECT_EQ(found, expected);
 }
 
 // Springs between the neighbours of a net of n by m knots, each knot held by a weak spring.
