@@ -149,15 +149,21 @@ OpenedGarment leave_out_garments(GarmentMesh garment, const Parts& others)
     return result;
 }
 
+/// A garment without what is no cloth of it.
+struct WithoutCaps {
+    OpenedGarment opened;
+    std::vector<Triangles> caps;
+};
+
 /// Without caps, lids, fillings and specks.
-OpenedGarment leave_out_caps(const GarmentMesh& garment)
+WithoutCaps leave_out_caps(const GarmentMesh& garment)
 {
     Caps caps(garment);
     if (const Parts others = find_garments_beside(caps.mesh(), caps.patches()); !others.empty()) {
         const OpenedGarment alone = leave_out_garments(garment, others);
-        OpenedGarment result = leave_out_caps(alone.garment);
-        result.left_out.garments += alone.left_out.garments;
-        result.left_out.faces += alone.left_out.faces;
+        WithoutCaps result = leave_out_caps(alone.garment);
+        result.opened.left_out.garments += alone.left_out.garments;
+        result.opened.left_out.faces += alone.left_out.faces;
         return result;
     }
     const Findings found = find_what_is_no_cloth(caps, garment);
@@ -168,7 +174,38 @@ OpenedGarment leave_out_caps(const GarmentMesh& garment)
     result.left_out.solids = gatherer.gather(garment.triangles, found.solids, result.left_out.faces);
     result.left_out.lids = gatherer.gather(garment.triangles, found.lids, result.left_out.faces);
     result.left_out.specks = gatherer.gather(garment.triangles, found.specks, result.left_out.faces);
-    return result;
+    WithoutCaps without { std::move(result), {} };
+    for (const std::vector<int>& cap : found.caps)
+        without.caps.emplace_back(garment.triangles(cap, Eigen::all));
+    return without;
+}
+
+/// Hollows beside caps.
+struct Ends {
+    HollowEnds hollows;
+    int count = 0;  ///< of ends that no cap closes
+};
+
+/// Both sleeves of a garment that end alike, of which one was taken for a cap and the other was not.
+Ends find_sleeves_with(const Triangles& cap, const GarmentMesh& garment)
+{
+    const int faces = int(garment.triangles.rows());
+    GarmentMesh capped = garment;
+    capped.triangles.conservativeResize(faces + cap.rows(), 3);
+    capped.triangles.bottomRows(cap.rows()) = cap;
+    Ends sleeves { find_closed_sleeves(capped) };
+    for (std::vector<int>& sleeve : sleeves.hollows.faces)
+        sleeves.count += std::erase_if(sleeve, [&](int f) { return f >= faces; }) == 0;
+    return sleeves;
+}
+
+Ends find_ends(const WithoutCaps& found)
+{
+    HollowEnds hollows = find_hollow_ends(found.opened.garment);
+    if (hollows.faces.empty() && found.caps.size() == 1)
+        return find_sleeves_with(found.caps[0], found.opened.garment);
+    const int count = int(hollows.faces.size());
+    return { std::move(hollows), count };
 }
 
 /// Draws each vertex of the given triangles that is none of the cloth among them to the nearest one that is.
@@ -185,18 +222,19 @@ void draw_to_cloth(Positions& positions, const Triangles& given, const Triangles
 
 OpenedGarment open_ends(const GarmentMesh& garment)
 {
-    OpenedGarment result = leave_out_caps(garment);
-    HollowEnds ends = find_hollow_ends(result.garment);
-    if (ends.faces.empty())
+    WithoutCaps found = leave_out_caps(garment);
+    Ends ends = find_ends(found);
+    OpenedGarment result = std::move(found.opened);
+    if (ends.hollows.faces.empty())
         return result;
     const Triangles given = result.garment.triangles;
     std::vector<char> is_kept(std::size_t(given.rows()), 1);
-    leave_out(ends.faces, is_kept);
+    leave_out(ends.hollows.faces, is_kept);
     result.garment.triangles = given(marked(is_kept), Eigen::all);
-    if (ends.outside.triangles.rows() == 0)  // floors of solids are hidden deep inside
+    if (ends.hollows.outside.triangles.rows() == 0)  // floors of solids are hidden deep inside
         draw_to_cloth(result.garment.positions, given, result.garment.triangles);
-    result.closed_ends += int(ends.faces.size());
-    result.outside = std::move(ends.outside);
+    result.closed_ends += ends.count;
+    result.outside = std::move(ends.hollows.outside);
     return result;
 }
 

@@ -274,6 +274,17 @@ HollowEnds search(const GarmentMesh& opened)
 
 void transform(HollowEnds& ends, const Eigen::Matrix4d& motion) { transform(ends.outside, motion); }
 
+HollowEnds find_closed_sleeves(const GarmentMesh& garment)
+{
+    static KeptResults<HollowEnds> kept;
+    if (count_plain_openings(garment) != 2)  // derived: hem and neck
+        return {};
+    return kept.of(garment, [&] {
+        const PlainReading plain = read_plainly(garment);
+        return plain.serves && !plain.is_sealed ? search_sleeves(garment, plain) : HollowEnds();
+    });
+}
+
 HollowEnds find_hollow_ends(const GarmentMesh& opened)
 {
     static KeptResults<HollowEnds> kept;

@@ -22,4 +22,12 @@ void transform(HollowEnds& ends, const Eigen::Matrix4d& motion);
 /// what was found last is kept.
 HollowEnds find_hollow_ends(const GarmentMesh& opened);
 
+/// Both sleeves of a garment that is open at hem and neck and nowhere else; none for others. Cost: as above, without a
+/// wrap.
+HollowEnds find_closed_sleeves(const GarmentMesh& garment);
+
+/// Both sleeves of a garment that is open at hem and neck and nowhere else; none for others. Cost: as above, without a
+/// wrap.
+HollowEnds find_closed_sleeves(const GarmentMesh& garment);
+
 }  // namespace garmentfit

@@ -12,6 +12,7 @@
 #include "fixtures.h"
 #include "garment_openings.h"
 #include "garmentfit/closed_ends.h"
+#include "hollow_ends.h"
 #include "nearest.h"
 #include "outward_cloth.h"
 #include "used_vertices.h"
@@ -146,14 +147,17 @@ TEST(HollowEnds, OfClothThatIsOpenElsewhereAreLeftOut)
     EXPECT_EQ(count_openings(outward_cloth(garment_of(cloth))), 3u);
 }
 
-/// A shirt 0.56 m long, open at hem and neck, whose sleeves end in cones.
-TriangleMesh shirt_with_closed_sleeves()
+/// A shirt 0.56 m long, open at hem and neck, whose sleeves end in cones. @param slope  of the sleeves, rad
+/// @param end  m, of the sleeves, where they are level
+TriangleMesh shirt_with_closed_sleeves(double slope = 0, double end = 0.4)
 {
-    const auto solid = [](const Vec3& p) {
-        const Vec3 along_sleeves(p.z(), p.x(), p.y() - 0.5);
+    const auto solid = [&](const Vec3& p) {
+        const double out = std::abs(p.x()) - 0.17, up = p.y() - 0.5;
+        const Vec3 along_sleeves(p.z(), 0.17 + std::cos(slope) * out - std::sin(slope) * up,
+                                 std::sin(slope) * out + std::cos(slope) * up);
         const double shirt
-            = std::min(cylinder(p, 0, 0, 0.6, 0.2, 0.12), cylinder(along_sleeves, 0, -0.4, 0.4, 0.07, 0.07));
-        return std::max(shirt, std::abs(p.x()) - 0.36 - std::hypot(p.y() - 0.5, p.z()));
+            = std::min(cylinder(p, 0, 0, 0.6, 0.2, 0.12), cylinder(along_sleeves, 0, 0, end, 0.07, 0.07));
+        return std::max(shirt, along_sleeves.y() - end + 0.04 - std::hypot(along_sleeves.z(), p.z()));
     };
     return between(0.02, 0.58, fixtures::polygonise(solid, Vec3(-0.46, -0.06, -0.18), Vec3(0.46, 0.66, 0.18), 0.015));
 }
@@ -164,6 +168,20 @@ TEST(HollowEnds, OfBothSleevesAreLeftOutWhereHemAndNeckAreOpen)
     ASSERT_EQ(count_openings(shirt), 2u);
     EXPECT_EQ(open_ends(garment_of(shirt)).closed_ends, 2);
     EXPECT_EQ(count_openings(outward_cloth(garment_of(shirt))), 4u);
+}
+
+TEST(HollowEnds, OfBothSleevesAreLeftOutWhereTheyHang)
+{
+    const TriangleMesh shirt = shirt_with_closed_sleeves(1.1, 0.6);
+    ASSERT_EQ(count_openings(shirt), 2u);
+    EXPECT_EQ(open_ends(garment_of(shirt)).closed_ends, 2);
+    EXPECT_EQ(count_openings(outward_cloth(garment_of(shirt))), 4u);
+}
+
+TEST(HollowEnds, OfSleevesAreBothOrNone)
+{
+    EXPECT_EQ(find_closed_sleeves(garment_of(shirt_with_closed_sleeves())).faces.size(), 2u);
+    EXPECT_TRUE(find_closed_sleeves(garment_of(between(-1, 0.75, trousers(0.03)))).faces.empty());
 }
 
 TEST(HollowEnds, AreLeftOutWithTheFoldsInThem)
