@@ -2,7 +2,9 @@
 #include "garmentfit/closed_ends.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -137,6 +139,21 @@ private:
     std::vector<char> is_cloth_;
 };
 
+/// With each triangle once, where exporters wrote some again with the same vertices in the same order.
+GarmentMesh drop_repeated(const GarmentMesh& garment)
+{
+    std::set<std::array<int, 3>> known;
+    std::vector<char> is_kept;
+    for (const auto& triangle : garment.triangles.rowwise()) {
+        std::array<int, 3> from_least { triangle[0], triangle[1], triangle[2] };
+        std::rotate(from_least.begin(), std::min_element(from_least.begin(), from_least.end()), from_least.end());
+        is_kept.push_back(known.insert(from_least).second);
+    }
+    if (known.size() == is_kept.size())
+        return garment;
+    return { garment.positions, garment.triangles(marked(is_kept), Eigen::all) };
+}
+
 /// @param others  faces of each other garment
 OpenedGarment leave_out_garments(GarmentMesh garment, const Parts& others)
 {
@@ -222,7 +239,7 @@ void draw_to_cloth(Positions& positions, const Triangles& given, const Triangles
 
 OpenedGarment open_ends(const GarmentMesh& garment)
 {
-    WithoutCaps found = leave_out_caps(garment);
+    WithoutCaps found = leave_out_caps(drop_repeated(garment));
     Ends ends = find_ends(found);
     OpenedGarment result = std::move(found.opened);
     if (ends.hollows.faces.empty())

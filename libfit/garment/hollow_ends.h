@@ -26,8 +26,4 @@ HollowEnds find_hollow_ends(const GarmentMesh& opened);
 /// wrap.
 HollowEnds find_closed_sleeves(const GarmentMesh& garment);
 
-/// Both sleeves of a garment that is open at hem and neck and nowhere else; none for others. Cost: as above, without a
-/// wrap.
-HollowEnds find_closed_sleeves(const GarmentMesh& garment);
-
 }  // namespace garmentfit

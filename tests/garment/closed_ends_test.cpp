@@ -109,6 +109,24 @@ TriangleMesh pleated_skirt()
     return skirt;
 }
 
+TEST(ClosedEnds, TrianglesThatAFileRepeatsCountOnce)
+{
+    const TriangleMesh once = tube(Cap::none, Cap::none);
+    const Eigen::Index n = once.triangles.rows();
+    GarmentMesh thrice { once.positions, Triangles(3 * n, 3) };
+    thrice.triangles << once.triangles, once.triangles(Eigen::all, std::array { 1, 2, 0 }), once.triangles;
+    EXPECT_EQ(open_ends(thrice).garment.triangles, once.triangles);
+}
+
+TEST(ClosedEnds, TheOtherSideOfATriangleIsNoRepetition)
+{
+    const TriangleMesh once = tube(Cap::none, Cap::none);
+    const Eigen::Index n = once.triangles.rows();
+    GarmentMesh both_sides { once.positions, Triangles(2 * n, 3) };
+    both_sides.triangles << once.triangles, once.triangles(Eigen::all, std::array { 0, 2, 1 });
+    EXPECT_EQ(open_ends(both_sides).garment.triangles.rows(), 2 * n);
+}
+
 TEST(ClosedEnds, PleatsFromWaistToHemAreNone)
 {
     const TriangleMesh skirt = pleated_skirt();
