@@ -114,8 +114,8 @@ std::vector<char> ContactDetector::renew_region(const Positions& x, const Positi
                      moves = (to - from).norm();
         region_.start.row(v) = from;
         region_.path.row(v) = to - from;
-        region_.margins[v]
-            = of_vertex(asked_) + (is_first || std::max(last_moved, moves) < k_spare_used_up * spare ? spare : 0);
+        region_.margins[v] = of_vertex(asked_)
+            + (is_first || std::max(last_moved, moves) < k_spare_used_up * spare ? 1 : k_spare_of_fast) * spare;
     }
     x_ = x;
     is_path_empty_ = region_.path.isZero(0);

@@ -107,9 +107,11 @@ inline constexpr double k_self_contact_edges = 0.3;
 /// fitted: CPU time of the search for rest, .375, 1 and 2, where a search was of all vertices: on one coat of the house data
 /// 19.4, 17.9 and 21.8 s; on a jacket with .375, .7 and 1: 6.2, 5.5 and 5.1 s.
 inline constexpr double k_spare_margin = 1;
-/// Share of its spare margin that a vertex goes in one detection, from which on it gets none: it would serve but once.
+/// Share of its spare margin that a vertex goes in one detection, from which on it gets next to none, as that would serve
+/// but once; and what it gets, so that a move that is cut, by rounding or by zones, stays in the region of the whole.
 /// derived: where a search costs as the square of its margins, it pays to let it serve twice below sqrt(2) - 1.
-inline constexpr double k_spare_used_up = 0.41;
+/// fitted: guess, of the other.
+inline constexpr double k_spare_used_up = 0.41, k_spare_of_fast = 0.1;
 /// Fraction of the velocity that a settling time step keeps: first it lets the cloth swing, then come to rest; and the
 /// fraction of the settling steps at which it changes.
 /// fitted: guess, on the house data.
