@@ -98,8 +98,10 @@ std::vector<char> ContactDetector::renew_region(const Positions& x, const Positi
     const Eigen::Index n = x.rows();
     const bool is_first = region_.start.rows() != n;
     asked_ = { std::max(asked_.cloth, margins.cloth), std::max(asked_.obstacle, margins.obstacle) };
-    if (is_first)
-        x_ = region_.start = region_.path = Positions::Zero(n, 3), region_.margins.setConstant(n, -1);
+    if (is_first) {
+        x_ = region_.start = region_.path = Positions::Zero(n, 3);
+        region_.margins.setConstant(n, -1);  // holds nothing
+    }
     std::vector<char> renewed(n);
     for (Eigen::Index v = 0; v < n; ++v) {
         const auto of_vertex = [&](const Margins& m) { return v < cloth_vertices_ ? m.cloth : m.obstacle; };
@@ -223,8 +225,11 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
     if (are_surely_apart(c.kind, corners, near))
         return;
     c.distance = closest_points(c.kind, corners).distance;
-    if (c.distance <= near && !(c.reason == ContactReason::self && ignored(c.kind).count(c.key)))
-        (c.distance > 0 ? found.apart : found.touching).push_back(c);
+    if (c.distance > near || (c.reason == ContactReason::self && ignored(c.kind).count(c.key)))
+        return;
+    const bool touch = c.distance == 0  // the starts of its vertices are of different searches
+        && closest_points(c.kind, corners_of(x_, c.vertices)).distance == 0;
+    (touch ? found.touching : found.apart).push_back(c);
 }
 
 void ContactDetector::detect(const Positions& x, const Positions& displacements, const Margins& margins)
