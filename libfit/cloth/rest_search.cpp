@@ -152,11 +152,11 @@ private:
     /// cloth near balance the 99th percentile is ten times the mean or more, as in ForceResidual::is_at_rest.
     double typical_residual() const { return residual_.percentile_99 / 10; }
 
-    /// Whether two rounds brought the forces no nearer to balance.
+    /// Whether two rounds brought the forces no nearer to balance. The first one ends early, and cloth may travel after it.
     static bool has_stalled(const std::vector<double>& left)
     {
         const std::size_t n = left.size();
-        return n > 2 && left[n - 1] > left[n - 3] && left[n - 1] > k_balanced;
+        return n > 3 && left[n - 1] > left[n - 3] && left[n - 1] > k_balanced;
     }
 
     /// Whether forces far beyond the cloth's weight would not come to balance even if they fell twice as fast from here on:
