@@ -131,7 +131,7 @@ TEST(LayerOrder, DrapingFollowsTheLayersAndHandsOutInTheOrderGiven)
 
 TEST(Draping, AGarmentWithoutAUnitIsMadeLargerWhereItIsTooSmall)
 {
-    Scene scene = scene_with({ trousers(-0.012) });
+    Scene scene = scene_with({ trousers(-0.014) });
     filter_of("drape").run(scene, short_settling());
     EXPECT_EQ(outcome_of(*scene.draped), Outcome::too_small);
 
