@@ -45,14 +45,14 @@ Positions stack(const Positions& cloth, const Positions& obstacle)
     return result;
 }
 
+}  // namespace
+
 void limit_lengths(Positions& displacements, double longest)
 {
     for (Eigen::Index v = 0; v < displacements.rows(); ++v)
         if (const double length = displacements.row(v).norm(); length > longest)
             displacements.row(v) *= longest / length;
 }
-
-}  // namespace
 
 double self_contact_distance(const ClothOptions& options, const Positions& rest, const Edges& edges)
 {

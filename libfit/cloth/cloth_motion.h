@@ -47,6 +47,9 @@ struct RestResult {
     bool out_of_time;  ///< the deadline passed
 };
 
+/// Shortens each displacement to this length, where it is longer.
+void limit_lengths(Positions& displacements, double longest);
+
 /// m, at which contact of cloth with itself begins.
 /// @param edges  of the cloth
 double self_contact_distance(const ClothOptions& options, const Positions& rest, const Edges& edges);

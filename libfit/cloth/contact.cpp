@@ -59,6 +59,12 @@ double sum_of(const Margins& margins, ContactReason reason)
     return margins.cloth + (reason == ContactReason::self ? margins.cloth : margins.obstacle);
 }
 
+template <class Vertices>
+bool has_marked(const Vertices& vertices, const std::vector<char>& marks)
+{
+    return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return marks[v]; });
+}
+
 // Vertices of the first primitive.
 int first_size(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
 
@@ -151,11 +157,7 @@ void ContactDetector::renew_tree(BoxTree& tree, std::size_t count, const std::ve
         tree = BoxTree(boxes);
         return;
     }
-    const auto is_changed = [&](std::size_t i) {
-        const auto vertices = vertices_of(i);
-        return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return renewed[v]; });
-    };
-    tree.renew(is_changed, box);
+    tree.renew([&](std::size_t i) { return has_marked(vertices_of(i), renewed); }, box);
 }
 
 void ContactDetector::renew_trees(const std::vector<char>& renewed)
@@ -183,9 +185,7 @@ void ContactDetector::search(const std::vector<char>& renewed)
     find_vertex_faces(cloth_, cloth_, parts);
     find_edge_edges(cloth_, cloth_, parts);
 
-    const auto is_renewed = [&](const Candidate& c) {
-        return std::any_of(c.vertices.begin(), c.vertices.end(), [&](int v) { return renewed[v]; });
-    };
+    const auto is_renewed = [&](const Candidate& c) { return has_marked(c.vertices, renewed); };
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_renewed), candidates_.end());
     for (const Found& found : parts) {
         candidates_.insert(candidates_.end(), found.apart.begin(), found.apart.end());

@@ -141,8 +141,7 @@ private:
     void push_on()
     {
         Positions push = k_push_of_drift * (ends_.back() - ends_.front());
-        for (int v = 0; v < int(push.rows()); ++v)
-            push.row(v) *= k_longest_push / std::max(k_longest_push, push.row(v).norm());
+        limit_lengths(push, k_longest_push);
         pushed_from_.push_back(cloth());
         ends_.clear();
         move(push);

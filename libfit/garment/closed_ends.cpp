@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <set>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -142,15 +142,17 @@ private:
 /// With each triangle once, where exporters wrote some again with the same vertices in the same order.
 GarmentMesh drop_repeated(const GarmentMesh& garment)
 {
-    std::set<std::array<int, 3>> known;
-    std::vector<char> is_kept;
+    std::vector<std::array<int, 3>> from_least;
     for (const auto& triangle : garment.triangles.rowwise()) {
-        std::array<int, 3> from_least { triangle[0], triangle[1], triangle[2] };
-        std::rotate(from_least.begin(), std::min_element(from_least.begin(), from_least.end()), from_least.end());
-        is_kept.push_back(known.insert(from_least).second);
+        std::array<int, 3>& corners = from_least.emplace_back(std::array { triangle[0], triangle[1], triangle[2] });
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     }
-    if (known.size() == is_kept.size())
-        return garment;
+    std::vector<int> order(from_least.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return from_least[a] < from_least[b]; });
+    std::vector<char> is_kept(order.size(), 1);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        is_kept[order[i]] = from_least[order[i]] != from_least[order[i - 1]];
     return { garment.positions, garment.triangles(marked(is_kept), Eigen::all) };
 }
 

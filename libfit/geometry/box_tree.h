@@ -32,8 +32,9 @@ public:
     bool empty() const { return order_.empty(); }
 
     /// Calls visit(part, i, j) for every overlapping pair of a primitive i of `a` and j of `b`, at least one of which was
-    /// renewed last. Where `a` and `b` are one tree, each pair of two primitives comes once. The search consists of k_parts parts that run on all threads.
-    /// Visits of one part come in a fixed order, so results gathered by part are the same for any number of threads.
+    /// renewed last. Where `a` and `b` are one tree, each pair of two primitives comes once. The search consists of k_parts
+    /// parts that run on all threads. Visits of one part come in a fixed order, so results gathered by part are the same
+    /// for any number of threads.
     static constexpr int k_parts = 64;  ///< unit: enough to keep all threads busy; decides speed only
     template <class Visit>
     static void overlaps(const BoxTree& a, const BoxTree& b, const Visit& visit);
