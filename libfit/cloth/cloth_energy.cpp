@@ -67,6 +67,18 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> make_sparse(Eigen::Index rows, Eige
 
 }  // namespace
 
+Vec3 ClothEnergy::Spring::load(const Positions& x) const
+{
+    const Vec3 edge = (x.row(i) - x.row(j)).transpose();
+    const double now = edge.norm();
+    return (now > 0 ? stiffness * length / now : 0.0) * edge;
+}
+
+Vec3 ClothEnergy::Spring::force(const Positions& x) const
+{
+    return load(x) - stiffness * (x.row(i) - x.row(j)).transpose();
+}
+
 Eigen::Matrix3d ClothEnergy::Spring::tangent(const Positions& x) const
 {
     const Vec3 edge = (x.row(i) - x.row(j)).transpose();
@@ -88,6 +100,10 @@ Vec3 ClothEnergy::FramedSum::sum(const Positions& x) const
     const auto& w = coefficients;
     return (w[0] * x.row(v[0]) + w[1] * x.row(v[1]) + w[2] * x.row(v[2]) + w[3] * x.row(v[3])).transpose();
 }
+
+Vec3 ClothEnergy::FramedSum::load(const Positions& x) const { return stiffness * (frame(x) * at_rest); }
+
+Vec3 ClothEnergy::FramedSum::force(const Positions& x) const { return load(x) - stiffness * sum(x); }
 
 ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
                          const std::vector<std::pair<int, int>>& pairs, const Materials& materials,
@@ -237,28 +253,24 @@ Positions ClothEnergy::multiply(const SparseRows& matrix, const Positions& x)
     return result;
 }
 
+template <class Element>
+Positions ClothEnergy::gather(const SparseRows& gradients, const std::vector<Element>& elements,
+                              Vec3 (Element::*of_element)(const Positions&) const, const Positions& x)
+{
+    Positions loads(elements.size(), 3);
+    parallel_for(
+        loads.rows(), [&](Eigen::Index e) { loads.row(e) = (elements[e].*of_element)(x); }, k_grain);
+    return multiply(gradients, loads);
+}
+
 Positions ClothEnergy::spring_loads(const Positions& x) const
 {
-    Positions loads(springs_.size(), 3);
-    const auto spring = [&](Eigen::Index e) {
-        const Spring& s = springs_[e];
-        const Eigen::RowVector3d edge = x.row(s.i) - x.row(s.j);
-        const double length = edge.norm();
-        loads.row(e) = (length > 0 ? s.stiffness * s.length / length : 0.0) * edge;
-    };
-    parallel_for(loads.rows(), spring, k_grain);
-    return multiply(spring_gradients_, loads);
+    return gather(spring_gradients_, springs_, &Spring::load, x);
 }
 
 Positions ClothEnergy::frame_loads(const Positions& x) const
 {
-    Positions loads(sums_.size(), 3);
-    const auto load = [&](Eigen::Index e) {
-        const FramedSum& s = sums_[e];
-        loads.row(e) = s.stiffness * (s.frame(x) * s.at_rest);
-    };
-    parallel_for(loads.rows(), load, k_grain);
-    return multiply(sum_gradients_, loads);
+    return gather(sum_gradients_, sums_, &FramedSum::load, x);
 }
 
 std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
@@ -281,7 +293,7 @@ std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
 
 Positions ClothEnergy::elastic_forces(const Positions& x) const
 {
-    return spring_loads(x) + frame_loads(x) - multiply(elastic_, x);
+    return gather(spring_gradients_, springs_, &Spring::force, x) + gather(sum_gradients_, sums_, &FramedSum::force, x);
 }
 
 double ClothEnergy::elastic_energy(const Positions& x) const

@@ -33,6 +33,9 @@ public:
         double length, stiffness;
         double longest;  // m; beyond it the spring is stiffer
 
+        /// Of i, N; of j it is the opposite. The load is what is left of the force without the quadratic form.
+        Vec3 load(const Positions& x) const;
+        Vec3 force(const Positions& x) const;
         /// Without the pressure of a compressed one, which would make the tangent indefinite [choi_2002_buckling].
         Eigen::Matrix3d tangent(const Positions& x) const;
     };
@@ -46,6 +49,9 @@ public:
 
         Eigen::Matrix3d frame(const Positions& x) const;
         Vec3 sum(const Positions& x) const;
+        /// Of a vertex with the coefficient 1, N.
+        Vec3 load(const Positions& x) const;
+        Vec3 force(const Positions& x) const;
     };
 
     /// @param topology  of rest.triangles
@@ -89,6 +95,10 @@ private:
     void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, const Materials& materials);
     void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials);
     void assemble();
+    /// What loads or forces of all elements do to the vertices.
+    template <class Element>
+    static Positions gather(const SparseRows& gradients, const std::vector<Element>& elements,
+                            Vec3 (Element::*of_element)(const Positions&) const, const Positions& x);
     static Positions multiply(const SparseRows& matrix, const Positions& x);
 
     std::vector<double> masses_, areas_;
