@@ -250,8 +250,7 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     std::vector<char> is_kept(std::size_t(given.rows()), 1);
     leave_out(ends.hollows.faces, is_kept);
     result.garment.triangles = given(marked(is_kept), Eigen::all);
-    if (ends.hollows.outside.triangles.rows() == 0)  // floors of solids are hidden deep inside
-        draw_to_cloth(result.garment.positions, given, result.garment.triangles);
+    draw_to_cloth(result.garment.positions, given, result.garment.triangles);
     result.closed_ends += ends.count;
     result.outside = std::move(ends.hollows.outside);
     return result;

@@ -197,7 +197,8 @@ HollowEnds search_shut(const GarmentMesh& opened, const PlainReading& plain)
             return {};
         wrap = wrap_closed(plain);
     }
-    const std::vector<Hollow> hollows = find_hollows(wrap.surface, outside_of(wrap));
+    const auto find = was_solid ? find_solid_ends : find_hollows;
+    const std::vector<Hollow> hollows = find(wrap.surface, outside_of(wrap));
     if (hollows.size() + !was_solid < k_fewest_openings)
         return {};
     return { faces_on(hollows, wrap.surface, opened),

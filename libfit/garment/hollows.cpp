@@ -69,21 +69,111 @@ public:
     std::vector<Hollow> hollows() const
     {
         std::vector<Hollow> result;
-        for (const Part& floor : floors()) {
-            const Tube tube = tube_behind(floor);
-            if (!(tube.length > k_hollow_length * tube.width))  // or none was measured
-                continue;
-            const std::vector<int> faces = up_to_rim(floor);
-            if (!is_end_of(tube, faces))
-                continue;
-            Hollow hollow = without_sheets(floor, faces);
-            if (!hollow.floor.empty())
-                result.push_back(std::move(hollow));
-        }
+        for (Found& found : find_hollows(k_hollow_length))
+            result.push_back(std::move(found.hollow));
+        return result;
+    }
+
+    std::vector<Hollow> all_ends() const
+    {
+        std::vector<Found> ends = find_hollows(k_filled_length);
+        add_flush_ends(ends);
+        if (ends.size() < k_least_ends)
+            return hollows();
+        drop_narrow(ends);
+        std::vector<Hollow> result;
+        for (Found& found : ends)
+            result.push_back(std::move(found.hollow));
         return result;
     }
 
 private:
+    struct Found {
+        Hollow hollow;
+        double share = 0;  // of the solid's cross-section behind it
+    };
+
+    static bool is_narrow(const Found& found) { return found.share < k_narrow_share; }
+
+    /// @param least  length of the tubes behind them, in widths
+    std::vector<Found> find_hollows(double least) const
+    {
+        std::vector<Found> result;
+        for (const Part& floor : floors()) {
+            const Tube tube = tube_behind(floor);
+            if (!(tube.length > least * tube.width))  // or none was measured
+                continue;
+            const std::vector<int> faces = up_to_rim(floor);
+            if (!is_end_of(tube, faces) || !(fills(tube, faces) || is_clear_end(tube, floor, faces)))
+                continue;
+            Hollow hollow = without_sheets(floor, faces);
+            if (!hollow.floor.empty())
+                result.push_back({ std::move(hollow), share_of(tube, faces) });
+        }
+        return joined(std::move(result));
+    }
+
+    /// With those that share faces as one: a neck lies in its hood.
+    std::vector<Found> joined(std::vector<Found> all) const
+    {
+        std::vector<int> first(areas_.size(), -1);  // by face, the number of the first hollow that has it
+        DisjointSets same(int(all.size()));
+        for (int i = 0; i < int(all.size()); ++i)
+            for (const auto* faces : { &all[i].hollow.floor, &all[i].hollow.walls })
+                for (const int f : *faces)
+                    if (first[f] < 0)
+                        first[f] = i;
+                    else
+                        same.join(first[f], i);
+        std::map<int, Found> one;  // by root
+        for (int i = 0; i < int(all.size()); ++i) {
+            Found& found = one[same.root(i)];
+            found.share = std::max(found.share, all[i].share);
+            found.hollow.floor = united(found.hollow.floor, all[i].hollow.floor);
+            found.hollow.walls = united(found.hollow.walls, all[i].hollow.walls);
+        }
+        std::vector<Found> result;
+        for (auto& [root, found] : one) {
+            std::vector<int> walls;
+            std::set_difference(found.hollow.walls.begin(), found.hollow.walls.end(), found.hollow.floor.begin(),
+                                found.hollow.floor.end(), std::back_inserter(walls));
+            found.hollow.walls = std::move(walls);
+            result.push_back(std::move(found));
+        }
+        return result;
+    }
+
+    static std::vector<int> united(const std::vector<int>& one, const std::vector<int>& other)
+    {
+        std::vector<int> result;
+        std::set_union(one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(result));
+        return result;
+    }
+
+    /// The rims of hollows that are no folds are none.
+    void add_flush_ends(std::vector<Found>& ends) const
+    {
+        std::vector<char> is_in_hollow(areas_.size());
+        for (const Found& found : ends)
+            if (!is_narrow(found))
+                for (const auto* faces : { &found.hollow.floor, &found.hollow.walls })
+                    for (const int f : *faces)
+                        is_in_hollow[f] = 1;
+        const auto is_at_hollow = [&](int f) {
+            for (int side = 3 * f; side < 3 * f + 3; ++side)
+                if (const int other = topology_.opposite(side); other >= 0 && is_in_hollow[other / 3])
+                    return true;
+            return false;
+        };
+        for (Part& end : flush_ends()) {
+            const Tube tube = tube_behind(end);
+            const double share = share_of(tube, end.faces);
+            if (is_long(tube) && is_end_of(tube, end.faces) && share > k_flush_least && share < k_flush_most
+                && std::none_of(end.faces.begin(), end.faces.end(), is_at_hollow))
+                ends.push_back({ { std::move(end.faces), {} }, share });
+        }
+    }
+
     /// Area vectors blurred over the surface: of a floor with a fan, or of a funnel, the axis.
     void collect_directions()
     {
@@ -262,6 +352,120 @@ private:
             && area > k_hollow_share * std::numbers::pi / 4 * tube.width * tube.width;
     }
 
+    double area_of(const std::vector<int>& faces) const
+    {
+        double area = 0;  // m^2
+        for (const int f : faces)
+            area += areas_[f].norm();
+        return area;
+    }
+
+    /// Share of a disc as wide as the solid behind some faces that they have.
+    double share_of(const Tube& tube, const std::vector<int>& faces) const
+    {
+        return area_of(faces) / (std::numbers::pi / 4 * tube.width * tube.width);
+    }
+
+    /// Whether some faces are most of the solid's cross-section: folds are a small part of it.
+    bool fills(const Tube& tube, const std::vector<int>& faces) const
+    {
+        const double share = share_of(tube, faces);
+        return share > k_filled_share && share < k_flush_most;
+    }
+
+    /// Whether a hollow ends a long tube, and is no fold with a spot of a floor.
+    bool is_clear_end(const Tube& tube, const Part& floor, const std::vector<int>& faces) const
+    {
+        return is_long(tube) && floor.area > k_hollow_bottom * area_of(faces);
+    }
+
+    static bool is_long(const Tube& tube) { return tube.length > k_hollow_length * tube.width; }
+
+    /// Beside all ends of a garment, what is far narrower than the solid behind it is a fold.
+    static void drop_narrow(std::vector<Found>& ends)
+    {
+        if (ends.size() - std::size_t(std::count_if(ends.begin(), ends.end(), is_narrow)) >= k_least_ends)
+            std::erase_if(ends, is_narrow);
+    }
+
+    /// The faces connected with one that look along an axis, near to the plane across it.
+    Part facing(const Vec3& axis, const Vec3& middle, double least, int seed) const
+    {
+        std::vector<char> is_taken(areas_.size());
+        std::vector<int> faces { seed };
+        is_taken[seed] = 1;
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            for (int side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side) {
+                const int other = topology_.opposite(side);
+                if (other < 0 || is_taken[other / 3] || !is_outside_[other / 3]
+                    || areas_[other / 3].stableNormalized().dot(axis) < least
+                    || std::abs((middles_[other / 3] - middle).dot(axis)) > k_flush_edge * diagonal_)
+                    continue;
+                is_taken[other / 3] = 1;
+                faces.push_back(other / 3);
+            }
+        return part_of(std::move(faces));
+    }
+
+    /// Whether the surface goes back all round an end, at once: behind each place of its outline it looks away from the
+    /// end, across its axis.
+    bool has_edge(const Part& end) const
+    {
+        std::vector<char> is_of_end(areas_.size());
+        for (const int f : end.faces)
+            is_of_end[f] = 1;
+        int outline = 0, steep = 0;
+        for (const int f : end.faces)
+            for (int side = 3 * f; side < 3 * f + 3; ++side) {
+                const int other = topology_.opposite(side);
+                if (other < 0 || is_of_end[other / 3])
+                    continue;
+                ++outline;
+                steep += is_steep_behind(other / 3, end, is_of_end);
+            }
+        return outline > 0 && steep > k_flush_outline * outline;
+    }
+
+    bool is_steep_behind(int start, const Part& end, const std::vector<char>& is_of_end) const
+    {
+        const double reach = k_flush_edge * diagonal_;
+        std::vector<int> near { start };
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            const Vec3 normal = areas_[near[i]].stableNormalized(), away = middles_[near[i]] - end.middle;
+            const Vec3 outwards = (away - away.dot(end.axis) * end.axis).stableNormalized();
+            if (normal.dot(end.axis) < k_flush_steep && normal.dot(outwards) > 0 && away.dot(end.axis) < 0)
+                return true;
+            for (int side = 3 * near[i]; side < 3 * near[i] + 3; ++side)
+                if (const int other = topology_.opposite(side); other >= 0 && !is_of_end[other / 3]
+                    && (middles_[other / 3] - middles_[start]).norm() < reach
+                    && std::find(near.begin(), near.end(), other / 3) == near.end())
+                    near.push_back(other / 3);
+        }
+        return false;
+    }
+
+    /// Flat ends without a hollow, up to where the surface goes back.
+    std::vector<Part> flush_ends() const
+    {
+        std::vector<char> is_seen(areas_.size());
+        std::vector<Part> result;
+        for (const int seed : outside_) {
+            if (is_seen[seed] || directions_[seed].dot(areas_[seed].stableNormalized()) < k_flush_flat)
+                continue;
+            Part end = facing(directions_[seed], middles_[seed], k_flush_facing, seed);
+            end = facing(end.axis, end.middle, k_flush_facing, seed);
+            for (const int f : end.faces)
+                is_seen[f] |= directions_[f].dot(directions_[seed]) > k_flush_flat;
+            if (end.area < k_least_floor * diagonal_ * diagonal_ || !has_edge(end))
+                continue;
+            end = facing(end.axis, end.middle, k_flush_steep, seed);
+            for (const int f : end.faces)
+                is_seen[f] = 1;
+            result.push_back(std::move(end));
+        }
+        return result;
+    }
+
     /// Of the connected faces among those marked the part with most of a floor's faces; none without any.
     std::vector<int> part_at(const Part& floor, const std::vector<char>& is_marked) const
     {
@@ -325,6 +529,11 @@ private:
 std::vector<Hollow> find_hollows(const TriangleMesh& solid, const std::vector<int>& outside)
 {
     return Solid(solid, outside).hollows();
+}
+
+std::vector<Hollow> find_solid_ends(const TriangleMesh& solid, const std::vector<int>& outside)
+{
+    return Solid(solid, outside).all_ends();
 }
 
 }  // namespace garmentfit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Hollows of a solid in which a tube of cloth ends. Clothes that are modelled as solids, by hand or from pictures, show
+// Hollows of a solid in which a tube of cloth ends, and flat ends. Clothes that are modelled as solids, by hand or from pictures, show
 // their cuffs, hems and necks as pits with a floor.
 
 #include <vector>
@@ -27,5 +27,10 @@ struct Hollow {
 /// @param outside  faces of it in which hollows are looked for
 /// Cost: up to 24 rays from each of three heights for each face, most often a few; 24 more for those near a floor.
 std::vector<Hollow> find_hollows(const TriangleMesh& solid, const std::vector<int>& outside);
+
+/// The same, and where there are three or more with them, flat ends without a hollow: connected faces that look along
+/// one axis, near to one plane, from whose outline the surface goes back at once, and behind which a tube goes on. Beside
+/// all ends of a garment, what is far narrower than the solid behind it is none. The cost is about the same.
+std::vector<Hollow> find_solid_ends(const TriangleMesh& solid, const std::vector<int>& outside);
 
 }  // namespace garmentfit
