@@ -221,10 +221,10 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton, const SkinWe
         if (pair.is_unequal())
             refuse(pair.text());
     }
-    const Vec3 hips = skeleton.tail(lhipjoint) - skeleton.tail(rhipjoint),
-               shoulders = skeleton.tail(lclavicle) - skeleton.tail(rclavicle);
-    if (!(hips.dot(shoulders) > 0))
-        refuse("the left hip and the left shoulder lie on different sides");
+    const auto from_right_to_left = [&](Bone left) { return skeleton.tail(left) - skeleton.tail(mirror_of(left)); };
+    const bool have_shoulders_width = from_right_to_left(lclavicle).norm() > k_shortest_own_bone * height;
+    if (!(from_right_to_left(lhipjoint).dot(from_right_to_left(have_shoulders_width ? lclavicle : lhumerus)) > 0))
+        refuse("the left hip and the left arm lie on different sides");
     if (weights.weights.rows() == skin.rows() && is_arm_too_early(body, skeleton, weights, false)
         && is_arm_too_early(body, skeleton, weights, true))
         refuse("the hands are longer than the arms, so the elbows seem to be taken for wrists");

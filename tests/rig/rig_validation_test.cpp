@@ -133,6 +133,15 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
     std::swap(crossed.skeleton.tails[lfemur], crossed.skeleton.tails[rfemur]);
     std::swap(crossed.skeleton.tails[ltibia], crossed.skeleton.tails[rtibia]);
     expect_invalid([&] { check_skeleton(body, crossed.skeleton); }, "different sides");
+    for (Person* one_shoulder : { &crossed, &aside }) {
+        *one_shoulder = person;
+        one_shoulder->skeleton.tails[lclavicle] = one_shoulder->skeleton.tails[rclavicle]
+            = person.skeleton.tail(thorax);
+    }
+    EXPECT_NO_THROW(check_skeleton(body, aside.skeleton));
+    std::swap(crossed.skeleton.tails[lhumerus], crossed.skeleton.tails[rhumerus]);
+    std::swap(crossed.skeleton.tails[lradius], crossed.skeleton.tails[rradius]);
+    expect_invalid([&] { check_skeleton(body, crossed.skeleton); }, "different sides");
     Person mirrored = person;
     for (const int left : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius })
         std::swap(mirrored.skeleton.tails[left], mirrored.skeleton.tails[mirror_of(left)]);

@@ -175,4 +175,12 @@ TEST(Skin, KeepsItsDistanceFromATwistedBone)
     EXPECT_NEAR((Vec3(there.row(0)) - rest.head(lradius)).norm(), 0.04, 1e-9);
 }
 
+TEST(Skeleton, ABoneWithoutLengthHasADirection)
+{
+    Skeleton skeleton;
+    skeleton.tails.fill(Vec3::Zero());
+    EXPECT_EQ(skeleton.length(lclavicle), 0);
+    EXPECT_EQ(skeleton.direction(lclavicle).norm(), 1);
+}
+
 }  // namespace

@@ -67,7 +67,8 @@ struct Skeleton {
 
     GARMENTFIT_API const Vec3& head(int bone) const;
     const Vec3& tail(int bone) const { return tails[bone]; }
-    Vec3 direction(int bone) const { return (tail(bone) - head(bone)).normalized(); }
+    /// Unit; any for a bone without length, as a file may have.
+    Vec3 direction(int bone) const { return length(bone) > 0 ? (tail(bone) - head(bone)).normalized() : Vec3::UnitY(); }
     double length(int bone) const { return (tail(bone) - head(bone)).norm(); }
 };
 
