@@ -2,8 +2,11 @@
 #include "stages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "garmentfit/filters/outcome.h"
@@ -151,6 +154,12 @@ DrapeOptions options_for(const GarmentInput& garment, DrapeOptions options)
     return options;
 }
 
+void add_given(WornGarment& worn, const GarmentInput& garment)
+{
+    worn.fabric = garment.fabric;
+    worn.girth = largest_factor(garment.widening);
+}
+
 std::vector<std::size_t> from_inside_out(const std::vector<FitResult>& fits)
 {
     std::vector<std::size_t> order(fits.size());
@@ -201,7 +210,7 @@ void drape_all(Scene& scene, const Parameters& p, const Progress& progress)
         const std::size_t worn_before = dressing.garments.size();
         dressing = dressing_of(result);
         if (dressing.garments.size() > worn_before)
-            dressing.garments.back().fabric = scene.garments[order[layer]].fabric;
+            add_given(dressing.garments.back(), scene.garments[order[layer]]);
         dressing.too_tight = among_all(result.too_tight, order);
         dressing.outermost = order[layer];
         dressing.seconds += before;
@@ -297,6 +306,26 @@ Parameters for_rough_cloth(Parameters p)
 
 void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress);
 
+std::string mirror_of_part(const std::string& part)
+{
+    for (const auto& [side, other] : { std::pair<std::string, std::string>("left ", "right "), { "right ", "left " } })
+        if (part.compare(0, side.size(), side) == 0)
+            return other + part.substr(side.size());
+    return part;
+}
+
+void widen(Scene& scene, std::size_t garment, const Widening& widening)
+{
+    GarmentInput& input = scene.garments[garment];
+    GarmentMesh wider = widen_garment(*scene.rig, *scene.body, scene.fits[garment].pose, input.mesh, widening);
+    if (!input.as_given)
+        input.as_given = std::move(input.mesh);
+    input.mesh = std::move(wider);
+    input.stand_in.reset();
+    for (const auto& [part, factor] : widening)
+        input.widening[part] = factor * (input.widening.count(part) > 0 ? input.widening[part] : 1);
+}
+
 /// Stand-ins that may be led by rough ones in turn.
 std::optional<Dressing> run_leaders(const DressingStage& stage, const Scene& led, const Parameters& p,
                                     const Progress& progress)
@@ -335,6 +364,41 @@ void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Paramete
 }
 
 }  // namespace
+
+void take_as_given(GarmentInput& garment)
+{
+    if (!garment.as_given)
+        return;
+    garment.mesh = std::move(*garment.as_given);
+    garment.as_given.reset();
+    garment.stand_in.reset();
+    garment.widening.clear();
+}
+
+bool widen_too_small(Scene& scene, const Parameters& parameters, double share)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || outcome_of(*end) != Outcome::too_small || end->too_tight.empty())
+        return false;
+    std::vector<Widening> widenings(scene.garments.size());
+    for (const TooTight& part : end->too_tight) {
+        const auto i = std::size_t(part.garment);
+        const double stretched = 1 + k_stretch_of_enlarged * end->fabric_stretches[i];
+        const double factor = std::pow(std::max(1.0, (1 + part.enlargement) / stretched), share);
+        for (const std::string& side : { part.part, mirror_of_part(part.part) })
+            widenings[i][side] = std::max(widenings[i][side], factor);
+    }
+    for (std::size_t i = 0; i < widenings.size(); ++i)
+        for (const auto& [part, factor] : widenings[i]) {
+            const double before = scene.garments[i].widening.count(part) > 0 ? scene.garments[i].widening[part] : 1;
+            if (before * factor > 1 + parameters.drape.cloth.largest_enlargement)
+                return false;
+        }
+    for (std::size_t i = 0; i < widenings.size(); ++i)
+        if (largest_factor(widenings[i]) > 1)
+            widen(scene, i, widenings[i]);
+    return true;
+}
 
 bool enlarge_too_small(Scene& scene, const Parameters& parameters)
 {

@@ -15,6 +15,7 @@
 #include "other_wearings.h"
 #include "stages.h"
 #include "stand_ins.h"
+#include "tuning.h"
 
 namespace garmentfit {
 namespace {
@@ -32,6 +33,7 @@ constexpr std::array<StageRow, k_stage_count> k_stages { {
     { "recover", "recovering the pose", recover_stage, 0.4 },
 } };
 
+constexpr int k_widening_rounds = 3;  // unit: what is wider at one part may be too small at the next
 constexpr int k_enlarging_rounds = 2;  // unit: cloth that is larger lies elsewhere, and may be a little too small there
 
 const StageRow& row(Stage stage) { return k_stages[static_cast<int>(stage)]; }
@@ -102,34 +104,89 @@ void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Param
 /// Runs draping and recovering again after a change of the scene. It stays so where that tells more.
 /// @param change  @return whether there is anything to change
 /// @param worst  outcome with which it stays so
-void run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene,
-                 const Parameters& parameters, const Progress& progress, Outcome worst = Outcome::too_small)
+/// @param first  stage that is run again
+/// @return whether it stays so
+bool run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene,
+                 const Parameters& parameters, const Progress& progress, Outcome worst = Outcome::too_small,
+                 Stage first = Stage::drape)
 {
     Scene other = scene;
     if (progress.is_late() || !change(other))
-        return;
-    stages.erase(std::remove_if(stages.begin(), stages.end(), [](Stage stage) { return stage < Stage::drape; }),
+        return false;
+    stages.erase(std::remove_if(stages.begin(), stages.end(), [&](Stage stage) { return stage < first; }),
                  stages.end());
     other.recovered.reset();
-    if (stages.front() == Stage::drape)
+    if (stages.front() <= Stage::drape)
         other.draped.reset();
-    if (succeeds([&] { run_stages_once(stages, other, parameters, progress); })
-        && outcome_of(*final_dressing(other)) <= worst)
+    const bool is_better = succeeds([&] { run_stages_once(stages, other, parameters, progress); })
+        && outcome_of(*final_dressing(other)) <= worst;
+    if (is_better)
         scene = std::move(other);
+    return is_better;
 }
 
-void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+bool is_too_small(const Scene& scene) { return outcome_of(*final_dressing(scene)) == Outcome::too_small; }
+
+/// Fits and puts on again garments that are too small, made wider where they are: wider cloth lies elsewhere. Where that
+/// does not end well, cloth that is less wide may.
+void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
-    run_stages_once(stages, scene, parameters, progress);
-    if (stages.back() < Stage::drape)
-        return;
-    run_changed(give_up_stand_ins, stages, scene, parameters, progress.part(1, 1));
-    const bool is_too_small = outcome_of(*final_dressing(scene)) == Outcome::too_small;
-    run_changed(find_linings, stages, scene, parameters, progress.part(1, 1),
-                is_too_small ? Outcome::done : Outcome::too_small);
+    std::vector<Stage> with_fit = stages;
+    if (with_fit.front() > Stage::fit)
+        with_fit.insert(with_fit.begin(), Stage::fit);
+    double share = 1;
+    for (int k = 0; k < k_widening_rounds && is_too_small(scene); ++k) {
+        const auto widen = [&](Scene& other) { return widen_too_small(other, parameters, share); };
+        if (!run_changed(widen, with_fit, scene, parameters, progress, Outcome::too_small, Stage::fit))
+            share *= k_smaller_share;
+    }
+}
+
+void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    run_changed(give_up_stand_ins, stages, scene, parameters, progress);
+    run_changed(find_linings, stages, scene, parameters, progress,
+                is_too_small(scene) ? Outcome::done : Outcome::too_small);
+}
+
+void run_larger(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
     for (int k = 0; k < k_enlarging_rounds; ++k)
         run_changed([&](Scene& other) { return enlarge_too_small(other, parameters); }, stages, scene, parameters,
-                    progress.part(1, 1));
+                    progress);
+}
+
+/// @param fits  whether garments may be fitted anew: then they are made wider first, and larger, all of them alike, only
+///              where that does not do
+void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress,
+                bool fits)
+{
+    const bool widens = fits && stages.back() >= Stage::drape && parameters.drape.cloth.largest_enlargement > 0;
+    Parameters of_girth = parameters;
+    if (widens)
+        of_girth.drape.cloth.largest_enlargement = 0;
+    run_stages_once(stages, scene, of_girth, progress);
+    if (stages.back() < Stage::drape)
+        return;
+    const Progress again = progress.part(1, 1);
+    run_changes(stages, scene, of_girth, again);
+    if (!widens)
+        return run_larger(stages, scene, parameters, again);
+    Scene wider = scene;
+    run_wider(stages, wider, parameters, again);
+    if (is_too_small(wider)) {
+        const auto nothing = [](Scene&) { return true; };
+        run_changed(nothing, stages, scene, parameters, again);
+        run_larger(stages, scene, parameters, again);
+    }
+    if (outcome_of(*final_dressing(wider)) <= outcome_of(*final_dressing(scene)))
+        scene = std::move(wider);
+}
+
+void take_all_as_given(Scene& scene)
+{
+    for (GarmentInput& garment : scene.garments)
+        take_as_given(garment);
 }
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
@@ -139,7 +196,7 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
     std::exception_ptr refusal;
     std::size_t refused = 0;
     try {
-        run_stages(filter.stages, scene, parameters, progress);
+        run_stages(filter.stages, scene, parameters, progress, filter.has(Stage::fit));
     } catch (const RefusedGarment& error) {
         if (!tries_others)
             throw;
@@ -147,12 +204,13 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
         refusal = std::current_exception();
     }
     if (!tries_others)
-        return;
+        return take_all_as_given(scene);
     const Progress again = progress.part(1, 1);
     const auto run = [&](std::vector<Stage> stages) {
-        return [&, stages](Scene& s) { run_stages(stages, s, parameters, again); };
+        return [&, stages](Scene& s) { run_stages(stages, s, parameters, again, true); };
     };
     try_other_wearings(scene, { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) }, refused, again);
+    take_all_as_given(scene);
     if (refusal && !final_dressing(scene))
         std::rethrow_exception(refusal);
 }

@@ -9,6 +9,7 @@
 #include "attempt.h"
 #include "garment_scale.h"
 #include "garmentfit/filters/outcome.h"
+#include "stages.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -30,10 +31,14 @@ double furthest_slip(const Dressing& end)
     return furthest;
 }
 
+// Of people for whom the garment is made. Of people of one stature, some have wider girths.
 double size_of(const Scene& scene, std::size_t garment)
 {
     const Dressing* end = final_dressing(scene);
-    return end && end->is_worn(garment) ? end->garments[garment].size : 1;
+    if (!end || !end->is_worn(garment))
+        return 1;
+    const WornGarment& worn = end->garments[garment];
+    return worn.size * std::pow(worn.girth, k_size_of_girth);
 }
 
 bool is_another_size(double size) { return size > 1 + k_same_size; }
@@ -165,6 +170,7 @@ void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t re
             return;
         Scene other = scene;
         other.garments[garment].skipped = tried[garment];
+        take_as_given(other.garments[garment]);
         other.draped.reset();
         other.recovered.reset();
         if (!succeeds([&] { steps.fit(other); }))

@@ -85,7 +85,7 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
     if (end.scale_reached < 1)
         text << "; a body of " << percent(end.scale_reached) << "% of the thickness would fit";
     if (!parts.empty()) {
-        const double size = end.is_worn(garment) ? end.garments[garment].size : 1;
+        const double size = end.is_worn(garment) ? end.garments[garment].size * end.garments[garment].girth : 1;
         text << "; a garment " << std::ceil(100 * (enlargement + (size - 1) * (1 + enlargement))) << "% larger "
              << (size > 1 ? "than given " : "") << "would not be stretched there";
     }

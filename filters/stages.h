@@ -23,6 +23,14 @@ void drape_on_the_way_stage(Scene& scene, const Parameters& parameters, const Pr
 /// Moves the dressed body to its input pose.
 void recover_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
+/// Makes the garments that are too small wider where they are, until their fabric allows the rest (widen_garment.h).
+/// @param share  1: as far as that; 0.5: half as far
+/// @return whether there are any, and all may be made larger so far
+bool widen_too_small(Scene& scene, const Parameters& parameters, double share);
+
+/// Takes widen_too_small back. What was made of wider garments stays.
+void take_as_given(GarmentInput& garment);
+
 /// Enlarges the garments that are put on, but found too small in the end, until their fabric allows the rest. @return whether
 /// there are any, and all may be enlarged so far
 bool enlarge_too_small(Scene& scene, const Parameters& parameters);

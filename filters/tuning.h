@@ -105,6 +105,12 @@ inline constexpr double k_enlarged_without_unit = 0.2;
 /// Share of what its fabric gives by which a garment that is enlarged is stretched then. derived: as
 /// k_enlarged_stretch_share of the room dress
 inline constexpr double k_stretch_of_enlarged = 0.5;
+/// Exponent: how much a garment that is wider by a factor is that of a larger person. derived: of adults, chest girths
+/// vary by about 8 %, statures by 4 %
+inline constexpr double k_size_of_girth = 0.5;
+/// Share, of the logarithm, by which a garment is made wider that does not end well with the widening tried before.
+/// fitted: guess
+inline constexpr double k_smaller_share = 0.5;
 /// Strain, the 95th percentile, that fine cloth may have beyond that of the stand-in that it follows; with more, it moves
 /// as it is. fitted: guess; fine clothes of web shops that follow well have .01 to .03, a jumpsuit that is a child's too
 /// long .25.

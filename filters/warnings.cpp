@@ -42,6 +42,9 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
 {
     if (garment.size > 1)
         warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
+    if (garment.girth > 1)
+        warnings.push_back(name + " was made up to " + std::to_string(std::lround(100 * (garment.girth - 1)))
+                           + "% wider where it was too small, its lengths are as given");
     if (const std::size_t kept = garment.certificate.kept_self_crossings.size(); kept > 0)
         warnings.push_back(name + " crossed itself as it was given, and could not be parted everywhere: "
                            + std::to_string(kept) + " of " + std::to_string(garment.certificate.input_self_crossings)

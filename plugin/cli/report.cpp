@@ -251,6 +251,7 @@ Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i
         if (end->is_worn(i)) {
             put_certificate(json, end->garments[i], metres_per_unit);
             json["size"] = end->garments[i].size;
+            json["girth"] = end->garments[i].girth;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
             json["overstretched"] = overstretched_of(end->overstretches[i]);
             put_ease(json, *end, i, metres_per_unit);

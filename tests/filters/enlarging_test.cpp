@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
 #include "garmentfit/filters/outcome.h"
 #include "stages.h"
 
@@ -42,6 +43,28 @@ TEST(Enlarging, AGarmentThatIsTooSmallInTheEndIsEnlargedWhereThatIsAllowed)
     Scene fits = tight_scene(1, 0.1);
     fits.recovered->too_tight.clear();
     EXPECT_FALSE(enlarge_too_small(fits, parameters));
+}
+
+TEST(Enlarging, AGarmentIsMadeWiderAndFittedAnewBeforeItIsEnlarged)
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 20 });
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    const TriangleMesh small = fixtures::garment_round(
+        person.skeleton, -0.016, [](const Vec3& p) { return p.y() > 0.2 && p.y() < 1 && std::abs(p.x()) < 0.26; });
+    scene.garments = { { make_garment(small.positions, small.triangles), GarmentType::trousers, "legs.obj" } };
+    Parameters parameters;
+    parameters.recover.quality = Quality::draft;
+    parameters.drape.cloth.largest_enlargement = 1;
+    filter_of("dress").run(scene, parameters);
+    ASSERT_TRUE(scene.recovered);
+    EXPECT_TRUE(scene.recovered->certified);
+    const WornGarment& worn = scene.recovered->garments[0];
+    EXPECT_EQ(worn.size, 1);
+    EXPECT_GT(worn.girth, 1.05);
+    const auto height = [](const Positions& p) { return p.col(1).maxCoeff() - p.col(1).minCoeff(); };
+    EXPECT_NEAR(height(worn.rest.positions), height(small.positions), 0.03);
+    EXPECT_EQ(scene.garments[0].mesh.positions, small.positions) << "what was given stays";
 }
 
 }  // namespace

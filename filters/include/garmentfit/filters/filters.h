@@ -18,6 +18,7 @@
 #include "garmentfit/layer_order.h"
 #include "garmentfit/stand_in.h"
 #include "garmentfit/units.h"
+#include "garmentfit/widen_garment.h"
 
 namespace garmentfit {
 
@@ -51,6 +52,8 @@ struct GarmentInput {
     /// Moves in its place (stand_in.h). Draping looks for one where there is none; without a mesh: it needs none.
     std::optional<std::optional<StandIn>> stand_in = {};
     double size = 1;  ///< DrapeOptions::size
+    Widening widening = {};  ///< of the mesh, while it is tried with wider girths
+    std::optional<GarmentMesh> as_given = {};  ///< the mesh before
     bool has_unit = true;  ///< Frame::has_unit; a garment without one may be made larger where it is too small
 };
 

@@ -145,7 +145,7 @@ void describe(Options& o, Visitor&& visit)
     describe_cloth(o, visit);
     visit(o.largest_enlargement,
           About { "enlarge", "Enlarge", "", 0, 1,
-                  "A garment that is too small is made larger, all of it alike, by up to this share" });
+                  "A garment that is too small is made wider where it is, or larger, by up to this share" });
 }
 
 template <class Options, class Visitor, IfOptionsOf<Options, DrapeOptions>* = nullptr>

@@ -55,10 +55,11 @@ struct WornStandIn {
 
 /// A garment on a body.
 struct WornGarment {
-    GarmentMesh rest;  ///< as given without closed ends, or enlarged: edge lengths and folds
+    GarmentMesh rest;  ///< as given without closed ends, or made larger: edge lengths and folds
     Positions positions;  ///< as worn, n x 3
     Certificate certificate = {};
     double size = 1;  ///< of the rest shape; more than 1 where it was enlarged
+    double girth = 1;  ///< the same, where girths alone were: the largest of them (widen_garment.h)
     /// m that it sank along the body since it was put on, by the median of its vertices. A large value: the garment is
     /// too wide to stay.
     double slipped = 0;
