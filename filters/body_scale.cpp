@@ -119,7 +119,8 @@ void scale(Dressing& dressing, double factor)
 
 double stature_of(const BodyMesh& body)
 {
-    const double root = std::cbrt(volume_of(body.closed)), height = height_of(body.surface.positions, {});
+    const double root = std::cbrt(volume_of(body.closed)),
+                 height = height_of(body.surface.positions, body.surface.triangles, {});
     return std::clamp(height, k_least_by_volume * root, k_most_by_volume * root);
 }
 

@@ -63,9 +63,9 @@ Frame in_named_unit(Frame frame)
 }
 
 /// Scales the body to a height.
-void set_height(FrameGuess& guess, const Positions& positions, double height)
+void set_height(FrameGuess& guess, const Positions& positions, const Triangles& triangles, double height)
 {
-    const double units = height_of(positions, guess.frame) / guess.frame.metres_per_unit;
+    const double units = height_of(positions, triangles, guess.frame) / guess.frame.metres_per_unit;
     if (!(units > 0))
         throw InvalidInput(ErrorCode::degenerate_mesh,
                            "height: the body is flat along its up axis; give that axis as up, too");
@@ -178,7 +178,7 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
     describe(sizes, CheckRanges());
     FrameGuess guess = apply_choice(guess_body_frame(positions, triangles, known_up(choice)), choice);
     if (choice.height)
-        set_height(guess, positions, *choice.height);
+        set_height(guess, positions, triangles, *choice.height);
     return guess;
 }
 
@@ -220,8 +220,10 @@ std::optional<Vec3> front_of_garment(const Frame& frame, const std::string& axis
     return front;
 }
 
-double height_of(const Positions& positions, const Frame& frame)
+double height_of(const Positions& positions, const Triangles& triangles, const Frame& frame)
 {
+    if (triangles.rows() > 0)
+        return height_of(positions(triangles.reshaped(), Eigen::all), {}, frame);
     const Eigen::VectorXd heights = positions * frame.up * frame.metres_per_unit;
     return heights.size() > 0 ? heights.maxCoeff() - heights.minCoeff() : 0;
 }

@@ -55,8 +55,7 @@ Stretches stretches_of(const Widening& widening, const Skeleton& skeleton)
 GarmentMesh widen_garment(const Rig& rig, const BodyMesh& body, const Pose& pose, const GarmentMesh& garment,
                           const Widening& widening)
 {
-    const Positions posed
-        = skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
+    const Positions posed = skin(body.surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
     const SkinWeights weights
         = garment_weights({ posed, body.surface.triangles }, rig.weights, garment, garment.positions);
     const Stretches stretches = stretches_of(widening, pose_skeleton(rig.skeleton, pose));

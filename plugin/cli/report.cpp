@@ -55,7 +55,7 @@ Json body_of(const Session& session)
                 { "vertices", body.file.positions().rows() },
                 { "repaired", session.scene.body->repaired } };
     json.update(guess_of(body.frame));
-    json["height"] = height_of(body.file.positions(), body.frame.frame);
+    json["height"] = height_of(body.file.positions(), body.triangles, body.frame.frame);
     if (const auto& rig = session.scene.rig) {
         json["skeleton"] = session.skeleton;
         json["front"] = vector_of(body.frame.frame.rotation().transpose() * rig->front);

@@ -61,11 +61,16 @@ TEST(FrameChoice, MakesABodyAsTallAsItIsSaidToBe)
     const TriangleMesh& mesh = person();
     const Positions in_cm = 100 * mesh.positions;
     const FrameGuess guess = body_frame(in_cm, mesh.triangles, { { "mm", "+y" }, 1.2 });
-    EXPECT_NEAR(height_of(in_cm, guess.frame), 1.2, 1e-12) << "the height overrides the unit";
+    EXPECT_NEAR(height_of(in_cm, mesh.triangles, guess.frame), 1.2, 1e-12) << "the height overrides the unit";
     EXPECT_EQ(guess.unit_confidence, 1);
     EXPECT_NE(guess.why.find("1.2 m as given"), std::string::npos) << guess.why;
     EXPECT_EQ(garment_frame(in_cm, mesh.triangles, guess.frame).frame.metres_per_unit, 0.01)
         << "garments keep their own scale";
+    Positions with_stray(in_cm.rows() + 1, 3);
+    with_stray << in_cm, Eigen::RowVector3d(0, 1000, 0);
+    EXPECT_EQ(body_frame(with_stray, mesh.triangles, { { "mm", "+y" }, 1.2 }).frame.metres_per_unit,
+              guess.frame.metres_per_unit)
+        << "what no triangle has is no height";
     for (const double height : { 0.1, 11.0 })
         expect_invalid([&] { body_frame(in_cm, mesh.triangles, { {}, height }); }, "height");
 }

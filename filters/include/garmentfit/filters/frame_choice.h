@@ -49,7 +49,7 @@ std::optional<Vec3> front_of_body(const Frame& frame, const std::string& axis);
 /// The same for a garment. @throws InvalidInput where it is the garment's up axis, too.
 std::optional<Vec3> front_of_garment(const Frame& frame, const std::string& axis);
 
-/// From the lowest to the highest point, m.
-double height_of(const Positions& positions, const Frame& frame);
+/// From the lowest to the highest point of the triangles, or of all points where there are none, m.
+double height_of(const Positions& positions, const Triangles& triangles, const Frame& frame);
 
 }  // namespace garmentfit
