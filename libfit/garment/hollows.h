@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Hollows of a solid in which a tube of cloth ends, and flat ends. Clothes that are modelled as solids, by hand or from pictures, show
-// their cuffs, hems and necks as pits with a floor.
+// Hollows of a solid in which a tube of cloth ends, and flat ends. Clothes that are modelled as solids, by hand or from
+// pictures, show their cuffs, hems and necks as pits with a floor.
 
 #include <vector>
 
