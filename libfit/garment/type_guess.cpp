@@ -144,12 +144,27 @@ bool are_beyond(const Opening& a, const Opening& b, const Piece& piece, double d
     });
 }
 
+/// Whether two openings lie wholly beside all others, on both sides.
+bool are_beside(const Opening& a, const Opening& b, const Piece& piece)
+{
+    const Vec3 axis = level_between(a, b).stableNormalized();
+    const double low = (a.rim * axis).maxCoeff(), high = (b.rim * axis).minCoeff();
+    return std::all_of(piece.others.begin(), piece.others.end(), [&](const Opening& other) {
+        const Eigen::VectorXd along = other.rim * axis;
+        return &other == &a || &other == &b || (along.minCoeff() > low && along.maxCoeff() < high);
+    });
+}
+
+bool is_sleeve(const Opening& opening) { return opening.tube_length > k_armhole_length * opening.tube_girth; }
+
 bool is_long_tube(const Opening& opening) { return opening.tube_length > k_long_sleeve * opening.tube_girth; }
 
-/// Sleeves that hang may face anywhere; long ones come down beside the hem.
+/// Sleeves that hang may face anywhere; long ones come down beside the hem, and may be fused with the trunk above it.
 bool are_hanging_sleeves(const Opening& a, const Opening& b, const Piece& piece)
 {
-    return are_alike(a, b) && are_beyond(a, b, piece, is_long_tube(a) && is_long_tube(b) ? 1 : k_arms_beyond);
+    return are_alike(a, b)
+        && (are_beyond(a, b, piece, is_long_tube(a) && is_long_tube(b) ? 1 : k_arms_beyond)
+            || (piece.others.size() >= 4 && is_sleeve(a) && is_sleeve(b) && are_beside(a, b, piece)));
 }
 
 bool are_sleeves(const Opening& a, const Opening& b, const Piece& piece)

@@ -158,6 +158,21 @@ TEST(Coverage, LongSleevesThatHangBesideTheHemAreSleeves)
     EXPECT_FALSE(holds_arms(0.9 * hem, 0.45)) << "legs hang below the waist, not beside it";
 }
 
+// A solid hoodie with its arms on its trunk: its sleeves are tubes only near the cuffs.
+TEST(Coverage, ShortTubesWhollyBesideTheHemAreSleeves)
+{
+    const auto has_arms = [](double distance, double tube_length, std::vector<Opening> openings) {
+        openings.push_back(cuff_at(-distance / 2, tube_length));
+        openings.push_back(cuff_at(distance / 2, tube_length));
+        return cues_of(openings).has_arms;
+    };
+    constexpr double hem = 0.4;
+    EXPECT_TRUE(has_arms(1.3 * hem, 0.14, k_tube));
+    EXPECT_FALSE(has_arms(1.1 * hem, 0.14, k_tube)) << "they overlap the hem";
+    EXPECT_FALSE(has_arms(1.3 * hem, 0.05, k_tube)) << "hardly a tube";
+    EXPECT_FALSE(has_arms(1.3 * hem, 0.14, { opening_at(0.5, 1) })) << "trousers have no hem between their legs";
+}
+
 // A shirt modelled with one arm hanging and the other bent, its hand in front of the belly.
 TEST(Coverage, SleevesOfAPosedWearerAreSleeves)
 {
