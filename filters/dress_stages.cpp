@@ -375,7 +375,7 @@ void take_as_given(GarmentInput& garment)
     garment.widening.clear();
 }
 
-bool widen_too_small(Scene& scene, const Parameters& parameters, double share)
+bool widen_too_small(Scene& scene, double most, double share)
 {
     const Dressing* end = final_dressing(scene);
     if (!end || outcome_of(*end) != Outcome::too_small || end->too_tight.empty())
@@ -391,7 +391,7 @@ bool widen_too_small(Scene& scene, const Parameters& parameters, double share)
     for (std::size_t i = 0; i < widenings.size(); ++i)
         for (const auto& [part, factor] : widenings[i]) {
             const double before = scene.garments[i].widening.count(part) > 0 ? scene.garments[i].widening[part] : 1;
-            if (before * factor > 1 + parameters.drape.cloth.largest_enlargement)
+            if (before * factor > 1 + most)
                 return false;
         }
     for (std::size_t i = 0; i < widenings.size(); ++i)

@@ -33,7 +33,8 @@ constexpr std::array<StageRow, k_stage_count> k_stages { {
     { "recover", "recovering the pose", recover_stage, 0.4 },
 } };
 
-constexpr int k_widening_rounds = 3;  // unit: what is wider at one part may be too small at the next
+constexpr int k_widening_rounds = 5;  // unit: what is wider at one part may be too small at the next
+constexpr int k_vain_widenings = 2;  // unit: each is a whole run
 constexpr int k_enlarging_rounds = 2;  // unit: cloth that is larger lies elsewhere, and may be a little too small there
 
 const StageRow& row(Stage stage) { return k_stages[static_cast<int>(stage)]; }
@@ -129,16 +130,21 @@ bool is_too_small(const Scene& scene) { return outcome_of(*final_dressing(scene)
 
 /// Fits and puts on again garments that are too small, made wider where they are: wider cloth lies elsewhere. Where that
 /// does not end well, cloth that is less wide may.
-void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+/// @param most  share by which girths grow at most
+void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, double most,
+               const Progress& progress)
 {
     std::vector<Stage> with_fit = stages;
     if (with_fit.front() > Stage::fit)
         with_fit.insert(with_fit.begin(), Stage::fit);
     double share = 1;
-    for (int k = 0; k < k_widening_rounds && is_too_small(scene); ++k) {
-        const auto widen = [&](Scene& other) { return widen_too_small(other, parameters, share); };
-        if (!run_changed(widen, with_fit, scene, parameters, progress, Outcome::too_small, Stage::fit))
-            share *= k_smaller_share;
+    int vain = 0;
+    for (int k = 0; k < k_widening_rounds && vain < k_vain_widenings && is_too_small(scene); ++k) {
+        const auto widen = [&](Scene& other) { return widen_too_small(other, most, share); };
+        if (run_changed(widen, with_fit, scene, parameters, progress, Outcome::too_small, Stage::fit))
+            continue;
+        share *= k_smaller_share;
+        ++vain;
     }
 }
 
@@ -173,7 +179,7 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
     if (!widens)
         return run_larger(stages, scene, parameters, again);
     Scene wider = scene;
-    run_wider(stages, wider, parameters, again);
+    run_wider(stages, wider, of_girth, parameters.drape.cloth.largest_enlargement, again);
     if (is_too_small(wider)) {
         const auto nothing = [](Scene&) { return true; };
         run_changed(nothing, stages, scene, parameters, again);

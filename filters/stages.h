@@ -24,9 +24,10 @@ void drape_on_the_way_stage(Scene& scene, const Parameters& parameters, const Pr
 void recover_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
 /// Makes the garments that are too small wider where they are, until their fabric allows the rest (widen_garment.h).
-/// @param share  1: as far as that; 0.5: half as far
-/// @return whether there are any, and all may be made larger so far
-bool widen_too_small(Scene& scene, const Parameters& parameters, double share);
+/// @param most   share by which girths grow at most
+/// @param share  1: as far as the fabric needs; 0.5: half as far
+/// @return whether there are any, and all may be made wider so far
+bool widen_too_small(Scene& scene, double most, double share);
 
 /// Takes widen_too_small back. What was made of wider garments stays.
 void take_as_given(GarmentInput& garment);
