@@ -314,6 +314,18 @@ std::string mirror_of_part(const std::string& part)
     return part;
 }
 
+double factor_of(const Widening& widening, const std::string& part)
+{
+    const auto found = widening.find(part);
+    return found == widening.end() ? 1 : found->second;
+}
+
+/// By which a garment has to be larger round a part for which it is too small, with what its fabric may give.
+double lacking_factor(const Dressing& end, const TooTight& part)
+{
+    return (1 + part.enlargement) / (1 + k_stretch_of_enlarged * end.fabric_stretches[std::size_t(part.garment)]);
+}
+
 void widen(Scene& scene, std::size_t garment, const Widening& widening)
 {
     GarmentInput& input = scene.garments[garment];
@@ -323,7 +335,7 @@ void widen(Scene& scene, std::size_t garment, const Widening& widening)
     input.mesh = std::move(wider);
     input.stand_in.reset();
     for (const auto& [part, factor] : widening)
-        input.widening[part] = factor * (input.widening.count(part) > 0 ? input.widening[part] : 1);
+        input.widening[part] = factor * factor_of(input.widening, part);
 }
 
 /// Stand-ins that may be led by rough ones in turn.
@@ -382,18 +394,15 @@ bool widen_too_small(Scene& scene, double most, double share)
         return false;
     std::vector<Widening> widenings(scene.garments.size());
     for (const TooTight& part : end->too_tight) {
-        const auto i = std::size_t(part.garment);
-        const double stretched = 1 + k_stretch_of_enlarged * end->fabric_stretches[i];
-        const double factor = std::pow(std::max(1.0, (1 + part.enlargement) / stretched), share);
+        Widening& widening = widenings[std::size_t(part.garment)];
+        const double factor = std::pow(std::max(1.0, lacking_factor(*end, part)), share);
         for (const std::string& side : { part.part, mirror_of_part(part.part) })
-            widenings[i][side] = std::max(widenings[i][side], factor);
+            widening[side] = std::max(factor_of(widening, side), factor);
     }
     for (std::size_t i = 0; i < widenings.size(); ++i)
-        for (const auto& [part, factor] : widenings[i]) {
-            const double before = scene.garments[i].widening.count(part) > 0 ? scene.garments[i].widening[part] : 1;
-            if (before * factor > 1 + most)
+        for (const auto& [part, factor] : widenings[i])
+            if (factor_of(scene.garments[i].widening, part) * factor > 1 + most)
                 return false;
-        }
     for (std::size_t i = 0; i < widenings.size(); ++i)
         if (largest_factor(widenings[i]) > 1)
             widen(scene, i, widenings[i]);
@@ -410,8 +419,7 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
         sizes.push_back(garment.size);
     for (const TooTight& part : end->too_tight) {
         const auto i = std::size_t(part.garment);
-        const double stretched = 1 + k_stretch_of_enlarged * end->fabric_stretches[i];
-        sizes[i] = std::max(sizes[i], end->garments[i].size * (1 + part.enlargement) / stretched);
+        sizes[i] = std::max(sizes[i], end->garments[i].size * lacking_factor(*end, part));
     }
     for (std::size_t i = 0; i < sizes.size(); ++i)
         if (sizes[i] > 1 + options_for(scene.garments[i], parameters.drape).cloth.largest_enlargement)

@@ -125,7 +125,7 @@ TEST(HollowEnds, OfASolidLeaveOneLayerOfClothWithItsOpenings)
     EXPECT_EQ(lining->sheet.triangles, opened.outside.triangles);
 }
 
-/// A T-shirt 0.6 m long as a solid with flat ends, but for a dent of some depth, m, at the neck.
+/// A T-shirt 0.6 m long as a solid with flat ends, but for a dent 4 cm deep at the neck.
 /// @param edge  m, radius of the edges of its flat ends
 double solid_tshirt(const Vec3& p, double edge)
 {
