@@ -271,6 +271,19 @@ inline Draped cusick(const ClothOptions& options, double radius = 0.15, double s
     return result;
 }
 
+/// The sheet with its warp at an angle to +x, radians.
+inline GarmentMesh cut_at(const GarmentMesh& sheet, double angle)
+{
+    CornerUvs uvs(sheet.triangles.rows(), 6);
+    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 at = sheet.positions.row(sheet.triangles(f, k));
+            uvs.row(f).segment<2>(2 * k) << std::cos(angle) * at.z() - std::sin(angle) * at.x(),
+                std::cos(angle) * at.x() + std::sin(angle) * at.z();
+        }
+    return make_garment(sheet.positions, sheet.triangles, uvs);
+}
+
 struct Moduli {
     double young, shear;  ///< N/m
     double poisson;
@@ -278,9 +291,9 @@ struct Moduli {
 
 /// Tension of a wide sheet that is stretched along x by `strain` and free to narrow, N/m, and its shear stiffness for
 /// small shear angles.
-inline Moduli moduli(const ClothOptions& options, double strain)
+/// @param rest  in the plane y = 0
+inline Moduli moduli(const ClothOptions& options, double strain, const GarmentMesh& rest = strip(0.2, 0.2, 0.01))
 {
-    const GarmentMesh rest = strip(0.2, 0.2, 0.01);
     const ClothEnergy energy(rest, MeshTopology(rest.triangles, int(rest.positions.rows())), {}, options);
     const double sheet = area({ rest.positions, rest.triangles });
     const auto density = [&](double along, double across, double shear) {

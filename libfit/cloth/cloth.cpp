@@ -43,7 +43,9 @@ Material material_of(const ClothOptions& options, Fabric fabric)
              options.friction.value_or(table.friction),
              options.largest_stretch.value_or(table.largest_stretch),
              table.strain_limit,
-             table.thickness };
+             table.thickness,
+             options.weft_to_warp.value_or(table.weft_to_warp),
+             options.shear_stiffness.value_or(table.shear_stiffness) };
 }
 
 Material material_of(const ClothOptions& options) { return material_of(options, options.fabric); }

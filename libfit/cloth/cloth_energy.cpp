@@ -9,6 +9,7 @@
 #include "parallel.h"
 #include "surface_measures.h"
 #include "tuning.h"
+#include "woven_triangle.h"
 
 namespace garmentfit {
 namespace {
@@ -124,37 +125,60 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
 {
 }
 
+/// Makes springs along the sides of a triangle as stiff as all that they pull with together, which bounds its energy, and
+/// takes off in `slack` what that is too much.
+void add_woven(const Eigen::Matrix3d& stiffness, const std::array<int, 3>& sides, std::vector<double>& at_edge,
+               std::vector<Eigen::Triplet<double>>& slack)
+{
+    for (int k = 0; k < 3; ++k) {
+        const double own = stiffness(k, k), all = stiffness.row(k).cwiseAbs().sum();
+        at_edge[sides[k]] += all;
+        for (int l = 0; l < 3; ++l)
+            slack.emplace_back(sides[k], sides[l], l == k ? all - own : -stiffness(k, l));
+    }
+}
+
 // A spring stands for the strip of cloth beside it, whose width is area / length.
 // derived: StretchesAndShearsAsAnIsotropicSheet in cloth_energy_test holds the moduli that follow.
+// Where warp and weft are known, the sides of a triangle are springs that pull on each other (woven_triangle.h).
 void ClothEnergy::add_springs(const GarmentMesh& rest, const MeshTopology& topology,
                               const std::vector<std::pair<int, int>>& pairs, const Materials& materials)
 {
     const Edges& edges = topology.edges();
-    std::vector<double> area_at_edge(edges.rows(), 0);
+    std::vector<double> area_at_edge(edges.rows(), 0), woven_at_edge(edges.rows(), 0);
+    std::vector<Eigen::Triplet<double>> slack;
     for (Eigen::Index f = 0; f < rest.triangles.rows(); ++f) {
         const Vec3 a = rest.positions.row(rest.triangles(f, 0)), b = rest.positions.row(rest.triangles(f, 1)),
                    c = rest.positions.row(rest.triangles(f, 2));
         const double area = 0.5 * (b - a).cross(c - a).norm();
+        const std::array<int, 3> sides { topology.edge_of(3 * int(f)), topology.edge_of(3 * int(f) + 1),
+                                         topology.edge_of(3 * int(f) + 2) };
         for (int k = 0; k < 3; ++k) {
             const int v = rest.triangles(f, k);
             areas_[v] += area / 3;
             masses_[v] += materials.at(v).density * area / 3;
-            if (const int edge = topology.edge_of(3 * int(f) + k); edge >= 0)
-                area_at_edge[edge] += area;
         }
+        if (const auto woven = woven_triangle(rest, f, materials.at(rest.triangles(f, 0))))
+            add_woven(*woven, sides, woven_at_edge, slack);
+        else
+            for (const int edge : sides)
+                if (edge >= 0)
+                    area_at_edge[edge] += area;
     }
     for (Eigen::Index e = 0; e < edges.rows(); ++e) {
         const int i = edges(e, 0), j = edges(e, 1);
         const Material& material = materials.at(i);
-        if (const double l = rest_length(rest, i, j); l > 0)
-            springs_.push_back({ i, j, l,
-                                 material.stretch_stiffness * std::min(area_at_edge[e] / (l * l), k_largest_cotangent),
-                                 (1 + material.strain_limit) * l });
+        const double l = rest_length(rest, i, j);
+        const double width = l > 0 ? std::min(area_at_edge[e] / (l * l), k_largest_cotangent) : 0;
+        springs_.push_back(
+            { i, j, l, material.stretch_stiffness * width + woven_at_edge[e], (1 + material.strain_limit) * l });
     }
     for (const auto& [i, j] : pairs) {
         const double l = rest_length(rest, i, j);
         springs_.push_back({ i, j, l, materials.at(i).stretch_stiffness, (1 + materials.at(i).strain_limit) * l });
     }
+    if (!slack.empty())
+        slack_ = make_sparse(Eigen::Index(springs_.size()), Eigen::Index(springs_.size()), slack);
 }
 
 // literature: [bergou_2006_quadratic_bending], the 3 over the areas and the coefficients of cotangents.
@@ -263,9 +287,41 @@ Positions ClothEnergy::gather(const SparseRows& gradients, const std::vector<Ele
     return multiply(gradients, loads);
 }
 
+Eigen::VectorXd ClothEnergy::lengthening(const Positions& x) const
+{
+    Eigen::VectorXd result(springs_.size());
+    parallel_for(
+        result.size(),
+        [&](Eigen::Index e) {
+            const Spring& s = springs_[e];
+            result[e] = (x.row(s.i) - x.row(s.j)).norm() - s.length;
+        },
+        k_grain);
+    return result;
+}
+
+Positions ClothEnergy::slack_forces(const Positions& x) const
+{
+    if (slack_.rows() == 0)
+        return Positions::Zero(x.rows(), 3);
+    const Eigen::VectorXd longer = lengthening(x);
+    Positions pulls(longer.size(), 3);
+    const auto pull = [&](Eigen::Index e) {
+        const Spring& s = springs_[e];
+        const Eigen::RowVector3d edge = x.row(s.i) - x.row(s.j);
+        const double now = edge.norm();
+        double slack = 0;
+        for (SparseRows::InnerIterator entry(slack_, e); entry; ++entry)
+            slack += entry.value() * longer[entry.col()];
+        pulls.row(e) = (now > 0 ? slack / now : 0.0) * edge;
+    };
+    parallel_for(pulls.rows(), pull, k_grain);
+    return multiply(spring_gradients_, pulls);
+}
+
 Positions ClothEnergy::spring_loads(const Positions& x) const
 {
-    return gather(spring_gradients_, springs_, &Spring::load, x);
+    return gather(spring_gradients_, springs_, &Spring::load, x) + slack_forces(x);
 }
 
 Positions ClothEnergy::frame_loads(const Positions& x) const
@@ -293,16 +349,16 @@ std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
 
 Positions ClothEnergy::elastic_forces(const Positions& x) const
 {
-    return gather(spring_gradients_, springs_, &Spring::force, x) + gather(sum_gradients_, sums_, &FramedSum::force, x);
+    return gather(spring_gradients_, springs_, &Spring::force, x) + gather(sum_gradients_, sums_, &FramedSum::force, x)
+        + slack_forces(x);
 }
 
 double ClothEnergy::elastic_energy(const Positions& x) const
 {
-    double sum = 0;
-    for (const Spring& s : springs_) {
-        const double longer = (x.row(s.i) - x.row(s.j)).norm() - s.length;
-        sum += 0.5 * s.stiffness * longer * longer;
-    }
+    const Eigen::VectorXd longer = lengthening(x);
+    double sum = slack_.rows() > 0 ? -0.5 * longer.dot(slack_ * longer) : 0;
+    for (std::size_t e = 0; e < springs_.size(); ++e)
+        sum += 0.5 * springs_[e].stiffness * longer[e] * longer[e];
     for (const FramedSum& s : sums_)
         sum += 0.5 * s.stiffness * (s.sum(x) - s.frame(x) * s.at_rest).squaredNorm();
     return sum;

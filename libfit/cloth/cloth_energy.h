@@ -5,7 +5,9 @@
 // quadratic form minus what springs and hinges, each projected to its own rest, pull with (their loads).
 //
 // Stretch  a spring along each edge, with its rest length. Beyond a limit it is stiffer; [provot_1995_cloth] moves
-//          such edges back instead.
+//          such edges back instead. Where warp and weft are known, springs of one triangle pull on each other
+//          (woven_triangle.h). The constant form has more than that, so that it bounds the energy: the loads take off
+//          the slack between the two.
 // Bend     quadratic hinges [bergou_2006_quadratic_bending] that keep the mean curvature vector they have at rest,
 //          turned along with the hinge, so a garment keeps its own folds.
 // Sewn     a vertex of a sewn piece wants its place at rest over the triangle that it is tied to, turned along with the
@@ -30,7 +32,7 @@ class ClothEnergy {
 public:
     struct Spring {
         int i, j;
-        double length, stiffness;
+        double length, stiffness;  // m, N/m; without the slack
         double longest;  // m; beyond it the spring is stiffer
 
         /// Of i, N; of j it is the opposite. The load is what is left of the force without the quadratic form.
@@ -95,6 +97,9 @@ private:
     void add_hinges(const GarmentMesh& rest, const MeshTopology& topology, const Materials& materials);
     void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials);
     void assemble();
+    Eigen::VectorXd lengthening(const Positions& x) const;  ///< of all springs, m
+    /// What springs pull with too much does to the vertices, N.
+    Positions slack_forces(const Positions& x) const;
     /// What loads or forces of all elements do to the vertices.
     template <class Element>
     static Positions gather(const SparseRows& gradients, const std::vector<Element>& elements,
@@ -104,6 +109,7 @@ private:
     std::vector<double> masses_, areas_;
     std::vector<Spring> springs_;
     std::vector<FramedSum> sums_;
+    SparseRows slack_;  // springs x springs, N/m: what they pull with too much, by their lengthening; empty: nothing
     SparseRows spring_gradients_, sum_gradients_;  // n x elements: how their loads act on the vertices
     SparseRows elastic_;  // constant part of the system, n x n, both triangles
     SinglePrecisionFactor factor_;

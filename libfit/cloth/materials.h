@@ -10,6 +10,16 @@
 
 namespace garmentfit {
 
+/// Young's moduli, N/m; their mean is the stretch stiffness.
+inline double stiffness_along_warp(const Material& material)
+{
+    return 2 * material.stretch_stiffness / (1 + material.weft_to_warp);
+}
+inline double stiffness_along_weft(const Material& material)
+{
+    return material.weft_to_warp * stiffness_along_warp(material);
+}
+
 /// Of two garments that touch: as soft as the softer, and as rough as both on the mean.
 inline Material mixed(Material one, const Material& other)
 {

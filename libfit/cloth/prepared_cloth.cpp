@@ -49,7 +49,7 @@ PreparedCloth prepare_cloth(const GarmentMesh& rest, const Positions& start, con
     GarmentMesh cloth = weld.gather(rest);
     MeshTopology topology(cloth.triangles, int(cloth.positions.rows()));
     if (const auto merged = merge_near_vertices(cloth, topology, gather(weld, garments, cloth.positions.rows()))) {
-        const GarmentMesh at_one_place { weld.place(*merged), rest.triangles };
+        const GarmentMesh at_one_place { weld.place(*merged), rest.triangles, rest.warps };
         weld = Weld(at_one_place);
         cloth = weld.gather(at_one_place);
         topology = MeshTopology(cloth.triangles, int(cloth.positions.rows()));

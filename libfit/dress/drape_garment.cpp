@@ -106,7 +106,7 @@ public:
 
     const Tightness& tightness() const { return tightness_; }
     double size() const { return size_; }
-    GarmentMesh garment() const { return { size_ * given_.positions, given_.triangles }; }
+    GarmentMesh garment() const { return { size_ * given_.positions, given_.triangles, given_.warps }; }
 
 private:
     const GarmentMesh& given_;

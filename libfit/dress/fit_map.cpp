@@ -69,12 +69,13 @@ std::vector<PartLoad> part_loads(const Skeleton& skeleton, const SkinWeights& we
                                  const WornGarment& worn, const ClothOptions& options)
 {
     const Material material = material_of(options, worn);
+    const double stiffness = worn.rest.warps.rows() > 0 ? stiffness_along_weft(material) : material.stretch_stiffness;
     const Edges edges = edges_of(worn.rest.triangles);
     const Tightness tightness(worn.rest.positions, edges, weights_of_nearest(worn.positions, body, weights), skeleton,
                               material.largest_stretch);
     std::vector<PartLoad> result;
     for (const auto& part : tightness.measure_parts(worn.positions)) {
-        const double tension = material.stretch_stiffness * std::max(0.0, part.mean);
+        const double tension = stiffness * std::max(0.0, part.mean);
         result.push_back({ part_name(part.part), part.girth, part.mean, 2 * M_PI * tension / part.girth });
     }
     return result;

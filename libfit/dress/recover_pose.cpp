@@ -67,14 +67,12 @@ struct Outfit {
 
     Outfit(const std::vector<WornGarment>& garments, Fabric otherwise)
     {
-        TriangleMesh at_rest;
         for (int i = 0; i < int(garments.size()); ++i) {
-            append(at_rest, { garments[i].rest.positions, garments[i].rest.triangles });
+            append(rest, garments[i].rest);
             append(cloth, { garments[i].positions, garments[i].rest.triangles });
             garment_of.resize(std::size_t(cloth.positions.rows()), i);
             fabrics.push_back(garments[i].fabric.value_or(otherwise));
         }
-        rest = { std::move(at_rest.positions), std::move(at_rest.triangles) };
     }
 };
 

@@ -16,6 +16,7 @@
 #include "thick_cloth.h"
 #include "tuning.h"
 #include "used_vertices.h"
+#include "warps.h"
 
 namespace garmentfit {
 namespace {
@@ -153,7 +154,7 @@ GarmentMesh drop_repeated(const GarmentMesh& garment)
     std::vector<char> is_kept(order.size(), 1);
     for (std::size_t i = 1; i < order.size(); ++i)
         is_kept[order[i]] = from_least[order[i]] != from_least[order[i - 1]];
-    return { garment.positions, garment.triangles(marked(is_kept), Eigen::all) };
+    return with_triangles(garment, garment.positions, marked(is_kept));
 }
 
 /// @param others  faces of each other garment
@@ -162,7 +163,7 @@ OpenedGarment leave_out_garments(GarmentMesh garment, const Parts& others)
     std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
     leave_out(others, is_kept);
     OpenedGarment result;
-    result.garment = { std::move(garment.positions), garment.triangles(marked(is_kept), Eigen::all) };
+    result.garment = with_triangles(garment, std::move(garment.positions), marked(is_kept));
     Gatherer gatherer(result.garment.positions, result.garment.triangles);
     result.left_out.garments = gatherer.gather(garment.triangles, others, result.left_out.faces);
     return result;
@@ -186,7 +187,7 @@ WithoutCaps leave_out_caps(const GarmentMesh& garment)
         return result;
     }
     const Findings found = find_what_is_no_cloth(caps, garment);
-    OpenedGarment result { { garment.positions, garment.triangles(found.kept, Eigen::all) },
+    OpenedGarment result { with_triangles(garment, garment.positions, found.kept),
                            int(found.caps.size() + found.lids.size()),
                            {} };
     Gatherer gatherer(result.garment.positions, result.garment.triangles);
@@ -209,7 +210,7 @@ struct Ends {
 Ends find_sleeves_with(const Triangles& cap, const GarmentMesh& garment)
 {
     const int faces = int(garment.triangles.rows());
-    GarmentMesh capped = garment;
+    GarmentMesh capped { garment.positions, garment.triangles };
     capped.triangles.conservativeResize(faces + cap.rows(), 3);
     capped.triangles.bottomRows(cap.rows()) = cap;
     Ends sleeves { find_closed_sleeves(capped) };
@@ -246,11 +247,11 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     OpenedGarment result = std::move(found.opened);
     if (ends.hollows.faces.empty())
         return result;
-    const Triangles given = result.garment.triangles;
-    std::vector<char> is_kept(std::size_t(given.rows()), 1);
+    const GarmentMesh given = std::move(result.garment);
+    std::vector<char> is_kept(std::size_t(given.triangles.rows()), 1);
     leave_out(ends.hollows.faces, is_kept);
-    result.garment.triangles = given(marked(is_kept), Eigen::all);
-    draw_to_cloth(result.garment.positions, given, result.garment.triangles);
+    result.garment = with_triangles(given, given.positions, marked(is_kept));
+    draw_to_cloth(result.garment.positions, given.triangles, result.garment.triangles);
     result.closed_ends += ends.count;
     result.outside = std::move(ends.hollows.outside);
     return result;

@@ -16,6 +16,7 @@
 #include "topology.h"
 #include "tuning.h"
 #include "used_vertices.h"
+#include "warps.h"
 
 namespace garmentfit {
 namespace {
@@ -75,9 +76,9 @@ BodyMesh make_body(const Positions& positions, const Triangles& triangles)
     return body;
 }
 
-GarmentMesh make_garment(const Positions& positions, const Triangles& triangles)
+GarmentMesh make_garment(const Positions& positions, const Triangles& triangles, const CornerUvs& uvs)
 {
-    GarmentMesh garment { gather_strays(positions, triangles), triangles };
+    GarmentMesh garment { gather_strays(positions, triangles), triangles, {} };
     check("garment", garment.positions, triangles);
     double area = 0;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
@@ -86,6 +87,7 @@ GarmentMesh make_garment(const Positions& positions, const Triangles& triangles)
         throw InvalidInput(ErrorCode::degenerate_mesh,
                            "garment: all " + std::to_string(triangles.rows())
                                + " faces have no area; give another surface");
+    garment.warps = warps_of(garment.positions, triangles, uvs);
     return garment;
 }
 

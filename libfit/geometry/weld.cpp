@@ -7,6 +7,7 @@
 #include <map>
 
 #include "vertex_tree.h"
+#include "warps.h"
 
 namespace garmentfit {
 
@@ -41,15 +42,16 @@ Positions Weld::gather(const Positions& garment) const { return garment(last_, E
 
 GarmentMesh Weld::gather(const GarmentMesh& garment) const
 {
-    GarmentMesh result { gather(garment.positions), Triangles(garment.triangles.rows(), 3) };
-    Eigen::Index kept = 0;
-    for (const auto& corners : garment.triangles.rowwise()) {
-        const int a = cloth_vertex_[corners[0]], b = cloth_vertex_[corners[1]], c = cloth_vertex_[corners[2]];
-        if (a != b && b != c && c != a)
-            result.triangles.row(kept++) << a, b, c;
+    Triangles welded(garment.triangles.rows(), 3);
+    std::vector<int> kept;
+    for (Eigen::Index f = 0; f < welded.rows(); ++f) {
+        for (int k = 0; k < 3; ++k)
+            welded(f, k) = cloth_vertex_[garment.triangles(f, k)];
+        const auto& corners = welded.row(f);
+        if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+            kept.push_back(int(f));
     }
-    result.triangles.conservativeResize(kept, 3);
-    return result;
+    return with_triangles({ {}, std::move(welded), garment.warps }, gather(garment.positions), kept);
 }
 
 Positions Weld::spread(const Positions& cloth) const { return cloth(cloth_vertex_, Eigen::all); }

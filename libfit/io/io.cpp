@@ -150,6 +150,7 @@ const std::filesystem::path& MeshFile::path() const { return path_; }
 const std::string& MeshFile::format() const { return content_->format; }
 
 Appearance MeshFile::appearance() const { return content_->appearance(); }
+CornerUvs MeshFile::corner_uvs() const { return content_->corner_uvs(); }
 std::vector<MeshPart> MeshFile::parts() const { return content_->parts(); }
 std::vector<std::string> MeshFile::companions() const { return content_->companions(); }
 const std::vector<std::string>& MeshFile::left_behind() const { return content_->left_behind; }

@@ -20,6 +20,7 @@ struct MeshFile::Content {
     /// The bytes of the file with other positions (same count).
     virtual std::string bytes_with(const Positions& positions) const = 0;
     virtual Appearance appearance() const { return {}; }
+    virtual CornerUvs corner_uvs() const { return {}; }
     virtual std::vector<std::string> companions() const { return {}; }
     /// Bytes of a file of this format, its companions in a folder beside it.
     virtual std::string naming_companions_in(const std::string& bytes, const std::string&) const { return bytes; }

@@ -11,6 +11,7 @@ namespace {
 
 struct ObjContent : TextContent {
     Appearance appearance() const override { return obj_appearance(file); }
+    CornerUvs corner_uvs() const override { return garmentfit::corner_uvs(obj_uvs(file)); }
     std::vector<std::string> companions() const override { return obj_companions(file); }
     std::string naming_companions_in(const std::string& bytes, const std::string& folder) const override
     {

@@ -302,6 +302,14 @@ Appearance obj_appearance(const FileBytes& file)
     return look;
 }
 
+Appearance obj_uvs(const FileBytes& file)
+{
+    Appearance look;
+    const std::map<std::string, int> no_materials;
+    CornerReader(look, no_materials).read(file);
+    return look;
+}
+
 std::vector<std::string> obj_companions(const FileBytes& file)
 {
     std::vector<std::string> names = libraries_of(file);

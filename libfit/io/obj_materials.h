@@ -15,6 +15,9 @@ namespace garmentfit {
 /// @param file  an OBJ file that was read without errors; its name is its path
 Appearance obj_appearance(const FileBytes& file);
 
+/// Its UVs without materials and pictures.
+Appearance obj_uvs(const FileBytes& file);
+
 /// The .mtl files that it names, and the pictures that those name: as written there, each once.
 std::vector<std::string> obj_companions(const FileBytes& file);
 

@@ -374,11 +374,53 @@ std::string header_text(Eigen::Index vertices, Eigen::Index faces, const std::ve
     return header + "element face " + std::to_string(faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
+/// Of vertices, in the order of the header; lists stay empty.
+std::vector<std::vector<double>> read_vertex_scalars(const FileBytes& file, const Header& header)
+{
+    const Element& vertex = vertex_element(file, header);
+    std::vector<std::vector<double>> result(vertex.properties.size());
+    Body body(file, header);
+    for (const Element& element : header.elements) {
+        if (&element == &vertex) {
+            walk(
+                body, element, [&](std::size_t, std::size_t p, double value) { result[p].push_back(value); },
+                [](auto&&...) {});
+            break;
+        }
+        skip(body, element);
+    }
+    return result;
+}
+
+/// What programs call texture coordinates of vertices.
+constexpr std::array<std::array<const char*, 2>, 4> k_uv_names {
+    { { "u", "v" }, { "s", "t" }, { "texture_u", "texture_v" }, { "texcoord_u", "texcoord_v" } }
+};
+
 struct PlyContent : MeshFile::Content {
     FileBytes file;
     Header header;
     std::vector<int> columns;
     Positions normals;  ///< zero where the file has none
+
+    CornerUvs corner_uvs() const override
+    {
+        const Element& vertex = vertex_element(file, header);
+        for (const auto& names : k_uv_names) {
+            const int u = property_named(vertex, names[0]), v = property_named(vertex, names[1]);
+            if (u < 0 || v < 0)
+                continue;
+            const auto values = read_vertex_scalars(file, header);
+            if (values[u].size() < vertex.rows || values[v].size() < vertex.rows)  // lists
+                continue;
+            CornerUvs uvs(triangles.rows(), 6);
+            for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+                for (int k = 0; k < 3; ++k)
+                    uvs.row(f).segment<2>(2 * k) << values[u][triangles(f, k)], values[v][triangles(f, k)];
+            return uvs;
+        }
+        return {};
+    }
 
     double against_faces() const override { return share_against_faces(normals, triangles, triangles, positions); }
 
@@ -450,21 +492,10 @@ std::vector<VertexProperty> read_ply_properties(const std::filesystem::path& pat
     const FileBytes file = read_file(path);
     const Header header = read_header(file);
     const Element& vertex = vertex_element(file, header);
-    std::vector<VertexProperty> result(vertex.properties.size());
-    Body body(file, header);
-    for (const Element& element : header.elements) {
-        if (&element == &vertex) {
-            walk(
-                body, element, [&](std::size_t, std::size_t p, double value) { result[p].values.push_back(value); },
-                [](auto&&...) {});
-            break;
-        }
-        skip(body, element);
-    }
-    for (std::size_t p = 0; p < result.size(); ++p) {
-        result[p].name = vertex.properties[p].name;
-        result[p].integer = !is_real(vertex.properties[p].type);
-    }
+    std::vector<std::vector<double>> values = read_vertex_scalars(file, header);
+    std::vector<VertexProperty> result;
+    for (std::size_t p = 0; p < values.size(); ++p)
+        result.push_back({ vertex.properties[p].name, std::move(values[p]), !is_real(vertex.properties[p].type) });
     std::erase_if(result, [&](const VertexProperty& property) { return property.values.size() != vertex.rows; });
     return result;
 }

@@ -147,6 +147,8 @@ Json cloth_of(const ClothOptions& cloth, Fabric fabric)
     return { { "fabric", fabric_names()[static_cast<int>(fabric)] },
              { "density", material.density },
              { "stretch_stiffness", material.stretch_stiffness },
+             { "weft_to_warp", material.weft_to_warp },
+             { "shear_stiffness", material.shear_stiffness },
              { "bend_stiffness", material.bend_stiffness },
              { "friction", material.friction },
              { "largest_stretch", material.largest_stretch },
@@ -246,6 +248,7 @@ Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i
         json["worn"] = end->is_worn(i);
         if (i < end->fabrics.size())
             json["cloth"] = cloth_of(cloth, end->fabrics[i]);
+        json["warp_known"] = scene.garments[i].mesh.warps.rows() > 0;
         const std::optional<FitVerdict> verdict = fit_verdict(*end, i);
         json["verdict"] = verdict ? verdict_of(*verdict) : Json();
         if (end->is_worn(i)) {

@@ -102,8 +102,9 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
     warn_of_losses(session, garment.file);
     const GarmentChoice choice = garment.choice.value_or(GarmentChoice());
     const Positions positions = garment.frame.frame.to_metres(garment.file.positions());
-    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles()), type, garment.name(),
-                                       front_of_garment(garment.frame.frame, choice.front), choice.as_placed });
+    session.scene.garments.push_back({ make_garment(positions, garment.file.triangles(), garment.file.corner_uvs()),
+                                       type, garment.name(), front_of_garment(garment.frame.frame, choice.front),
+                                       choice.as_placed });
     session.scene.garments.back().has_unit = garment.frame.frame.has_unit;
     Frame unscaled = garment.frame.frame;
     unscaled.metres_per_unit /= choice.scale;

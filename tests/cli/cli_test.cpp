@@ -915,6 +915,8 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
                               "--settling-steps", "2", "-o", folder / "rib" });
     ASSERT_EQ(named.code, 0) << named.err;
     const auto skirt = nlohmann::json::parse(named.out).at("garments").at(0);
+    EXPECT_EQ(skirt.at("cloth").at("weft_to_warp"), 0.4);
+    EXPECT_EQ(skirt.at("warp_known"), false);
     EXPECT_EQ(skirt.at("cloth").at("fabric"), "rib");
     EXPECT_EQ(skirt.at("cloth").at("largest_stretch"), 0.5);
     EXPECT_NE(skirt.at("verdict").at("fit"), "too small");

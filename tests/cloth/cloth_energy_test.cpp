@@ -60,6 +60,59 @@ TEST(ClothEnergy, ForcesAreMinusItsGradient)
         }
 }
 
+/// Warp along x + z / 2.
+GarmentMesh with_warp(const GarmentMesh& mesh)
+{
+    CornerUvs uvs(mesh.triangles.rows(), 6);
+    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 at = mesh.positions.row(mesh.triangles(f, k));
+            uvs.row(f).segment<2>(2 * k) << at.z() - 0.5 * at.x(), at.x() + 0.5 * at.z();
+        }
+    return make_garment(mesh.positions, mesh.triangles, uvs);
+}
+
+TEST(ClothEnergy, ForcesOfWovenClothAreMinusItsGradient)
+{
+    const GarmentMesh rest = with_warp(flat_sheet());
+    ASSERT_GT(rest.warps.rows(), 0);
+    ClothOptions denim;
+    denim.fabric = Fabric::denim;
+    denim.bend_stiffness = 0;
+    const ClothEnergy energy(rest, topology_of(rest), {}, denim);
+    EXPECT_NEAR(energy.elastic_energy(rest.positions), 0, 1e-15);
+    Positions x = shaken(rest.positions, 4e-3);
+    const Positions forces = energy.elastic_forces(x);
+    EXPECT_GT(energy.elastic_energy(x), 0);
+    constexpr double h = 1e-7;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        for (int k = 0; k < 3; ++k) {
+            const double here = x(v, k);
+            x(v, k) = here + h;
+            const double after = energy.elastic_energy(x);
+            x(v, k) = here - h;
+            const double before = energy.elastic_energy(x);
+            x(v, k) = here;
+            EXPECT_NEAR(forces(v, k), -(after - before) / (2 * h), 1e-5 * forces.cwiseAbs().maxCoeff());
+        }
+}
+
+TEST(ClothEnergy, TheQuadraticFormMinusTheLoadsIsTheForceOfWovenCloth)
+{
+    const GarmentMesh rest = with_warp(flat_sheet());
+    ClothOptions denim;
+    denim.fabric = Fabric::denim;
+    ClothEnergy energy(rest, topology_of(rest), {}, denim);
+    energy.set_time_step(0.02);
+    const Positions x = shaken(rest.positions, 4e-3);
+    Positions inertia = x;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        inertia.row(v) *= energy.masses()[v] * energy.inertia();
+    const Positions forces
+        = energy.spring_loads(x) + energy.frame_loads(x) - (energy.apply_quadratic_form(x) - inertia);
+    EXPECT_LT((forces - energy.elastic_forces(x)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 /// The derivative of the energy along a direction, J/m, by central differences.
 double slope(const ClothEnergy& energy, const Positions& x, const Positions& way)
 {

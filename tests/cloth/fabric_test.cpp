@@ -93,6 +93,56 @@ TEST(FabricTrials, TensionAndShearAreThoseOfAnIsotropicSheet)
     }
 }
 
+// literature: [wang_2011_cloth] for the figures of the fabrics. The sheet is the same however it lies on the mesh; an even
+// net of springs would be three times as stiff along one row as along another.
+TEST(FabricTrials, WarpWeftAndShearAreThoseOfTheFabricHoweverTheMeshLies)
+{
+    GarmentMesh shaken = trials::strip(0.2, 0.2, 0.01);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> shift(-2e-3, 2e-3);
+    for (Eigen::Index v = 0; v < shaken.positions.rows(); ++v)
+        shaken.positions.row(v) += Eigen::RowVector3d(shift(random), 0, shift(random));
+    for (const GarmentMesh& sheet : { trials::strip(0.2, 0.2, 0.01), shaken })
+        for (const Fabric fabric : { Fabric::cotton, Fabric::denim, Fabric::jersey }) {
+            const Material material = material_of(fabric);
+            const double warp = 2 * material.stretch_stiffness / (1 + material.weft_to_warp),
+                         weft = material.weft_to_warp * warp;
+            const trials::Moduli along = trials::moduli(trials::of(fabric), 0.01, trials::cut_at(sheet, 0)),
+                                 across = trials::moduli(trials::of(fabric), 0.01, trials::cut_at(sheet, M_PI / 2));
+            EXPECT_NEAR(along.young / warp, 1, 0.03);
+            EXPECT_NEAR(across.young / weft, 1, 0.03);
+            EXPECT_NEAR(along.shear / material.shear_stiffness, 1, 0.01);
+            EXPECT_NEAR(across.shear / material.shear_stiffness, 1, 0.01);
+            EXPECT_NEAR(along.poisson * across.poisson, 1. / 9, 0.01);
+        }
+}
+
+// derived: at 45 degrees to the warp, 1 / E = 1 / 4 warp + 1 / 4 weft + 1 / 4 shear - nu / 2 warp.
+TEST(FabricTrials, AClothWithoutMuchShearStiffnessGivesOnTheBias)
+{
+    const Material cotton = material_of(Fabric::cotton);
+    const double expected
+        = 4 / (2 / cotton.stretch_stiffness + 1 / cotton.shear_stiffness - 2. / 3 / cotton.stretch_stiffness);
+    const GarmentMesh sheet = trials::strip(0.2, 0.2, 0.01);
+    const double bias = trials::moduli({}, 0.01, trials::cut_at(sheet, M_PI / 4)).young;
+    EXPECT_NEAR(bias / expected, 1, 0.05);
+    EXPECT_LT(bias, 0.6 * cotton.stretch_stiffness);
+}
+
+TEST(FabricTrials, AClothThatIsAlikeInAllDirectionsIsTheSheetOfOneWithoutWarp)
+{
+    ClothOptions alike;
+    alike.weft_to_warp = 1;
+    alike.shear_stiffness = 3. / 8 * material_of(alike).stretch_stiffness;
+    const GarmentMesh sheet = trials::strip(0.2, 0.2, 0.01);
+    for (const double strain : { 0.01, 0.1, 0.3 }) {
+        const trials::Moduli without = trials::moduli(alike, strain, sheet),
+                             with = trials::moduli(alike, strain, trials::cut_at(sheet, 0.4));
+        EXPECT_NEAR(with.young / without.young, 1, 0.01);  // the triangles are not quite even
+        EXPECT_NEAR(with.shear / without.shear, 1, 0.01);
+    }
+}
+
 TEST(FabricTrials, AStifferClothDrapesLess)
 {
     ClothOptions soft, stiff;

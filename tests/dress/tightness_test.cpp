@@ -81,6 +81,9 @@ TEST(PartLoads, AreTheStretchRoundAPartAndThePressureThatFollows)
     EXPECT_NEAR(loads[0].girth, 2 * M_PI * 0.1, 1e-9);
     EXPECT_NEAR(loads[0].stretch, 0.25, 1e-6);
     EXPECT_NEAR(loads[0].pressure, material_of(Fabric::swimwear).stretch_stiffness * 0.25 / 0.1, 1e-3);
+    leggings.rest.warps = Warps::Ones(leggings.rest.triangles.rows(), 2);  // then the weft goes round
+    EXPECT_NEAR(part_loads(skeleton, fixtures::on_bone(lfemur, worn.rows()), worn, leggings)[0].pressure,
+                2 * 0.45 / 1.45 * material_of(Fabric::swimwear).stretch_stiffness * 0.25 / 0.1, 1e-3);
     leggings.positions = rest;
     EXPECT_EQ(part_loads(skeleton, fixtures::on_bone(lfemur, worn.rows()), worn, leggings)[0].pressure, 0);
 }

@@ -48,16 +48,17 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     EXPECT_EQ(count_of(BodySizes()), 1u);
     [[maybe_unused]] const auto [garment_scale] = GarmentSizes();
     EXPECT_EQ(count_of(GarmentSizes()), 1u);
-    [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, enlargement]
+    [[maybe_unused]] const auto [fabric, contact, gap, density, stretch, bend, friction, largest, weft, shear,
+                                 enlargement]
         = ClothOptions();
-    EXPECT_EQ(count_of(ClothOptions()), 9u);
+    EXPECT_EQ(count_of(ClothOptions()), 11u);
     // the size from the start is for Dress Body to say
     [[maybe_unused]] const auto [drape_cloth, growing, settling, size] = DrapeOptions();
-    EXPECT_EQ(count_of(DrapeOptions()), 9u + 2u);
+    EXPECT_EQ(count_of(DrapeOptions()), 11u + 2u);
     // whether cloth only rests is for Dress Body to say
     [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, frames, rests]
         = RecoverOptions();
-    EXPECT_EQ(count_of(RecoverOptions()), 8u + 6u);  // all of the cloth but how much larger it may be made
+    EXPECT_EQ(count_of(RecoverOptions()), 10u + 6u);  // all of the cloth but how much larger it may be made
 }
 
 TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)

@@ -118,6 +118,19 @@ TEST(ClosedEnds, TrianglesThatAFileRepeatsCountOnce)
     EXPECT_EQ(open_ends(thrice).garment.triangles, once.triangles);
 }
 
+TEST(ClosedEnds, TrianglesKeepTheirWarpWhenEndsAreOpened)
+{
+    const TriangleMesh closed = tube(Cap::around_centre, Cap::none);
+    GarmentMesh garment { closed.positions, closed.triangles, Warps::Zero(closed.triangles.rows(), 2) };
+    for (Eigen::Index f = 0; f < garment.warps.rows(); ++f)  // numbers, to be known again
+        garment.warps(f, 0) = double(f);
+    const GarmentMesh opened = open_ends(garment).garment;
+    ASSERT_LT(opened.triangles.rows(), garment.triangles.rows());
+    ASSERT_EQ(opened.warps.rows(), opened.triangles.rows());
+    for (Eigen::Index f = 0; f < opened.triangles.rows(); ++f)
+        EXPECT_EQ(garment.triangles.row(Eigen::Index(opened.warps(f, 0))), opened.triangles.row(f));
+}
+
 TEST(ClosedEnds, TheOtherSideOfATriangleIsNoRepetition)
 {
     const TriangleMesh once = tube(Cap::none, Cap::none);

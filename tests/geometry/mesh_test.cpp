@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/mesh.h"
 
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string>
@@ -8,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include "append_mesh.h"
 #include "fixtures.h"
 #include "garmentfit/error.h"
+#include "warps.h"
+#include "weld.h"
 
 namespace {
 
@@ -263,6 +267,90 @@ TEST(MakeBody, DoesNotMindVerticesWithoutFacesFarAway)
         EXPECT_EQ(body.closed.positions.rows(), n);
         EXPECT_TRUE(make_garment(mesh.positions, mesh.triangles).positions.allFinite());
     }
+}
+
+/// A square of 0.1 m in the plane z = 0, of two triangles.
+TriangleMesh square()
+{
+    TriangleMesh mesh { Positions(4, 3), Triangles(2, 3) };
+    mesh.positions << 0, 0, 0, 0.1, 0, 0, 0.1, 0.1, 0, 0, 0.1, 0;
+    mesh.triangles << 0, 1, 2, 0, 2, 3;
+    return mesh;
+}
+
+/// u and v of each corner by its place.
+template <class UvAt>
+CornerUvs uvs_of(const TriangleMesh& mesh, const UvAt& uv_at)
+{
+    CornerUvs uvs(mesh.triangles.rows(), 6);
+    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            uvs.row(f).segment<2>(2 * k) = uv_at(Vec3(mesh.positions.row(mesh.triangles(f, k))));
+    return uvs;
+}
+
+TEST(MakeGarment, TheWarpRunsAlongVWhereverTheChartLies)
+{
+    const TriangleMesh mesh = square();
+    const GarmentMesh garment
+        = make_garment(mesh.positions, mesh.triangles,
+                       uvs_of(mesh, [](const Vec3& at) { return Eigen::RowVector2d(7 - 3 * at.y(), 1 + 3 * at.x()); }));
+    ASSERT_EQ(garment.warps.rows(), 2);
+    for (int f = 0; f < 2; ++f)
+        EXPECT_NEAR(std::abs(warp_direction(garment, f).x()), 1, 1e-12);
+    GarmentMesh turned = garment;  // the warp goes with the cloth
+    turned.positions.col(2) = garment.positions.col(0);
+    turned.positions.col(0).setZero();
+    EXPECT_NEAR(std::abs(warp_direction(turned, 0).z()), 1, 1e-12);
+}
+
+TEST(MakeGarment, KnowsNoWarpWithoutTextureCoordinatesThatCanBeThreads)
+{
+    const TriangleMesh mesh = square();
+    const auto warps = [&](const CornerUvs& uvs) { return make_garment(mesh.positions, mesh.triangles, uvs).warps; };
+    EXPECT_EQ(warps({}).rows(), 0);
+    EXPECT_EQ(warps(CornerUvs::Zero(1, 6)).rows(), 0) << "of other triangles";
+    EXPECT_EQ(warps(CornerUvs::Zero(2, 6)).rows(), 0) << "all in one place";
+    EXPECT_EQ(warps(CornerUvs::Constant(2, 6, NAN)).rows(), 0);
+    EXPECT_EQ(warps(CornerUvs::Constant(2, 6, 1e308)).rows(), 0);
+    const auto askew = [](const Vec3& at) { return Eigen::RowVector2d(at.x(), at.y() + at.x()); };
+    EXPECT_EQ(warps(uvs_of(mesh, askew)).rows(), 0);
+    CornerUvs half = uvs_of(mesh, [](const Vec3& at) { return Eigen::RowVector2d(at.x(), at.y()); });
+    half.row(1).setConstant(NAN);
+    const Warps known = warps(half);
+    ASSERT_EQ(known.rows(), 2);
+    EXPECT_FALSE(known.row(0).isZero());
+    EXPECT_TRUE(known.row(1).isZero());
+}
+
+TEST(Weld, KeepsTheWarpOfTheTrianglesThatItKeeps)
+{
+    TriangleMesh mesh = square();
+    mesh.triangles.row(0) << 0, 1, 1;  // goes
+    const GarmentMesh garment
+        = make_garment(mesh.positions, mesh.triangles,
+                       uvs_of(mesh, [](const Vec3& at) { return Eigen::RowVector2d(at.x(), at.y()); }));
+    const GarmentMesh cloth = Weld(garment).gather(garment);
+    ASSERT_EQ(cloth.warps.rows(), cloth.triangles.rows());
+    EXPECT_NEAR(std::abs(warp_direction(cloth, 0).y()), 1, 1e-12);
+}
+
+TEST(AppendMesh, GarmentsWithAndWithoutWarpsAreOne)
+{
+    const TriangleMesh mesh = square();
+    const GarmentMesh plain = make_garment(mesh.positions, mesh.triangles),
+                      woven
+        = make_garment(mesh.positions, mesh.triangles,
+                       uvs_of(mesh, [](const Vec3&at) { return Eigen::RowVector2d(at.x(), at.y()); }));
+    GarmentMesh all = plain;
+    append(all, plain);
+    EXPECT_EQ(all.warps.rows(), 0);
+    append(all, woven);
+    append(all, plain);
+    ASSERT_EQ(all.warps.rows(), 8);
+    EXPECT_TRUE(all.warps.topRows(4).isZero());
+    EXPECT_EQ(all.warps.middleRows(4, 2), woven.warps);
+    EXPECT_TRUE(all.warps.bottomRows(2).isZero());
 }
 
 }  // namespace

@@ -77,6 +77,29 @@ TEST_F(Look, OfObjHasItsMaterialsUvsAndPictures)
     EXPECT_TRUE(mentions(look.warnings, "map_d"));
 }
 
+TEST_F(Look, UvsOfCornersAreThoseOfTheFileInEachFormat)
+{
+    const CornerUvs of_obj = MeshFile::read(write_cloth(folder)).corner_uvs();
+    ASSERT_EQ(of_obj.rows(), 4);
+    EXPECT_TRUE(of_obj.row(3).tail<2>().isApprox(Eigen::RowVector2d(0.5, 0.75))) << "v from the top, as in glTF";
+    write_text(folder / "cloth.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0 0.25 0.5\n1 0 0 1 0.5\n0 1 0 0.25 1\n3 2 0 1\n");
+    const CornerUvs of_ply = MeshFile::read(folder / "cloth.ply").corner_uvs();
+    ASSERT_EQ(of_ply.rows(), 1);
+    CornerUvs expected(1, 6);
+    expected << 0.25, 1, 0.25, 0.5, 1, 0.5;
+    EXPECT_EQ(of_ply, expected);
+    write_text(folder / "half.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1 3 4\n");
+    const CornerUvs of_half = MeshFile::read(folder / "half.obj").corner_uvs();
+    ASSERT_EQ(of_half.rows(), 2);
+    EXPECT_TRUE(of_half.row(0).allFinite());
+    EXPECT_FALSE(of_half.row(1).array().isFinite().any());
+    write_text(folder / "bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    EXPECT_EQ(MeshFile::read(folder / "bare.obj").corner_uvs().rows(), 0);
+}
+
 TEST_F(Look, OfObjHasNoMaterialForLooseEdges)
 {
     write_cloth(folder);

@@ -126,6 +126,18 @@ void describe_cloth(Options& o, Visitor&& visit)
     visit(o.stretch_stiffness,
           About { "stretch_stiffness", "Stretch stiffness", "N/m", 1, 1e5, "Resistance of the cloth to being stretched",
                   nullptr, Group::everyday, fabric });
+    visit(o.weft_to_warp,
+          About {
+              "weft_to_warp", "Weft to warp", "", 0.1, 10,
+              "Stretch stiffness along the weft by that along the warp, of garments whose texture coordinates say how "
+              "these run",
+              nullptr, Group::everyday, fabric });
+    visit(
+        o.shear_stiffness,
+        About { "shear_stiffness", "Shear stiffness", "N/m", 0.1, 1e5,
+                "Resistance of warp and weft to being turned towards each other, of garments whose texture coordinates "
+                "say how these run",
+                nullptr, Group::everyday, fabric });
     visit(o.bend_stiffness,
           About { "bend_stiffness", "Bend stiffness", "N m", 0, 1,
                   "Resistance of the cloth to being bent away from the folds that it was given with", nullptr,

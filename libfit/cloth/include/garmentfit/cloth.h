@@ -21,12 +21,16 @@ GARMENTFIT_API const std::vector<std::string_view>& fabric_names();
 /// What the solver knows of a fabric.
 struct Material {
     double density;  ///< kg/m^2
-    double stretch_stiffness;  ///< N/m
+    double stretch_stiffness;  ///< N/m, the mean of warp and weft
     double bend_stiffness;  ///< N m
     double friction;  ///< of cloth on body, dimensionless
     double largest_stretch;  ///< l / l0 - 1 round a part of the body, on the mean, that the fabric gives when worn
     double strain_limit;  ///< l / l0 - 1 of an edge; beyond it the cloth is stiffer: its threads or loops are straight
     double thickness;  ///< m; the solver does not use it: contact_distance is larger
+    /// Stretch stiffness along the weft (of knits the courses) by that along the warp (the wales), and shear stiffness,
+    /// N/m. They count where the garment says how these run (GarmentMesh::warps); else the cloth is alike in all
+    /// directions, and its shear stiffness is 3/8 of its stretch stiffness.
+    double weft_to_warp, shear_stiffness;
 };
 
 /// @throws InvalidInput listing the names
@@ -41,12 +45,14 @@ struct ClothOptions {
     Fabric fabric = Fabric::cotton;
     double contact_distance = 2.5e-3;  ///< m; contact force begins below this distance
     double min_distance = 1e-4;  ///< m; motion is cut before a distance falls below this
-    std::optional<double> density {};  ///< kg/m^2; this and the next four: of the fabric where not given
+    std::optional<double> density {};  ///< kg/m^2; this and the next six: of the fabric where not given
     std::optional<double> stretch_stiffness {};  ///< N/m
     std::optional<double> bend_stiffness {};  ///< N m
     std::optional<double> friction {};  ///< of cloth on body, dimensionless
     /// A garment is too small where a part of the body stretches it by more, on the mean.
     std::optional<double> largest_stretch {};
+    std::optional<double> weft_to_warp {};
+    std::optional<double> shear_stiffness {};  ///< N/m
     double largest_enlargement = 0;  ///< fraction by which a garment that is too small may be enlarged
 };
 

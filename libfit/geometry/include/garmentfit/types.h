@@ -23,6 +23,8 @@ using Vec3 = Eigen::Vector3d;
 
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< n x 3, metres
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< m x 3, rows of Positions
+/// Texture coordinates of the corners of triangles: rows u0 v0 u1 v1 u2 v2, not finite where a triangle has none.
+using CornerUvs = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;  ///< m x 6, or no rows
 
 struct TriangleMesh {
     Positions positions;

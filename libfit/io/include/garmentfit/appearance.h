@@ -37,4 +37,7 @@ struct Appearance {
     std::vector<std::string> warnings;  ///< of what could not be kept, in whole sentences
 };
 
+/// UVs of all corners; no rows where there are none. O(n).
+CornerUvs corner_uvs(const Appearance& look);
+
 }  // namespace garmentfit

@@ -51,6 +51,9 @@ public:
     /// warning. Reads files beside this one. O(n).
     Appearance appearance() const;
 
+    /// UVs of OBJ, glTF and PLY, without reading pictures. No rows where the file has none. O(n).
+    CornerUvs corner_uvs() const;
+
     /// What was odd in the file and does not matter to the surface, in whole sentences: normals that are missing, or
     /// that point against the faces; vertices without faces that lie far away.
     const std::vector<std::string>& warnings() const { return warnings_; }
