@@ -30,10 +30,10 @@ Fitting new_fitting(const Choice& choice, Report& report)
     return fitting;
 }
 
-GarmentInput input_of(const TriangleMesh& mesh, const Frame& frame, GarmentType type,
-                      const std::optional<Fabric>& fabric)
+GarmentInput input_of(const MeshModel& layer, const Frame& frame, GarmentType type, const std::optional<Fabric>& fabric)
 {
-    GarmentInput input { make_garment(frame.to_metres(mesh.positions), mesh.triangles), type };
+    const TriangleMesh mesh = mesh_of(layer);
+    GarmentInput input { make_garment(frame.to_metres(mesh.positions), mesh.triangles, corner_uvs_of(layer)), type };
     input.fabric = fabric;
     input.has_unit = frame.has_unit;
     return input;
@@ -56,7 +56,7 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
                                           choice.parameters.fit.as_placed, choice.garment_fronts[i] };
             const FrameGuess guess
                 = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment, stature_of(*scene.body));
-            scene.garments.push_back(input_of(mesh, guess.frame, choice.types[i], choice.fabrics[i]));
+            scene.garments.push_back(input_of(*choice.garments[i], guess.frame, choice.types[i], choice.fabrics[i]));
             scene.garments.back().front = front_of_garment(guess.frame, garment.front);
             fitting.garment_names.push_back(name_of(*choice.garments[i]));
             fitting.garment_frames.push_back(guess.frame);
@@ -77,10 +77,10 @@ void put_on_fitted_garments(Fitting& fitting, const Choice& choice)
                            fitting.body_name + " was not fitted into " + names.front()
                                + "; run Garment Fitting: Fit Skeleton with the same garments first");
     for (std::size_t i = 0; i < choice.garments.size(); ++i) {
-        const TriangleMesh mesh = mesh_of(*choice.garments[i]);
         fitting.garment_files.push_back(choice.garments[i]->fullName().toStdString());
         fitting.scene.garments.push_back(with_name(*choice.garments[i], [&] {
-            return input_of(mesh, fitting.garment_frames[i], fitting.scene.fits[i].type, choice.fabrics[i]);
+            return input_of(*choice.garments[i], fitting.garment_frames[i], fitting.scene.fits[i].type,
+                            choice.fabrics[i]);
         }));
     }
 }

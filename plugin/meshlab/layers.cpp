@@ -65,6 +65,25 @@ TriangleMesh mesh_of(const MeshModel& layer)
     return result;
 }
 
+CornerUvs corner_uvs_of(const MeshModel& layer)
+{
+    const CMeshO& mesh = layer.cm;
+    const bool has_wedges = vcg::tri::HasPerWedgeTexCoord(mesh);
+    if (!has_wedges && !vcg::tri::HasPerVertexTexCoord(mesh))
+        return {};
+    CornerUvs uvs(mesh.fn, 6);
+    Eigen::Index f = 0;
+    for (const CFaceO& face : mesh.face)
+        if (!face.IsD()) {
+            for (int corner = 0; corner < 3; ++corner) {
+                const auto& uv = has_wedges ? face.cWT(corner) : face.cV(corner)->cT();
+                uvs.row(f).segment<2>(2 * corner) << uv.u(), uv.v();
+            }
+            ++f;
+        }
+    return uvs;
+}
+
 std::vector<TriangleMesh> meshes_of(const std::vector<MeshModel*>& layers)
 {
     std::vector<TriangleMesh> meshes;

@@ -17,6 +17,9 @@ namespace garmentfit::meshlab {
 /// Vertices and faces that are not deleted, in their order.
 TriangleMesh mesh_of(const MeshModel& layer);
 
+/// Texture coordinates of the corners of those faces, or else of their vertices; no rows where there are none.
+CornerUvs corner_uvs_of(const MeshModel& layer);
+
 std::vector<TriangleMesh> meshes_of(const std::vector<MeshModel*>& layers);
 
 /// The layer's name without a file's extension.

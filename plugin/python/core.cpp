@@ -106,6 +106,9 @@ void bind_mesh_file(nb::module_& m)
             "positions", [](const MeshFile& file) { return array_of(file.positions()); }, nb::rv_policy::automatic)
         .def_prop_ro(
             "triangles", [](const MeshFile& file) { return array_of(file.triangles()); }, nb::rv_policy::automatic)
+        .def_prop_ro(
+            "corner_uvs", [](const MeshFile& file) { return array_of(file.corner_uvs()); }, nb::rv_policy::automatic,
+            "Of each triangle u0 v0 u1 v1 u2 v2; without rows: none")
         .def_prop_ro("format", [](const MeshFile& file) { return file.format(); })
         .def("write", &write, "path"_a, "positions"_a);
     nb::class_<StrippedBody>(m, "StrippedBody", "What of an avatar's file is its body")
@@ -142,8 +145,8 @@ void bind_scene(nb::module_& m)
                     "sizes"_a)
         .def_static("of_rigged", &scene_of_rigged, "positions"_a, "triangles"_a, "find"_a, "fitted"_a)
         .def("copy", [](const PythonScene& s) { return PythonScene(s); })
-        .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "type"_a, "unit"_a, "up"_a, "front"_a,
-             "sizes"_a, "name"_a, "find"_a = nb::none())
+        .def("add_garment", &add_garment, "positions"_a, "triangles"_a, "corner_uvs"_a, "type"_a, "unit"_a, "up"_a,
+             "front"_a, "sizes"_a, "name"_a, "find"_a = nb::none())
         .def("set_body_file", &set_body_file, "file"_a, "left"_a.none())
         .def("set_garment_look", &set_garment_look, "file"_a, "left"_a.none())
         .def("write_animation", &write_animation_of, "path"_a, "seconds"_a)

@@ -46,6 +46,15 @@ Positions positions_from(const NumbersIn& array)
     return rows_from(array);
 }
 
+CornerUvs corner_uvs_from(const NumbersIn& array)
+{
+    if (array.shape(1) != 6)
+        throw InvalidInput(ErrorCode::wrong_call,
+                           "texture coordinates of corners have " + std::to_string(array.shape(1))
+                               + " columns; give an array of m x 6");
+    return rows_from(array);
+}
+
 Triangles triangles_from(const IndicesIn& array)
 {
     return Eigen::Map<const Triangles>(array.data(), Eigen::Index(array.shape(0)), 3);

@@ -24,6 +24,8 @@ using IndicesIn = nb::ndarray<const int, nb::shape<-1, 3>, nb::c_contig, nb::dev
 Rows rows_from(const NumbersIn& array);
 /// @throws InvalidInput where it is not n x 3.
 Positions positions_from(const NumbersIn& array);
+/// @throws InvalidInput where it has rows that are not u0 v0 u1 v1 u2 v2.
+CornerUvs corner_uvs_from(const NumbersIn& array);
 Triangles triangles_from(const IndicesIn& array);
 
 /// Moves the matrix to the heap; the numpy array owns it.

@@ -218,9 +218,9 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
     return made;
 }
 
-void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
-                 const std::string& unit, const std::string& up, const std::string& front, const nb::dict& sizes,
-                 const std::string& name, const nb::object& find)
+void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const NumbersIn& uvs,
+                 const std::string& type, const std::string& unit, const std::string& up, const std::string& front,
+                 const nb::dict& sizes, const std::string& name, const nb::object& find)
 {
     const Positions in_file = positions_from(positions);
     const Triangles faces = triangles_from(triangles);
@@ -228,7 +228,7 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
     const Parameters p = parameters_of(filter_of("fit"), sizes, { "garment_scale", "as_placed" });
     const GarmentChoice choice { { unit, up }, p.garment_sizes.scale, p.fit.as_placed, front };
     const Frame frame = known ? *known : guessed_frame(scene, in_file, faces, choice, name);
-    scene.scene.garments.push_back({ .mesh = make_garment(frame.to_metres(in_file), faces),
+    scene.scene.garments.push_back({ .mesh = make_garment(frame.to_metres(in_file), faces, corner_uvs_from(uvs)),
                                      .type = garment_type_of(type),
                                      .front = front_of_garment(frame, front),
                                      .as_placed = choice.as_placed,

@@ -49,9 +49,10 @@ PythonScene scene_of_rigged(const NumbersIn& positions, const IndicesIn& triangl
 
 /// Reads the array GarmentFrame where an earlier filter has written one.
 /// @param sizes  the parameters of fitting; of them, garment_scale and as_placed; and garment_fabric  @throws InvalidInput.
-void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const std::string& type,
-                 const std::string& unit, const std::string& up, const std::string& front, const nb::dict& sizes,
-                 const std::string& name, const nb::object& find);
+/// @param uvs    of the corners of each triangle, m x 6; without rows: none
+void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn& triangles, const NumbersIn& uvs,
+                 const std::string& type, const std::string& unit, const std::string& up, const std::string& front,
+                 const nb::dict& sizes, const std::string& name, const nb::object& find);
 /// Sets body and garments as worn in the body's DressedPose, in its units. @throws InvalidInput.
 void set_worn(PythonScene& scene, const nb::object& find, const NumbersIn& body,
               const std::vector<NumbersIn>& garments);

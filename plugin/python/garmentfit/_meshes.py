@@ -19,18 +19,31 @@ MeshLike = Any  # Mesh, (positions, triangles), vtkPolyData, or an object with v
 
 
 class Mesh:
-    """Positions (n x 3, in any unit, any axis up) and triangles (m x 3) of a body or a garment."""
+    """Positions (n x 3, in any unit, any axis up) and triangles (m x 3) of a body or a garment.
+
+    uvs: texture coordinates of the vertices (n x 2), or of the corners of the triangles (m x 3 x 2). Where it has them,
+    cloth is stiffer along v, its warp. A mesh that was read from a file has those of the file.
+    """
 
     def __init__(self, positions: npt.ArrayLike, triangles: npt.ArrayLike, *, name: str = "the garment",
-                 file: Optional[_core.MeshFile] = None, left: Optional[_core.StrippedBody] = None) -> None:
+                 file: Optional[_core.MeshFile] = None, left: Optional[_core.StrippedBody] = None,
+                 uvs: Optional[npt.ArrayLike] = None) -> None:
         self.positions: Positions = _numbers(positions, "positions")
         self.triangles: Triangles = _indices(triangles)
+        self.uvs = None if uvs is None else _uvs(uvs, len(self.positions), len(self.triangles))
         self.name = name
         self.file = file  #: what it was read from, with UVs, materials and textures; None for arrays
         self._left = left
 
     def __repr__(self) -> str:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
+
+    def corner_uvs(self) -> Positions:
+        """u0 v0 u1 v1 u2 v2 of each triangle, m x 6; no rows where it has none."""
+        if self.uvs is None:
+            return np.empty((0, 6)) if self.file is None else self.file.corner_uvs
+        of_corners = self.uvs if self.uvs.ndim == 3 else self.uvs[self.triangles]
+        return np.ascontiguousarray(of_corners.reshape(-1, 6))
 
     @property
     def stripped(self) -> List[str]:
@@ -79,10 +92,10 @@ def as_mesh(given: MeshLike) -> Mesh:
     if isinstance(given, Mesh):
         return given
     if hasattr(given, "GetPolys"):  # vtkPolyData, PyVista's too
-        from .vtk import mesh_of
-        return Mesh(*mesh_of(given, "the mesh"))
+        from .vtk import mesh_of, uvs_of
+        return Mesh(*mesh_of(given, "the mesh"), uvs=uvs_of(given))
     if hasattr(given, "vertices") and hasattr(given, "faces"):  # trimesh
-        return Mesh(given.vertices, given.faces)
+        return Mesh(given.vertices, given.faces, uvs=getattr(getattr(given, "visual", None), "uv", None))
     try:
         positions, triangles = given
     except (TypeError, ValueError, KeyError):
@@ -96,6 +109,14 @@ def _numbers(values: npt.ArrayLike, what: str) -> Positions:
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise invalid_input("wrong_call", f"{what} are an array of shape {array.shape}; give n x 3")
+    return array
+
+
+def _uvs(values: npt.ArrayLike, vertices: int, triangles: int) -> npt.NDArray[np.float64]:
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape not in ((vertices, 2), (triangles, 3, 2)):
+        raise invalid_input("wrong_call", f"uvs are an array of shape {array.shape}; give {vertices} x 2, of the "
+                                          f"vertices, or {triangles} x 3 x 2, of the corners of the triangles")
     return array
 
 

@@ -274,8 +274,8 @@ def _with_garments(scene: _core.Scene, garments: Union[MeshLike, Sequence[Any]],
         if mesh.file is not None:
             _core.require_no_body(mesh.file)
         named = mesh.name if len(layers) == 1 or mesh.name != "the garment" else f"garment {i + 1}"
-        dressed.add_garment(mesh.positions, mesh.triangles, garment.type, unit, up, garment.front or front,
-                            dict(_sizes_of(garment, parameters)), named)
+        dressed.add_garment(mesh.positions, mesh.triangles, mesh.corner_uvs(), garment.type, unit, up,
+                            garment.front or front, dict(_sizes_of(garment, parameters)), named)
         if mesh.file is not None:
             dressed.set_garment_look(mesh.file, mesh._left)
     return dressed

@@ -32,6 +32,7 @@ from vtkmodules.vtkCommonExecutionModel import (vtkDemandDrivenPipeline, vtkExec
 from . import _core
 from ._core import Cancelled, InvalidInput, SolverFailure
 from ._errors import invalid_input
+from ._meshes import Mesh
 from ._parameters import lines_on, with_keywords
 
 # ---- between VTK's arrays and numpy's --------------------------------------------------------------------------
@@ -82,6 +83,14 @@ def mesh_of(data: vtkPolyData, what: str, kept: str = "") -> Tuple[np.ndarray, n
     own = _numbers(data.GetPointData(), kept) if kept else None
     positions = own if own is not None and own.shape == points.shape else points
     return np.ascontiguousarray(positions, dtype=np.float64), _fans(data.GetPolys())
+
+
+def uvs_of(data: vtkPolyData) -> Optional[np.ndarray]:
+    """Texture coordinates of the points, n x 2."""
+    array = data.GetPointData().GetTCoords()
+    if array is None or array.GetNumberOfComponents() < 2:
+        return None
+    return np.asarray(vtk_to_numpy(array)[:, :2], dtype=np.float64)
 
 
 def _fans(polygons: vtkCellArray) -> np.ndarray:
@@ -463,7 +472,8 @@ class _FitFilter(VTKPythonAlgorithmBase):
         layers = _leaves(garments)
         for name, garment in layers:
             positions, triangles = mesh_of(garment, name, "RestPosition" if given else "")
-            scene.add_garment(positions, triangles, _given_type(garment), self.garment_unit, self.garment_up,
+            scene.add_garment(positions, triangles, Mesh(positions, triangles, uvs=uvs_of(garment)).corner_uvs(),
+                              _given_type(garment), self.garment_unit, self.garment_up,
                               _given_front(garment) or self.garment_front, {**self._values, **_given_sizes(garment)},
                               name, _find_in(garment) if given else None)
         if "worn" in self.TAKES:

@@ -341,3 +341,24 @@ def test_an_outfit_needs_a_certified_result_in_the_bodys_pose(dressed, body, ski
     with pytest.raises(garmentfit.InvalidInput, match="one of own, garmentfit, vrm"):
         dressed.write_outfit(tmp_path / "outfit.glb", bones="biped")
     assert not list(tmp_path.iterdir())
+
+
+def test_texture_coordinates_say_how_the_warp_runs(body, skirt, tmp_path):
+    uvs = np.column_stack([np.arctan2(skirt.positions[:, 0], skirt.positions[:, 2]), skirt.positions[:, 1]])
+    by_vertex = garmentfit.Mesh(skirt.positions, skirt.triangles, uvs=uvs)
+    by_corner = garmentfit.Mesh(skirt.positions, skirt.triangles, uvs=uvs[skirt.triangles])
+    assert by_vertex.corner_uvs().shape == (len(skirt.triangles), 6)
+    assert np.array_equal(by_vertex.corner_uvs(), by_corner.corner_uvs())
+    assert skirt.corner_uvs().shape == (0, 6)
+    lines = [f"v {x} {y} {z}" for x, y, z in skirt.positions] + [f"vt {u} {v}" for u, v in uvs]
+    lines += ["f " + " ".join(f"{k}/{k}" for k in corners) for corners in skirt.triangles + 1]
+    (tmp_path / "skirt.obj").write_text("\n".join(lines))
+    read = garmentfit.read_mesh(tmp_path / "skirt.obj").corner_uvs()
+    assert np.allclose(read[:, ::2], by_vertex.corner_uvs()[:, ::2])
+    rig = garmentfit.rig_body(body)
+    worn = [garmentfit.drape_garment(garmentfit.fit_skeleton(rig, mesh, type="skirt"), settling_steps=2,
+                                     fabric="stretch_woven").garment.positions for mesh in (by_vertex, by_corner, skirt)]
+    assert np.array_equal(worn[0], worn[1])
+    assert not np.array_equal(worn[0], worn[2])
+    with pytest.raises(garmentfit.InvalidInput, match="uvs are an array of shape"):
+        garmentfit.Mesh(skirt.positions, skirt.triangles, uvs=uvs[1:])

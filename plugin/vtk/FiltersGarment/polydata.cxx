@@ -79,6 +79,19 @@ TriangleMesh mesh_at(vtkPolyData& data, const char* name, const std::string& wha
     return mesh;
 }
 
+CornerUvs corner_uvs_of(vtkPolyData& data, const Triangles& triangles)
+{
+    vtkDataArray* at_points = data.GetPointData()->GetTCoords();
+    if (!at_points || at_points->GetNumberOfComponents() < 2)
+        return {};
+    CornerUvs uvs(triangles.rows(), 6);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            uvs.row(f).segment<2>(2 * k) << at_points->GetComponent(triangles(f, k), 0),
+                at_points->GetComponent(triangles(f, k), 1);
+    return uvs;
+}
+
 std::vector<vtkPolyData*> garments_in(vtkDataObject& data)
 {
     if (vtkPolyData* one = vtkPolyData::SafeDownCast(&data))

@@ -23,6 +23,9 @@ TriangleMesh mesh_of(vtkPolyData& data, const std::string& what);
 /// The same with the points of the array `name`, where there is such an array.
 TriangleMesh mesh_at(vtkPolyData& data, const char* name, const std::string& what);
 
+/// Texture coordinates of the points at the corners of these triangles; no rows where there are none.
+CornerUvs corner_uvs_of(vtkPolyData& data, const Triangles& triangles);
+
 /// Leaves of a composite, or the one mesh. @throws InvalidInput where a leaf is no vtkPolyData.
 std::vector<vtkPolyData*> garments_in(vtkDataObject& data);
 /// Their names: of the blocks, or else by number.

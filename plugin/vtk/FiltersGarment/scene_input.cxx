@@ -106,7 +106,8 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
             known.garment_frame_warnings.push_back(line);
     }
     known.garment_frames.push_back(*frame);
-    known.scene.garments.push_back({ .mesh = make_garment(frame->to_metres(mesh.positions), mesh.triangles),
+    known.scene.garments.push_back({ .mesh = make_garment(frame->to_metres(mesh.positions), mesh.triangles,
+                                                          corner_uvs_of(garment, mesh.triangles)),
                                      .type = given_type(garment),
                                      .front = front_of_garment(*frame, choice.front),
                                      .as_placed = choice.as_placed,

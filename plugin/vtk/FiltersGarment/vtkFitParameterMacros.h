@@ -47,6 +47,8 @@
     vtkFitNumberMacro(MinDistance, double, min_distance);                                                              \
     vtkFitNumberMacro(Density, double, density);                                                                       \
     vtkFitNumberMacro(StretchStiffness, double, stretch_stiffness);                                                    \
+    vtkFitNumberMacro(WeftToWarp, double, weft_to_warp);                                                               \
+    vtkFitNumberMacro(ShearStiffness, double, shear_stiffness);                                                        \
     vtkFitNumberMacro(BendStiffness, double, bend_stiffness);                                                          \
     vtkFitNumberMacro(Friction, double, friction);                                                                     \
     vtkFitNumberMacro(LargestStretch, double, largest_stretch)
