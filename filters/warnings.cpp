@@ -126,6 +126,13 @@ std::string overstretched_edges(const std::string& name, const Overstretch& stre
     return text.str();
 }
 
+std::string share_of_weight(double share)
+{
+    constexpr double k_many = 10;  // unit: from there on a percentage says no more than "far"
+    return share > k_many ? "more than " + rounded_text(k_many, 2) + " times its weight"
+                          : std::to_string(std::lround(100 * share)) + " % of its weight";
+}
+
 }  // namespace
 
 std::string set_by_name(std::string_view parameter) { return "set " + std::string(parameter); }
@@ -234,10 +241,11 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
     std::vector<std::string> warnings;
     if (end.residual && !end.residual->is_at_rest())
         warnings.push_back("the cloth is not at rest: forces on it are out of balance by "
-                           + std::to_string(std::lround(100 * end.residual->mean)) + " % of its weight on the mean; "
+                           + share_of_weight(end.residual->mean) + " on the mean; "
                            + (end.out_of_time ? "give more time as time_limit: it was reached"
                                               : "quality draft does not look for rest, and cloth that passes through "
-                                                "itself or is far too tight may have none"));
+                                                "itself, is far too tight, or has small pieces on it, such as buttons, "
+                                                "may have none"));
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
             warn_of_worn(warnings, names[i], end, i);

@@ -141,15 +141,25 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
     scene.draped->garments[0].size = 1.08;
     scene.draped->garments[0].slipped = 0.214;
     scene.draped->garments[0].piece_shift = 0.12;
-    EXPECT_EQ(warnings_of(scene),
-              (Lines { "the cloth is not at rest: forces on it are out of balance by 35 % of its weight on the mean; "
-                       "quality draft does not look for rest, and cloth that passes through itself or is far too tight "
-                       "may have none",
-                       "skirt was made 8% larger",
-                       "a piece of skirt went 120 mm away from the cloth that it lay on; join its border to that cloth "
-                       "in the garment's file",
-                       "skirt slipped down by 214 mm: it is too wide for this body to stay where it is worn",
-                       "coat was not put on, because the garments under it were not certified" }));
+    EXPECT_EQ(
+        warnings_of(scene),
+        (Lines { "the cloth is not at rest: forces on it are out of balance by 35 % of its weight on the mean; "
+                 "quality draft does not look for rest, and cloth that passes through itself, is far too tight, or "
+                 "has small pieces on it, such as buttons, may have none",
+                 "skirt was made 8% larger",
+                 "a piece of skirt went 120 mm away from the cloth that it lay on; join its border to that cloth "
+                 "in the garment's file",
+                 "skirt slipped down by 214 mm: it is too wide for this body to stay where it is worn",
+                 "coat was not put on, because the garments under it were not certified" }));
+}
+
+TEST(Warnings, ForcesFarBeyondItsWeightAreNotCounted)
+{
+    Scene scene = worn_scene();
+    scene.draped->residual = { 21281, 94944 };
+    const Lines lines = warnings_of(scene);
+    ASSERT_FALSE(lines.empty());
+    EXPECT_NE(lines[0].find("by more than 10 times its weight on the mean"), std::string::npos) << lines[0];
 }
 
 TEST(Warnings, SayThatAGarmentTooSmallIsLeftOut)
