@@ -300,29 +300,25 @@ Eigen::VectorXd ClothEnergy::lengthening(const Positions& x) const
     return result;
 }
 
-Positions ClothEnergy::slack_forces(const Positions& x) const
+Positions ClothEnergy::gather_springs(Vec3 (Spring::*of_spring)(const Positions&) const, const Positions& x) const
 {
     if (slack_.rows() == 0)
-        return Positions::Zero(x.rows(), 3);
+        return gather(spring_gradients_, springs_, of_spring, x);
     const Eigen::VectorXd longer = lengthening(x);
     Positions pulls(longer.size(), 3);
     const auto pull = [&](Eigen::Index e) {
         const Spring& s = springs_[e];
-        const Eigen::RowVector3d edge = x.row(s.i) - x.row(s.j);
-        const double now = edge.norm();
         double slack = 0;
         for (SparseRows::InnerIterator entry(slack_, e); entry; ++entry)
             slack += entry.value() * longer[entry.col()];
-        pulls.row(e) = (now > 0 ? slack / now : 0.0) * edge;
+        const double now = s.length + longer[e];
+        pulls.row(e) = (s.*of_spring)(x).transpose() + (now > 0 ? slack / now : 0.0) * (x.row(s.i) - x.row(s.j));
     };
     parallel_for(pulls.rows(), pull, k_grain);
     return multiply(spring_gradients_, pulls);
 }
 
-Positions ClothEnergy::spring_loads(const Positions& x) const
-{
-    return gather(spring_gradients_, springs_, &Spring::load, x) + slack_forces(x);
-}
+Positions ClothEnergy::spring_loads(const Positions& x) const { return gather_springs(&Spring::load, x); }
 
 Positions ClothEnergy::frame_loads(const Positions& x) const
 {
@@ -349,8 +345,7 @@ std::vector<SoftConstraint> ClothEnergy::strain_limits(const Positions& x) const
 
 Positions ClothEnergy::elastic_forces(const Positions& x) const
 {
-    return gather(spring_gradients_, springs_, &Spring::force, x) + gather(sum_gradients_, sums_, &FramedSum::force, x)
-        + slack_forces(x);
+    return gather_springs(&Spring::force, x) + gather(sum_gradients_, sums_, &FramedSum::force, x);
 }
 
 double ClothEnergy::elastic_energy(const Positions& x) const

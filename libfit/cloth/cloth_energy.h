@@ -98,8 +98,8 @@ private:
     void add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials);
     void assemble();
     Eigen::VectorXd lengthening(const Positions& x) const;  ///< of all springs, m
-    /// What springs pull with too much does to the vertices, N.
-    Positions slack_forces(const Positions& x) const;
+    /// What loads or forces of all springs do to the vertices, without the slack.
+    Positions gather_springs(Vec3 (Spring::*of_spring)(const Positions&) const, const Positions& x) const;
     /// What loads or forces of all elements do to the vertices.
     template <class Element>
     static Positions gather(const SparseRows& gradients, const std::vector<Element>& elements,

@@ -447,6 +447,44 @@ TEST_F(MeshLab, FindsTheRigBesideTheBodysFile)
         EXPECT_EQ(point_of(skeleton, joint), point_of(again, joint));
 }
 
+/// The skirt with texture coordinates of its corners.
+void write_skirt_with_pattern(const fs::path& path)
+{
+    const MeshFile skirt = MeshFile::read(k_skirt);
+    std::ofstream obj(path);
+    for (const auto& place : skirt.positions().rowwise())
+        obj << "v " << place << "\nvt " << 0.2 * std::atan2(place.z(), place.x()) << ' ' << place.y() << '\n';
+    for (const auto& corners : skirt.triangles().rowwise()) {
+        obj << 'f';
+        for (const int corner : corners)
+            obj << ' ' << corner + 1 << '/' << corner + 1;
+        obj << '\n';
+    }
+}
+
+TEST_F(MeshLab, TakesTheWarpFromTextureCoordinates)
+{
+    write_skirt_with_pattern(folder / "skirt.obj");
+    const auto worn = [&](const fs::path& skirt) {
+        MeshDocument own;
+        meshlab::open_layer(own, k_body);
+        meshlab::open_layer(own, skirt);
+        RichParameterList list = dialog_of("Dress Body", own);
+        list.setValue("quality", EnumValue(int(Quality::draft)));
+        list.setValue("fabric", EnumValue(int(Fabric::stretch_woven)));
+        const Ended ended = run("Dress Body", own, list);
+        EXPECT_TRUE(ended.well) << ended.message;
+        std::vector<Vec3> places;
+        const MeshModel& last = *own.meshList.back();
+        for (int v = 0; v < last.cm.vn; ++v)
+            places.push_back(point_of(last, v));
+        return places;
+    };
+    const std::vector<Vec3> with = worn(folder / "skirt.obj"), without = worn(k_skirt);
+    ASSERT_EQ(with.size(), without.size());
+    EXPECT_NE(with, without);
+}
+
 TEST_F(MeshLab, SavesADressedBodyAsAnOutfit)
 {
     fs::copy(k_body, folder / "woman.ply");

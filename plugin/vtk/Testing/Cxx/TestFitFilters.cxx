@@ -534,6 +534,40 @@ TEST(DressBody, KeepsQuads)
     EXPECT_EQ(polydata(*dress, 1)->GetPointData()->GetArray("Ease")->GetNumberOfTuples(), garment->GetNumberOfPoints());
 }
 
+/// Texture coordinates as of pieces of a pattern: round the body and along it.
+vtkSmartPointer<vtkFloatArray> pattern_of(const TriangleMesh& mesh, bool is_upright)
+{
+    vtkNew<vtkFloatArray> array;
+    array->SetName("UV");
+    array->SetNumberOfComponents(2);
+    for (const auto& place : mesh.positions.rowwise()) {
+        const double round = 0.2 * std::atan2(place.z(), std::abs(place.x()) - 0.1), along = place.y();
+        array->InsertNextTuple2(is_upright ? round : along, is_upright ? along : round);
+    }
+    return array;
+}
+
+TEST(DressBody, TakesTheWarpFromTextureCoordinates)
+{
+    const TriangleMesh mesh = shorts_mesh(0.02);
+    const auto worn = [&](vtkDataArray* uvs) {
+        auto garment = polydata_of(mesh);
+        garment->GetPointData()->SetTCoords(uvs);
+        vtkNew<vtkDressBody> dress;
+        dress->SetInputData(0, body());
+        dress->SetInputData(1, garment);
+        dress->SetFabricByName("stretch_woven");
+        shorten(*dress);
+        dress->Update();
+        return points_of(polydata(*dress, 1));
+    };
+    const Positions without = worn(nullptr), upright = worn(pattern_of(mesh, true)),
+                    across = worn(pattern_of(mesh, false));
+    ASSERT_EQ(without.rows(), mesh.positions.rows());
+    EXPECT_NE(upright, without);
+    EXPECT_NE(upright, across);
+}
+
 TEST(DressBody, WarnsOfAGarmentThatIsTooSmall)
 {
     vtkNew<vtkDressBody> dress;
