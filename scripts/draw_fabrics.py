@@ -111,7 +111,8 @@ def moduli_table(rows):
 
 
 def sources_table(known):
-    quantities = ["density", "bend_stiffness", "largest_stretch", "thickness", "drape_30"]
+    quantities = ["density", "bend_stiffness", "largest_stretch", "thickness", "weft_to_warp", "shear_stiffness",
+                  "drape_30"]
     lines = ["| fabric | quantity | from | to | source |", "| --- | --- | --- | --- | --- |"]
     for quantity in quantities:
         for name, of_fabric in known.items():

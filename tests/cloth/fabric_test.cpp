@@ -69,7 +69,9 @@ TEST(FabricTrials, PresetsAreWithinThePublishedRangesOfTheirFabric)
     for (const auto& [quantity, value, times] : { std::tuple { "density", &Material::density, 1. },
                                                   { "bend_stiffness", &Material::bend_stiffness, k_bending_of_hinges },
                                                   { "largest_stretch", &Material::largest_stretch, 1. },
-                                                  { "thickness", &Material::thickness, 1. } }) {
+                                                  { "thickness", &Material::thickness, 1. },
+                                                  { "weft_to_warp", &Material::weft_to_warp, 1. },
+                                                  { "shear_stiffness", &Material::shear_stiffness, 1. } }) {
         const auto ranges = published(quantity);
         EXPECT_EQ(ranges.size(), fabric_names().size()) << quantity;
         for (const auto& [name, range] : ranges) {
