@@ -66,6 +66,19 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> make_sparse(Eigen::Index rows, Eige
     return result;
 }
 
+/// Makes springs along the sides of a triangle as stiff as all that they pull with together, which bounds its energy, and
+/// takes off in `slack` what that is too much.
+void add_woven(const Eigen::Matrix3d& stiffness, const std::array<int, 3>& sides, std::vector<double>& at_edge,
+               std::vector<Eigen::Triplet<double>>& slack)
+{
+    for (int k = 0; k < 3; ++k) {
+        const double own = stiffness(k, k), all = stiffness.row(k).cwiseAbs().sum();
+        at_edge[sides[k]] += all;
+        for (int l = 0; l < 3; ++l)
+            slack.emplace_back(sides[k], sides[l], l == k ? all - own : -stiffness(k, l));
+    }
+}
+
 }  // namespace
 
 Vec3 ClothEnergy::Spring::load(const Positions& x) const
@@ -123,19 +136,6 @@ ClothEnergy::ClothEnergy(const GarmentMesh& rest, const MeshTopology& topology,
                          const std::vector<Tie>& sewn) :
     ClothEnergy(rest, topology, pairs, Materials(options), sewn)
 {
-}
-
-/// Makes springs along the sides of a triangle as stiff as all that they pull with together, which bounds its energy, and
-/// takes off in `slack` what that is too much.
-void add_woven(const Eigen::Matrix3d& stiffness, const std::array<int, 3>& sides, std::vector<double>& at_edge,
-               std::vector<Eigen::Triplet<double>>& slack)
-{
-    for (int k = 0; k < 3; ++k) {
-        const double own = stiffness(k, k), all = stiffness.row(k).cwiseAbs().sum();
-        at_edge[sides[k]] += all;
-        for (int l = 0; l < 3; ++l)
-            slack.emplace_back(sides[k], sides[l], l == k ? all - own : -stiffness(k, l));
-    }
 }
 
 // A spring stands for the strip of cloth beside it, whose width is area / length.

@@ -32,7 +32,7 @@ class ClothEnergy {
 public:
     struct Spring {
         int i, j;
-        double length, stiffness;  // m, N/m; without the slack
+        double length, stiffness;  // m, N/m; the slack is not taken off
         double longest;  // m; beyond it the spring is stiffer
 
         /// Of i, N; of j it is the opposite. The load is what is left of the force without the quadratic form.
