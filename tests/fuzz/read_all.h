@@ -31,6 +31,21 @@ inline void require_look(const MeshFile& mesh)
         require(material < int(look.materials.size()), "that faces have materials");
 }
 
+/// UVs say how the warp runs, or nothing.
+inline void require_warps(const MeshFile& mesh)
+{
+    const CornerUvs uvs = mesh.corner_uvs();
+    require(uvs.rows() == 0 || uvs.rows() == mesh.triangles().rows(), "that all corners have UVs, or none");
+    try {
+        const GarmentMesh garment = make_garment(mesh.positions(), mesh.triangles(), uvs);
+        require(garment.warps.allFinite(), "that warps are finite");
+        require(garment.warps.rows() == 0 || garment.warps.rows() == garment.triangles.rows(),
+                "that all triangles have a warp, or none");
+    } catch (const InvalidInput& error) {
+        require_one_line(error.what());
+    }
+}
+
 /// What is written can be read again.
 inline void require_round_trip(const MeshFile& mesh, const std::filesystem::path& copy)
 {
@@ -57,6 +72,7 @@ inline void read_all(const std::filesystem::path& path, const std::filesystem::p
         const MeshFile mesh = MeshFile::read(path);
         require_surface(mesh);
         require_look(mesh);
+        require_warps(mesh);
         mesh.companions();
         find_body(mesh, Wears::strip);
         require_round_trip(mesh, copy);
