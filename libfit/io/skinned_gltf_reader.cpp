@@ -14,7 +14,7 @@
 #include "gltf_unpack.h"
 #include "joint_names.h"
 #include "joints_by_tree.h"
-#include "missing_ends.h"
+#include "missing_joints.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -112,7 +112,7 @@ public:
             joints_ = std::move(joints);
             by_tree_ = true;
         } else {
-            add_missing_ends(skin_, joints_);
+            add_missing_joints(skin_, joints_);
         }
     }
 

@@ -81,9 +81,17 @@ inline constexpr int k_skin_samples = 12;
 /// guess, on the skeletons of Mixamo and MakeHuman.
 inline constexpr double k_neck_above_shoulders = 0.7;
 
-// A skeleton whose names lack a hand, foot or head.
+// A skeleton whose names lack an elbow, knee, hand, foot or head.
+/// Dimensionless, shares of the way from shoulder to fingertips and from hip to sole [drillis_1966_segments].
+inline constexpr double k_elbow_share = 0.42, k_wrist_share = 0.75, k_knee_share = 0.46, k_ankle_share = 0.93;
+/// Dimensionless, shares of the same: within the first a joint without a name is taken for the one that is missing; half
+/// width of the transition of skin at an elbow or knee that is added. fitted: guess, on three figures.
+inline constexpr double k_near_share = 0.2, k_middle_blend = 0.06;
 /// Dimensionless, shares of the farthest skin: between them it lies along the bone. fitted: guess, on one figure each.
 inline constexpr double k_limb_middle[] = { 0.2, 0.7 };
+/// The same from shoulder or hip on: through the lower half, as the skin of hips and shoulders lies beside the limb.
+/// fitted: guess, on three figures.
+inline constexpr double k_lower_limb[] = { 0.5, 0.85 };
 /// Dimensionless. The length of a shin as a share of that from the knee to the sole [drillis_1966_segments].
 inline constexpr double k_shin_to_sole = 0.86;
 /// Dimensionless. The length of a forearm as a share of the upper arm's [drillis_1966_segments], and the least and the

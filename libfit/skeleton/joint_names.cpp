@@ -50,7 +50,11 @@ constexpr std::array k_words {
     Word { "radius", JointKind::elbow, true },
     Word { "hand", JointKind::wrist, true },
     Word { "wrist", JointKind::wrist, true },
+    Word { "armupper", JointKind::shoulder, true },
+    Word { "armlower", JointKind::elbow, true },
     Word { "upleg", JointKind::hip, true },
+    Word { "legupper", JointKind::hip, true },
+    Word { "leglower", JointKind::knee, true },
     Word { "upperleg", JointKind::hip, true },
     Word { "thigh", JointKind::hip, true },
     Word { "femur", JointKind::hip, true },
@@ -170,7 +174,7 @@ public:
     {
         if (count(JointKind::shoulder) > 2)  // derived: a rig has two shoulders, so some are clavicles
             rename(JointKind::shoulder, "shoulder", JointKind::clavicle);
-        if (count(JointKind::hip) == 0 && count(JointKind::knee) > 2)  // "Left leg" above "Left knee"
+        if (count(JointKind::hip) == 0)  // "Left leg" above "Left knee", or the only bone of the leg
             rename(JointKind::knee, "leg", JointKind::hip);
         leave_out_roots();
         for (const JointKind kind : { JointKind::wrist, JointKind::ankle })

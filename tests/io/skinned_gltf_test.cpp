@@ -340,6 +340,63 @@ TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
     EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
 }
 
+constexpr const char* k_limb_ends[]
+    = { "lhand", "lhand_tip", "rhand", "rhand_tip", "lfoot", "lfoot_tip", "rfoot", "rfoot_tip" };
+constexpr std::pair<int, const char*> k_lower_limbs[]
+    = { { lradius, "lradius" }, { rradius, "rradius" }, { ltibia, "ltibia" }, { rtibia, "rtibia" } };
+
+TEST_F(SkinnedGltf, DividesLimbsOfOneBone)
+{
+    Rig whole = fixtures::nearest_rig(person);
+    for (Eigen::Index v = 0; v < whole.weights.bones.rows(); ++v)
+        for (const auto& [bone, name] : k_lower_limbs)
+            if (whole.weights.bones(v, 0) == bone)
+                whole.weights.bones(v, 0) = parent_of(bone);
+    write_outfit_glb(glb, whole, { { "body", person.mesh, whole.weights } }, { BoneNames::garmentfit });
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             const auto take_out_as_helper = [&](const char* name) {
+                 take_out(document, name);
+                 document["nodes"][std::size_t(node_called(document, name))]["name"] = "end";
+             };
+             for (const auto& [bone, name] : k_lower_limbs)
+                 take_out_as_helper(name);
+             for (const char* end : k_limb_ends)
+                 take_out_as_helper(end);
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_FALSE(read.by_tree);
+    for (const auto& [bone, name] : k_lower_limbs) {
+        EXPECT_LT((read.skeleton.head(bone) - rig.skeleton.head(bone)).norm(), 0.08) << name;
+        EXPECT_LT((read.skeleton.tail(bone) - rig.skeleton.tail(bone)).norm(), 0.08) << name;
+        EXPECT_TRUE((read.weights.bones.col(0).array() == bone).any()) << name << " moves skin";
+    }
+    EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
+}
+
+TEST_F(SkinnedGltf, TakesJointsWithoutAKnownNameForElbowsAndKneesThatAreMissing)
+{
+    const Rig near = fixtures::nearest_rig(person);
+    write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             for (const auto& [from, to] : std::map<std::string, std::string> { { "lradius", "lhumerus.001" },
+                                                                                { "rradius", "rhumerus.001" },
+                                                                                { "ltibia", "Canilla izquierda" },
+                                                                                { "rtibia", "Canilla derecha" },
+                                                                                { "lfoot", "Pie izquierdo" } })
+                 document["nodes"][std::size_t(node_called(document, from))]["name"] = to;
+             for (const char* tip : { "lfoot_tip", "rfoot_tip" }) {  // without feet, the tree does not tell the sides
+                 take_out(document, tip);
+                 document["nodes"][std::size_t(node_called(document, tip))]["name"] = "Dedos";
+             }
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_FALSE(read.by_tree);
+    for (const auto& [bone, name] : k_lower_limbs) {
+        EXPECT_LT((read.skeleton.head(bone) - rig.skeleton.head(bone)).norm(), 1e-5) << name;
+        EXPECT_LT((read.skeleton.tail(bone) - rig.skeleton.tail(bone)).norm(), 1e-5) << name;
+    }
+}
+
 TEST_F(SkinnedGltf, TakesNoMeshForAJointBelowOthers)
 {
     const Rig near = fixtures::nearest_rig(person);

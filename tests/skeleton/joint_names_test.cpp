@@ -110,6 +110,10 @@ const NamedRig k_rigs[] = {
       { "pelvis_jnt", "neck_jnt", "head_jnt", "l_clavicle_jnt", "l_upperarm_jnt", "l_forearm_jnt", "l_hand_jnt",
         "l_thigh_jnt", "l_shin_jnt", "l_foot_jnt" },
       { "l_toe_jnt", "l_thumb_01_jnt", "mesh" } },
+    { "blocks",
+      { "Pelvis", "Neck", "Head", "Shoulder.L", "Arm_Upper.L", "Arm.Lower.L", "Hand.L", "Leg_Upper.L", "Leg_Lower.L",
+        "Foot.L" },
+      { "Controller", "Hand_IK.L", "Knee_IK.L", "Shoulder.R", "Arm_Upper.R" } },
     { "of one's own",
       { "Hips", "Neck", "Head", "Left shoulder", "Left arm", "Left elbow", "Left wrist", "Left leg", "Left knee",
         "Left ankle" },
@@ -132,6 +136,13 @@ TEST(JointNames, RigsOfManyProgramsAreReadWhole)
         for (std::size_t i = rig.names.size(); i < names.size(); ++i)
             EXPECT_FALSE(joints[i] && joints[i]->side < 2) << rig.program << ' ' << names[i];
     }
+}
+
+TEST(JointNames, TheOnlyBoneOfALegBeginsAtTheHip)
+{
+    const auto joints = recognize_joints({ "torso", "head", "arm-left", "leg-left", "leg-right" });
+    EXPECT_EQ(joints[3]->kind, JointKind::hip);
+    EXPECT_EQ(joints[4]->kind, JointKind::hip);
 }
 
 TEST(JointNames, FingersToesAndHelpersAreNot)
