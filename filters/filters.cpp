@@ -105,19 +105,17 @@ void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Param
 /// Runs draping and recovering again after a change of the scene. It stays so where that tells more.
 /// @param change  @return whether there is anything to change
 /// @param worst  outcome with which it stays so
-/// @param first  stage that is run again
 /// @return whether it stays so
 bool run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene,
-                 const Parameters& parameters, const Progress& progress, Outcome worst = Outcome::too_small,
-                 Stage first = Stage::drape)
+                 const Parameters& parameters, const Progress& progress, Outcome worst = Outcome::too_small)
 {
     Scene other = scene;
     if (progress.is_late() || !change(other))
         return false;
-    stages.erase(std::remove_if(stages.begin(), stages.end(), [&](Stage stage) { return stage < first; }),
+    stages.erase(std::remove_if(stages.begin(), stages.end(), [](Stage stage) { return stage < Stage::drape; }),
                  stages.end());
     other.recovered.reset();
-    if (stages.front() <= Stage::drape)
+    if (stages.front() == Stage::drape)
         other.draped.reset();
     const bool is_better = succeeds([&] { run_stages_once(stages, other, parameters, progress); })
         && outcome_of(*final_dressing(other)) <= worst;
@@ -134,14 +132,13 @@ bool is_too_small(const Scene& scene) { return outcome_of(*final_dressing(scene)
 void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, double most,
                const Progress& progress)
 {
-    std::vector<Stage> with_fit = stages;
-    if (with_fit.front() > Stage::fit)
-        with_fit.insert(with_fit.begin(), Stage::fit);
     double share = 1;
     int vain = 0;
     for (int k = 0; k < k_widening_rounds && vain < k_vain_widenings && is_too_small(scene); ++k) {
-        const auto widen = [&](Scene& other) { return widen_too_small(other, most, share); };
-        if (run_changed(widen, with_fit, scene, parameters, progress, Outcome::too_small, Stage::fit))
+        const auto widen = [&](Scene& other) {
+            return widen_too_small(other, most, share) && fit_again(other, parameters, progress);
+        };
+        if (run_changed(widen, stages, scene, parameters, progress))
             continue;
         share *= k_smaller_share;
         ++vain;

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages.h"
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "attempt.h"
+#include "garmentfit/stopwatch.h"
 #include "named_garment.h"
+#include "other_wearings.h"
 
 namespace garmentfit {
 namespace {
@@ -34,6 +39,20 @@ void put_in_layers(Scene& scene, LayerOrder order)
         = order_layers(*scene.rig, scene.body->surface.positions, meshes_of(scene.garments), scene.fits);
     for (std::size_t i = 0; i < scene.fits.size(); ++i)
         scene.fits[i].layer = order == LayerOrder::automatic ? scene.automatic_layers[i] : int(i);
+}
+
+/// A fit of the same way of wearing as before, with what was known of that then. Nothing where it is another way.
+std::optional<FitResult> as_before(FitResult fit, const FitResult& before)
+{
+    if (!is_within(fit, before) && !is_within(before, fit))
+        return {};
+    fit.type_probability = before.type_probability;
+    fit.front_probability = before.front_probability;
+    fit.up_probability = before.up_probability;
+    fit.probability = before.probability;
+    fit.front_given = before.front_given;
+    fit.rejected = before.rejected;
+    return fit;
 }
 
 }  // namespace
@@ -82,6 +101,28 @@ void fit_stage(Scene& scene, const Parameters& p, const Progress& progress)
     if (together)
         fit_together(scene, progress.part(1 - 1 / n, 1));
     put_in_layers(scene, p.layer_order);
+}
+
+bool fit_again(Scene& scene, const Parameters& p, const Progress& progress)
+{
+    const Stopwatch watch(scene.seconds[static_cast<int>(Stage::fit)]);
+    Scene other = scene;
+    for (std::size_t g = 0; g < other.garments.size(); ++g) {
+        other.garments[g].type = scene.fits[g].type;
+        other.garments[g].front = scene.fits[g].front;
+        other.garments[g].skipped = 0;
+    }
+    if (!succeeds([&] { fit_stage(other, p, progress); }))
+        return false;
+    for (std::size_t g = 0; g < other.fits.size(); ++g) {
+        std::optional<FitResult> fit = as_before(std::move(other.fits[g]), scene.fits[g]);
+        if (!fit)
+            return false;
+        other.fits[g] = *std::move(fit);
+    }
+    other.garments = std::move(scene.garments);
+    scene = std::move(other);
+    return true;
 }
 
 }  // namespace garmentfit

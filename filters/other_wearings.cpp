@@ -106,17 +106,6 @@ std::string reason_against(const Scene& scene, std::size_t garment)
     return largest_stretch(end) > k_torn ? "the cloth is stretched too far" : "it slips down";
 }
 
-constexpr double k_same_direction = 0.5;  // derived: cosine; between quarter turns and noise, as in the fit
-
-// The garment faces alike, and lies round every bone that it covers in the other way, too: one way under two names.
-bool is_within(const FitResult& way, const FitResult& other)
-{
-    return way.up.dot(other.up) > k_same_direction && way.front.dot(other.front) > k_same_direction
-        && std::all_of(way.covered.begin(), way.covered.end(), [&](Bone bone) {
-               return std::find(other.covered.begin(), other.covered.end(), bone) != other.covered.end();
-           });
-}
-
 // Both then count for the second one, which keeps the more probable name.
 FitResult with_probability_of(const FitResult& first, FitResult second)
 {
@@ -154,6 +143,15 @@ void keep_better(Scene& scene, Scene&& other, std::size_t garment)
 }
 
 }  // namespace
+
+bool is_within(const FitResult& way, const FitResult& other)
+{
+    constexpr double k_same_direction = 0.5;  // derived: cosine; between quarter turns and noise, as in the fit
+    return way.up.dot(other.up) > k_same_direction && way.front.dot(other.front) > k_same_direction
+        && std::all_of(way.covered.begin(), way.covered.end(), [&](Bone bone) {
+               return std::find(other.covered.begin(), other.covered.end(), bone) != other.covered.end();
+           });
+}
 
 double plausibility(double probability, End end, double size)
 {

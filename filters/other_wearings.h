@@ -37,6 +37,9 @@ enum class End {
 /// @param size  factor by which the garment was made larger for this way
 double plausibility(double probability, End end, double size = 1);
 
+/// The garment faces alike, and lies round every bone that it covers in the other way, too: one way under two names.
+bool is_within(const FitResult& way, const FitResult& other);
+
 /// How to dress a scene that has its rig.
 struct DressingSteps {
     std::function<void(Scene&)> fit, drape_and_recover;

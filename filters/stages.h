@@ -13,6 +13,10 @@ void rig_stage(Scene& scene, const Parameters& parameters, const Progress& progr
 /// Fits the skeleton to each garment, then to all of them in one pose, and puts them in layers.
 void fit_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
+/// Fits the skeleton to garments that were changed, for the same way of wearing: what is wider may look like another
+/// type, but was found to be too small in this one. @return whether the body fits so; else the scene stays
+bool fit_again(Scene& scene, const Parameters& parameters, const Progress& progress);
+
 /// Puts the garments on from the inside out; those already worn move to the pose of the next one. Ends at the first that
 /// cannot be put on.
 void drape_stage(Scene& scene, const Parameters& parameters, const Progress& progress);

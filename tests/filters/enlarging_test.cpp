@@ -67,4 +67,48 @@ TEST(Enlarging, AGarmentIsMadeWiderAndFittedAnewBeforeItIsEnlarged)
     EXPECT_EQ(scene.garments[0].mesh.positions, small.positions) << "what was given stays";
 }
 
+/// A person in a skirt, fitted.
+Scene fitted_scene()
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 20 });
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    scene.rig = fixtures::simple_rig(person);
+    const TriangleMesh skirt
+        = fixtures::garment_round(person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 0.4 && p.y() < 1.1; });
+    scene.garments = { { make_garment(skirt.positions, skirt.triangles), GarmentType::automatic, "skirt.obj" } };
+    fit_stage(scene, {}, {});
+    return scene;
+}
+
+TEST(Enlarging, AWiderGarmentIsFittedForTheSameWayOfWearing)
+{
+    Scene scene = fitted_scene();
+    FitResult& fit = scene.fits[0];
+    fit.front = -fit.front;
+    fit.probability = 0.07;
+    fit.rejected.resize(1);
+    const FitResult before = fit;
+    scene.garments[0].skipped = 1;
+    ASSERT_TRUE(fit_again(scene, {}, {}));
+    EXPECT_EQ(scene.fits[0].type, before.type);
+    EXPECT_GT(scene.fits[0].front.dot(before.front), 0.9) << "back to front, as before";
+    EXPECT_EQ(scene.fits[0].probability, before.probability);
+    EXPECT_EQ(scene.fits[0].rejected.size(), 1);
+    EXPECT_FALSE(scene.fits[0].front_given);
+    EXPECT_EQ(scene.garments[0].type, GarmentType::automatic) << "is not given by the user";
+    EXPECT_FALSE(scene.garments[0].front);
+    EXPECT_EQ(scene.garments[0].skipped, 1);
+}
+
+TEST(Enlarging, AWiderGarmentThatIsFittedForAnotherWayOfWearingIsNotTaken)
+{
+    Scene scene = fitted_scene();
+    scene.fits[0].covered = { upperneck };
+    const Pose pose = scene.fits[0].pose;
+    EXPECT_FALSE(fit_again(scene, {}, {}));
+    EXPECT_TRUE(is_same(scene.fits[0].pose, pose));
+    EXPECT_EQ(scene.fits[0].covered, std::vector<Bone> { upperneck });
+}
+
 }  // namespace
