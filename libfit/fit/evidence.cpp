@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "front_shape.h"
@@ -108,6 +107,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
         e[legs_taper_evidence + kind] = context.taper;
     }
+    e[skirt_reach_evidence] = context.coverage.kind == CoverageKind::skirt ? context.reach : 0;
     e[input_front_evidence] = upright_front.dot(energy.rig().front);
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
     const FrontShape shape = front_shape(cloth.patches(), context.openings, energy.cues(), level);
@@ -127,24 +127,6 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[in_place_inside_evidence] = in_place ? std::min(in_place->inside_share, k_max_inside_evidence) / k_tenth : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(context, given, leg));
     return e;
-}
-
-// Of the convex hull, seen from above, m: pi times the mean of its widths (Cauchy). @pre not empty
-double level_girth(const std::vector<Vec3>& points)
-{
-    constexpr int directions = 16;  // unit: exact to 1 % for ellipses
-    double sum = 0;
-    for (int i = 0; i < directions; ++i) {
-        const double angle = double(EIGEN_PI) * i / directions;
-        const Vec3 along(std::cos(angle), 0, std::sin(angle));
-        double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (const Vec3& point : points) {
-            low = std::min(low, along.dot(point));
-            high = std::max(high, along.dot(point));
-        }
-        sum += high - low;
-    }
-    return std::max(double(EIGEN_PI) * sum / directions, 1e-9);
 }
 
 bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.front) > k_same_direction; }
@@ -187,6 +169,7 @@ const std::array<std::string_view, evidence_count>& evidence_names()
         "skirt_taper",
         "dress_taper",
         "jumpsuit_taper",
+        "skirt_reach",
         "type",
         "input_front",
         "openings",
@@ -205,29 +188,6 @@ const std::array<std::string_view, evidence_count>& evidence_names()
         "in_place_inside",
     };
     return names;
-}
-
-double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings, const GarmentCues& cues,
-                double leg)
-{
-    if (!cues.is_strapless)
-        return 0;
-    double widest = 0;
-    for (const Opening& opening : openings)
-        widest = std::max(widest, opening.girth);
-    const Opening* top = highest_opening(openings, k_wide_top * widest);
-    if (!top)
-        return 0;
-    std::vector<Vec3> rim, below;
-    for (int i = 0; i < top->rim.rows(); ++i)
-        rim.push_back(top->rim.row(i).transpose());
-    const double height = top->rim.col(1).mean() - k_taper_depth * leg;
-    for (const ClothPatch& patch : cloth)
-        if (const Vec3 p = patch.centre.cast<double>(); std::abs(p.y() - height) < k_taper_slice * leg)
-            below.push_back(p);
-    if (below.size() < k_min_slice)
-        return 0;
-    return std::clamp(std::log(level_girth(rim) / level_girth(below)) / k_tenth, -k_max_taper, k_max_widening);
 }
 
 std::vector<Wearing> wearings_of(const WearingContext& context, const std::vector<Posture>& postures,

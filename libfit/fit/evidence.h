@@ -55,6 +55,7 @@ enum Evidence {
     skirt_taper_evidence,
     dress_taper_evidence,
     jumpsuit_taper_evidence,
+    skirt_reach_evidence,  ///< how far it reaches beyond its ends, as sleeves do (reach_of)
     type_evidence,  ///< 1 where it is that of the type guessed by the openings; tops, too
     // The facing
     input_front_evidence,  ///< cosine of the held garment's front to that of the input body: most share a frame
@@ -81,13 +82,6 @@ enum Evidence {
 inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, seat_evidence, lap_evidence,
                                                rise_evidence,  bow_evidence,   bare_evidence, profile_evidence };
 using WearEvidence = std::array<double, evidence_count>;
-/// Logarithm of the girth of the highest wide opening over that of the cloth a quarter of a leg below it, in tenths,
-/// from -k_max_taper to k_max_widening: a waist is narrower than hips, the rim of a strapless dress no narrower than a
-/// waist. Girths are of convex hulls, because of folds and uneven rims. 0 where there are openings for arms, or
-/// any others: necks are narrow.
-/// @param leg  m
-double taper_of(const std::vector<ClothPatch>& cloth, const std::vector<Opening>& openings, const GarmentCues& cues,
-                double leg);
 
 /// "energy", "clearance", ... in the order of Evidence.
 const std::array<std::string_view, evidence_count>& evidence_names();
@@ -113,7 +107,7 @@ struct WearingContext {
     const Coverage& coverage;
     Eigen::Quaterniond turn;  ///< that makes the garment upright
     const std::vector<Opening>& openings;  ///< of the held garment
-    double taper = 0;  ///< taper_of it
+    double taper = 0, reach = 0;  ///< taper_of and reach_of it
     double upright = 0, askew = 0;  ///< of its way up
     const std::vector<BodyPlace>& places;
 };

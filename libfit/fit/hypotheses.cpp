@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "best_start.h"
+#include "outline.h"
 #include "outward_cloth.h"
 #include "posture_moves.h"
 #include "tuning.h"
@@ -76,6 +77,7 @@ std::vector<Wearing> wearings_of(const Search& search, const std::vector<Posture
                                    garment.turn,
                                    garment.openings,
                                    taper_of(garment.clearance->patches(), garment.openings, garment.cues, leg),
+                                   reach_of(garment.clearance->patches(), garment.openings),
                                    garment.upright,
                                    garment.askew,
                                    given.places };

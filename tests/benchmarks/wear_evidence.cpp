@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/io.h"
 #include "garmentfit/rig_body.h"
 #include "garmentfit/units.h"
@@ -61,7 +62,8 @@ const std::array<Eigen::Matrix3d, 8>& turns()
 
 Json evidence_of(const Rig& rig, const TriangleMesh& body, const GarmentMesh& garment, const Eigen::Matrix3d& turn)
 {
-    const TriangleMesh outward = outward_cloth(make_garment(garment.positions * turn.transpose(), garment.triangles));
+    const GarmentMesh turned = make_garment(garment.positions * turn.transpose(), garment.triangles);
+    const TriangleMesh outward = outward_cloth(open_ends(turned).garment);
     Json hypotheses = Json::array();
     for (const Hypothesis& hypothesis : find_hypotheses(rig, body, outward, {}, {}))
         hypotheses.push_back(json_of(hypothesis));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence.h"
+#include "outline.h"
 
 #include <cmath>
 #include <numeric>
@@ -34,6 +35,7 @@ TEST(Evidence, EachKindHasItsName)
     EXPECT_EQ(evidence_names()[jumpsuit_divided_evidence], "jumpsuit_divided");
     EXPECT_EQ(evidence_names()[jumpsuit_arms_evidence], "jumpsuit_arms");
     EXPECT_EQ(evidence_names()[jumpsuit_taper_evidence], "jumpsuit_taper");
+    EXPECT_EQ(evidence_names()[skirt_reach_evidence], "skirt_reach");
     EXPECT_EQ(evidence_names()[rise_evidence], "rise");
     EXPECT_EQ(evidence_names()[input_front_evidence], "input_front");
 }
@@ -86,6 +88,61 @@ TEST(Evidence, AWaistIsNarrowerThanTheClothBelow)
     EXPECT_NEAR(taper(0.95, false), -10 * std::log(0.95), 0.3);
     EXPECT_NEAR(taper(0.7, false), 1, 1e-9) << "a flared hem held upwards is no bodice";
     EXPECT_EQ(taper(1.3, true), 0) << "necks are narrow";
+}
+
+// A tube of cloth between two radii, from `low` to `high`, m.
+void add_tube(std::vector<ClothPatch>& cloth, double low, double high, double radius_low, double radius_high)
+{
+    for (double y = low; y < high; y += 0.01)
+        for (int i = 0; i < 50; ++i) {
+            const double angle = i * 2 * M_PI / 50;
+            const double radius = radius_low + (radius_high - radius_low) * (y - low) / (high - low);
+            const Vec3 centre(radius * std::sin(angle), y, radius * std::cos(angle));
+            cloth.push_back({ centre.cast<float>(), Eigen::Vector3f::UnitX() });
+        }
+}
+
+Opening level_end(double height, double radius, double facing)
+{
+    Opening end;
+    end.facing = { 0, facing, 0 };
+    end.rim.resize(50, 3);
+    for (int i = 0; i < 50; ++i) {
+        const double angle = i * 2 * M_PI / 50;
+        end.rim.row(i) << radius * std::sin(angle), height, radius * std::cos(angle);
+    }
+    end.low = end.rim.colwise().minCoeff();
+    end.high = end.rim.colwise().maxCoeff();
+    return end;
+}
+
+TEST(Evidence, SleevesReachBeyondHemAndNeckAlsoWhereTheyAreClosed)
+{
+    std::vector<ClothPatch> shirt;
+    add_tube(shirt, 0, 0.6, 0.2, 0.2);
+    for (double x = 0.2; x < 0.35; x += 0.01)
+        for (const double side : { -1.0, 1.0 })
+            shirt.push_back({ Eigen::Vector3f(float(side * x), 0.5f, 0), Eigen::Vector3f::UnitY() });
+    const std::vector<Opening> ends { level_end(0, 0.2, -1), level_end(0.6, 0.1, 1) };
+    EXPECT_NEAR(reach_of(shirt, ends), 10 * std::log(0.35 / 0.2), 0.3);
+    EXPECT_EQ(reach_of(shirt, {}), 0) << "without an end";
+}
+
+TEST(Evidence, SkirtsDoNotReachBeyondTheirEndsWhicheverIsUp)
+{
+    std::vector<ClothPatch> skirt, turned;
+    add_tube(skirt, 0, 0.6, 0.3, 0.12);
+    add_tube(turned, 0, 0.6, 0.12, 0.3);
+    EXPECT_NEAR(reach_of(skirt, { level_end(0, 0.3, -1), level_end(0.6, 0.12, 1) }), 0, 0.1);
+    EXPECT_NEAR(reach_of(turned, { level_end(0, 0.12, -1), level_end(0.6, 0.3, 1) }), 0, 0.1);
+}
+
+TEST(Evidence, AReachBeyondTheEndsSpeaksForATopAndNotForASkirt)
+{
+    WearEvidence close {}, reaching {};
+    close[skirt_evidence] = reaching[skirt_evidence] = 1;
+    reaching[skirt_reach_evidence] = 5;
+    EXPECT_GT(log_odds(close), log_odds(reaching) + 1);
 }
 
 }  // namespace
