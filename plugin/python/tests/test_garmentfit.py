@@ -357,7 +357,7 @@ def test_texture_coordinates_say_how_the_warp_runs(body, skirt, tmp_path):
     assert np.allclose(read[:, ::2], by_vertex.corner_uvs()[:, ::2])
     rig = garmentfit.rig_body(body)
     worn = [garmentfit.drape_garment(garmentfit.fit_skeleton(rig, mesh, type="skirt"), settling_steps=2,
-                                     fabric="stretch_woven").garment.positions for mesh in (by_vertex, by_corner, skirt)]
+                                     fabric="stretch_woven").garments[0].positions for mesh in (by_vertex, by_corner, skirt)]
     assert np.array_equal(worn[0], worn[1])
     assert not np.array_equal(worn[0], worn[2])
     with pytest.raises(garmentfit.InvalidInput, match="uvs are an array of shape"):
