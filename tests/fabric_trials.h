@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cloth_energy.h"
+#include "fixtures.h"
 #include "limited_memory.h"
 #include "surface_measures.h"
 #include "topology.h"
@@ -274,14 +275,10 @@ inline Draped cusick(const ClothOptions& options, double radius = 0.15, double s
 /// The sheet with its warp at an angle to +x, radians.
 inline GarmentMesh cut_at(const GarmentMesh& sheet, double angle)
 {
-    CornerUvs uvs(sheet.triangles.rows(), 6);
-    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 at = sheet.positions.row(sheet.triangles(f, k));
-            uvs.row(f).segment<2>(2 * k) << std::cos(angle) * at.z() - std::sin(angle) * at.x(),
-                std::cos(angle) * at.x() + std::sin(angle) * at.z();
-        }
-    return make_garment(sheet.positions, sheet.triangles, uvs);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto uv_at
+        = [&](const Vec3& at) { return Eigen::RowVector2d(c * at.z() - s * at.x(), c * at.x() + s * at.z()); };
+    return make_garment(sheet.positions, sheet.triangles, fixtures::uvs_of(sheet, uv_at));
 }
 
 struct Moduli {

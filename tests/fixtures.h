@@ -171,6 +171,17 @@ inline TriangleMesh thickened(const TriangleMesh& sheet, const Positions& offset
     return closed;
 }
 
+/// Texture coordinates of the corners by their places: uv_at(place) is (u, v).
+template <class Mesh, class UvAt>
+CornerUvs uvs_of(const Mesh& mesh, const UvAt& uv_at)
+{
+    CornerUvs uvs(mesh.triangles.rows(), 6);
+    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            uvs.row(f).segment<2>(2 * k) = uv_at(Vec3(mesh.positions.row(mesh.triangles(f, k))));
+    return uvs;
+}
+
 /// A square sheet of n by n vertices, the first at the origin, at height(x, z) over the plane y = 0.
 inline TriangleMesh sheet(int n, double spacing, const std::function<double(double, double)>& height)
 {

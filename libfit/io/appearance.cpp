@@ -5,15 +5,16 @@
 
 namespace garmentfit {
 
-CornerUvs corner_uvs(const Appearance& look)
+CornerUvs corner_uvs(const Appearance::Uvs& uvs, const Triangles& rows)
 {
-    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-    CornerUvs uvs = CornerUvs::Constant(look.uvs.rows() > 0 ? look.uv_corners.rows() : 0, 6, k_none);
-    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
+    if (uvs.rows() == 0)
+        return {};
+    CornerUvs result = CornerUvs::Constant(rows.rows(), 6, std::numeric_limits<double>::quiet_NaN());
+    for (Eigen::Index f = 0; f < rows.rows(); ++f)
         for (int k = 0; k < 3; ++k)
-            if (const int row = look.uv_corners(f, k); row >= 0)
-                uvs.row(f).segment<2>(2 * k) = look.uvs.row(row);
-    return uvs;
+            if (const int row = rows(f, k); row >= 0)
+                result.row(f).segment<2>(2 * k) = uvs.row(row);
+    return result;
 }
 
 }  // namespace garmentfit

@@ -176,7 +176,7 @@ struct GltfContent : MeshFile::Content {
     std::vector<MeshPart> named_parts;
 
     Appearance appearance() const override { return look; }
-    CornerUvs corner_uvs() const override { return garmentfit::corner_uvs(look); }
+    CornerUvs corner_uvs() const override { return garmentfit::corner_uvs(look.uvs, look.uv_corners); }
     std::vector<MeshPart> parts() const override { return named_parts; }
     double against_faces() const override { return share_against_faces(normals, triangles, triangles, positions); }
 

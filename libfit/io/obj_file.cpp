@@ -11,7 +11,11 @@ namespace {
 
 struct ObjContent : TextContent {
     Appearance appearance() const override { return obj_appearance(file); }
-    CornerUvs corner_uvs() const override { return garmentfit::corner_uvs(obj_uvs(file)); }
+    CornerUvs corner_uvs() const override
+    {
+        const Appearance look = obj_uvs(file);
+        return garmentfit::corner_uvs(look.uvs, look.uv_corners);
+    }
     std::vector<std::string> companions() const override { return obj_companions(file); }
     std::string naming_companions_in(const std::string& bytes, const std::string& folder) const override
     {

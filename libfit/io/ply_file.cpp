@@ -413,11 +413,10 @@ struct PlyContent : MeshFile::Content {
             const auto values = read_vertex_scalars(file, header);
             if (values[u].size() < vertex.rows || values[v].size() < vertex.rows)  // lists
                 continue;
-            CornerUvs uvs(triangles.rows(), 6);
-            for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-                for (int k = 0; k < 3; ++k)
-                    uvs.row(f).segment<2>(2 * k) << values[u][triangles(f, k)], values[v][triangles(f, k)];
-            return uvs;
+            Appearance::Uvs uvs(vertex.rows, 2);
+            for (Eigen::Index i = 0; i < uvs.rows(); ++i)
+                uvs.row(i) << values[u][i], values[v][i];
+            return garmentfit::corner_uvs(uvs, triangles);
         }
         return {};
     }

@@ -67,13 +67,8 @@ TEST(ClothEnergy, ForcesAreMinusItsGradient)
 /// Warp along x + z / 2.
 GarmentMesh with_warp(const GarmentMesh& mesh)
 {
-    CornerUvs uvs(mesh.triangles.rows(), 6);
-    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 at = mesh.positions.row(mesh.triangles(f, k));
-            uvs.row(f).segment<2>(2 * k) << at.z() - 0.5 * at.x(), at.x() + 0.5 * at.z();
-        }
-    return make_garment(mesh.positions, mesh.triangles, uvs);
+    const auto uv_at = [](const Vec3& at) { return Eigen::RowVector2d(at.z() - 0.5 * at.x(), at.x() + 0.5 * at.z()); };
+    return make_garment(mesh.positions, mesh.triangles, uvs_of(mesh, uv_at));
 }
 
 TEST(ClothEnergy, ForcesOfWovenClothAreMinusItsGradient)

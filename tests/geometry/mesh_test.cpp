@@ -18,6 +18,7 @@
 namespace {
 
 using namespace garmentfit;
+using fixtures::uvs_of;
 
 TriangleMesh ball(const Vec3& centre, double radius, double spacing)
 {
@@ -276,17 +277,6 @@ TriangleMesh square()
     mesh.positions << 0, 0, 0, 0.1, 0, 0, 0.1, 0.1, 0, 0, 0.1, 0;
     mesh.triangles << 0, 1, 2, 0, 2, 3;
     return mesh;
-}
-
-/// u and v of each corner by its place.
-template <class UvAt>
-CornerUvs uvs_of(const TriangleMesh& mesh, const UvAt& uv_at)
-{
-    CornerUvs uvs(mesh.triangles.rows(), 6);
-    for (Eigen::Index f = 0; f < uvs.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            uvs.row(f).segment<2>(2 * k) = uv_at(Vec3(mesh.positions.row(mesh.triangles(f, k))));
-    return uvs;
 }
 
 TEST(MakeGarment, TheWarpRunsAlongVWhereverTheChartLies)

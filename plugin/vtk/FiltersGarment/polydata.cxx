@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "polydata.h"
 
+#include "garmentfit/appearance.h"
 #include "garmentfit/error.h"
 #include "named_arrays.h"
 
@@ -84,12 +85,10 @@ CornerUvs corner_uvs_of(vtkPolyData& data, const Triangles& triangles)
     vtkDataArray* at_points = data.GetPointData()->GetTCoords();
     if (!at_points || at_points->GetNumberOfComponents() < 2)
         return {};
-    CornerUvs uvs(triangles.rows(), 6);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            uvs.row(f).segment<2>(2 * k) << at_points->GetComponent(triangles(f, k), 0),
-                at_points->GetComponent(triangles(f, k), 1);
-    return uvs;
+    Appearance::Uvs uvs(at_points->GetNumberOfTuples(), 2);
+    for (Eigen::Index i = 0; i < uvs.rows(); ++i)
+        uvs.row(i) << at_points->GetComponent(i, 0), at_points->GetComponent(i, 1);
+    return corner_uvs(uvs, triangles);
 }
 
 std::vector<vtkPolyData*> garments_in(vtkDataObject& data)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "garmentfit/export.h"
 #include "garmentfit/types.h"
 
 namespace garmentfit {
@@ -29,15 +30,18 @@ struct SurfaceMaterial {
 };
 
 struct Appearance {
+    using Uvs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
     std::vector<Picture> pictures;
     std::vector<SurfaceMaterial> materials;
     std::vector<int> material_of;  ///< of each triangle of the file, -1: none. Empty: no triangle has one
-    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> uvs;  ///< v grows downwards, as in glTF
+    Uvs uvs;  ///< v grows downwards, as in glTF
     Triangles uv_corners;  ///< rows of uvs for each corner of the triangles, -1: none. Without rows: no UVs
     std::vector<std::string> warnings;  ///< of what could not be kept, in whole sentences
 };
 
-/// UVs of all corners; no rows where there are none. O(n).
-CornerUvs corner_uvs(const Appearance& look);
+/// UVs of all corners of triangles; no rows where there are none. O(n).
+/// @param rows  of uvs for each corner, -1: none
+GARMENTFIT_API CornerUvs corner_uvs(const Appearance::Uvs& uvs, const Triangles& rows);
 
 }  // namespace garmentfit
