@@ -213,11 +213,13 @@ void ClothEnergy::add_hinges(const GarmentMesh& rest, const MeshTopology& topolo
 void ClothEnergy::add_ties(const GarmentMesh& rest, const std::vector<Tie>& sewn, const Materials& materials)
 {
     for (const Tie& tie : sewn) {
+        // What is held has a spring at each vertex: a button's would be as stiff as a shirt's together.
+        const double share = tie.is_seam ? 1 : std::min(1., areas_[tie.vertex] / k_contact_area);
         FramedSum t { FramedSum::Kind::tie,
                       { tie.corners[0], tie.corners[1], tie.corners[2], tie.vertex },
                       { -tie.weights[0], -tie.weights[1], -tie.weights[2], 1 },
                       Vec3::Zero(),
-                      materials.at(tie.vertex).stretch_stiffness };
+                      share * materials.at(tie.vertex).stretch_stiffness };
         t.at_rest = t.frame(rest.positions).transpose() * t.sum(rest.positions);
         sums_.push_back(t);
     }

@@ -78,9 +78,9 @@ ClothMotion::ClothMotion(PreparedCloth cloth, const Obstacle& obstacle, const Cl
              obstacle.body_vertices,
              { k_spare_margin * contact_margins().cloth, k_spare_margin * contact_margins().obstacle }),
     x_(stack(cloth.positions, obstacle.mesh.positions)), held_pairs_(find_crossing_pairs(cloth)),
-    sewn_(std::move(cloth.sewn.ties)), velocity_(Positions::Zero(cloth_vertices_, 3))
+    sewn_(std::move(cloth.sewn)), velocity_(Positions::Zero(cloth_vertices_, 3))
 {
-    energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_);
+    energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_.ties);
 }
 
 // Half of the active distance of cloth and cloth for the cloth. The obstacle gets the rest of that between both.
@@ -98,7 +98,7 @@ double ClothMotion::contact_distance(ContactReason reason) const
 void ClothMotion::set_rest(const GarmentMesh& rest)
 {
     rest_ = weld_.gather(rest);
-    energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_);
+    energy_.emplace(rest_, topology_, held_pairs_, materials_, sewn_.ties);
 }
 
 void ClothMotion::restore(const Positions& state)

@@ -146,7 +146,7 @@ private:
     ContactDetector contact_;
     Positions x_;  // cloth, then obstacle
     std::vector<std::pair<int, int>> held_pairs_;  // of vertices, across what crosses at the start
-    std::vector<Tie> sewn_;
+    SewnPieces sewn_;
     std::optional<ClothEnergy> energy_;  // its factor cannot be assigned
     Positions velocity_;  // of the cloth, m/s
     StickMemory sticking_;

@@ -12,6 +12,7 @@
 #include "cloth_motion.h"
 #include "friction_anchors.h"
 #include "limited_memory.h"
+#include "stiff_details.h"
 #include "tangent_factor.h"
 
 namespace garmentfit {
@@ -32,14 +33,16 @@ bool is_on_obstacle(const SoftConstraint& contact)
     return *std::min_element(contact.vertices.begin(), contact.vertices.end()) < 0;
 }
 
-ForceResidual measure(const Positions& forces, const std::vector<double>& masses)
+/// Of what is no detail.
+ForceResidual measure(const Positions& forces, const std::vector<double>& masses, const StiffDetails& details)
 {
-    std::vector<double> shares(masses.size());
+    std::vector<double> shares;
+    for (int v = 0; v < int(masses.size()); ++v)
+        if (!details.contains(v))
+            shares.push_back(forces.row(v).norm() / (masses[v] * k_gravity));
     ForceResidual result;
-    for (std::size_t v = 0; v < masses.size(); ++v) {
-        shares[v] = forces.row(Eigen::Index(v)).norm() / (masses[v] * k_gravity);
-        result.mean += shares[v] / double(masses.size());
-    }
+    for (const double share : shares)
+        result.mean += share / double(shares.size());
     const auto at = shares.begin() + std::ptrdiff_t(0.99 * double(shares.size()));
     std::nth_element(shares.begin(), at, shares.end());
     result.percentile_99 = *at;
@@ -51,7 +54,8 @@ ForceResidual measure(const Positions& forces, const std::vector<double>& masses
 class ClothMotion::RestSearch {
 public:
     explicit RestSearch(ClothMotion& motion) :
-        motion_(motion), energy_(*motion.energy_), anchors_(motion.cloth_vertices_)
+        motion_(motion), details_(motion.sewn_, cloth()), energy_without_details_(energy_without_details()),
+        energy_(energy_without_details_ ? *energy_without_details_ : *motion.energy_), anchors_(motion.cloth_vertices_)
     {
         step_.contact_stiffness = k_settling_contact_stiffness;
         step_.contact_softening = k_contact_softening;
@@ -95,6 +99,15 @@ private:
         FrictionAnchors anchors;
         double grip;
     };
+
+    /// The energy of cloth whose details are held by no springs, but go along; none where it has no details.
+    std::optional<ClothEnergy> energy_without_details() const
+    {
+        if (details_.empty())
+            return {};
+        return std::optional<ClothEnergy>(std::in_place, motion_.rest_, motion_.topology_, motion_.held_pairs_,
+                                          motion_.materials_, details_.other_ties(motion_.sewn_.ties));
+    }
 
     /// A single vertex that is jammed may have more than all others together, so it does not decide.
     static bool is_better(const ForceResidual& one, const ForceResidual& other)
@@ -230,7 +243,7 @@ private:
             motion_.relinearise(contacts_, guarded_distance());
         anchors_.set_active_contacts(find_active_contacts(x), x);
         forces_ = forces_at(x);
-        residual_ = measure(forces_, energy_.masses());
+        residual_ = measure(forces_, energy_.masses(), details_);
     }
 
     std::vector<SoftConstraint> contacts_at(const Positions& x) const
@@ -240,9 +253,11 @@ private:
         return motion_.contact_constraints(contacts_, targets, step_);
     }
 
-    /// Elastic forces, gravity, contact, and friction under the normal forces of the last find_forces().
-    Positions forces_at(const Positions& x)
+    /// Elastic forces, gravity, contact, and friction under the normal forces of the last find_forces(), where details
+    /// have followed the cloth.
+    Positions forces_at(Positions x)
     {
+        details_.follow(x);
         constraints_ = contacts_at(x);
         const std::vector<SoftConstraint> limits = energy_.strain_limits(x), friction = anchors_.constraints(x, grip_);
         constraints_.insert(constraints_.end(), limits.begin(), limits.end());
@@ -252,6 +267,7 @@ private:
             add_force(constraint, constraint.stiffness_times(constraint.target - constraint.sum(x)), result);
         for (int v = 0; v < motion_.cloth_vertices_; ++v)
             result(v, 1) -= energy_.masses()[v] * k_gravity;
+        details_.hand_down(result, x);
         return result;
     }
 
@@ -303,10 +319,11 @@ private:
         find_forces();
     }
 
+    /// Details follow.
     void move(const Positions& way)
     {
         Positions displacements = Positions::Zero(motion_.x_.rows(), 3);
-        displacements.topRows(way.rows()) = way;
+        displacements.topRows(way.rows()) = details_.following(way, cloth());
         motion_.move(displacements);
         find_forces();
     }
@@ -376,6 +393,8 @@ private:
     }
 
     ClothMotion& motion_;
+    StiffDetails details_;
+    std::optional<ClothEnergy> energy_without_details_;
     ClothEnergy& energy_;
     MotionStep step_ {};
     std::optional<TangentFactor> factor_;

@@ -404,6 +404,11 @@ std::vector<Tie> find_hold(const Piece& piece, const std::vector<Foot>& feet, co
     return {};
 }
 
+bool is_held_by_back(const std::vector<Tie>& hold, const Piece& piece)
+{
+    return double(hold.size()) >= k_small_piece_share * double(piece.vertices.size());
+}
+
 /// Collects ties; a vertex that a seam ties is not held besides.
 class Sewing {
 public:
@@ -463,6 +468,7 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
         for (const int v : piece.border)
             is_on_border[v] = 1;
     Feet feet(rest, topology, pieces);
+    std::vector<std::vector<int>> details;
     for (std::size_t p = 1; p < pieces.size(); ++p) {
         const double reach = pieces[p].size() <= k_small_piece ? k_small_piece_distance : k_lining_distance;
         std::vector<std::vector<Foot>> on_pieces;
@@ -475,10 +481,15 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
             sewing.add_seam(p, q, seam);
             on_pieces.push_back(feet.find(pieces[p].vertices, q, reach));
         }
-        sewing.add_hold(
-            p, find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border, is_seamed));
+        const std::vector<Tie> hold
+            = find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border, is_seamed);
+        sewing.add_hold(p, hold);
+        if (pieces[p].size() <= k_largest_detail && (is_seamed || is_held_by_back(hold, pieces[p])))
+            details.push_back(pieces[p].vertices);
     }
-    return std::move(sewing).take();
+    SewnPieces result = std::move(sewing).take();
+    result.details = std::move(details);
+    return result;
 }
 
 double longest_piece_shift(const GarmentMesh& garment, const Positions& positions)

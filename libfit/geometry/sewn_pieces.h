@@ -36,6 +36,9 @@ struct Tie {
 struct SewnPieces {
     std::vector<Tie> ties;
     PieceCounts counts;
+    /// Vertices of each piece that is a detail, such as a button, a bead or a belt loop: small, held by its back on a
+    /// piece that is none, and in no seam.
+    std::vector<std::vector<int>> details = {};
 };
 
 /// @param rest      welded

@@ -131,6 +131,9 @@ inline constexpr double k_border_edges = 0.05, k_border_share = 0.2;
 /// m, diagonal of the box: what is smaller is no garment, and so belongs to one.
 /// fitted: guess, on the coats of the house data.
 inline constexpr double k_small_piece = 0.25;
+/// m, diagonal of the box: a smaller piece that is held by its back is a detail, which is stiff in the search for rest.
+/// fitted: guess; belt loops and buckles of the wild data have up to 0.07, pockets and flaps 0.1 and more.
+inline constexpr double k_largest_detail = 0.08;
 /// m, from a small piece to what it lies on, and the fraction of its vertices that have to be as near. A sock in a
 /// trouser leg is small, but only its upper part is near.
 /// fitted: guess, on the wild data, where all vertices of all small pieces are.

@@ -6,7 +6,9 @@
 #include "cloth_motion.h"
 #include "fixtures.h"
 #include "friction_anchors.h"
+#include "garmentfit/certificate.h"
 #include "limited_memory.h"
+#include "stiff_details.h"
 #include "tangent_factor.h"
 #include "tuning.h"
 
@@ -247,6 +249,75 @@ TEST(FindRest, LetsASheetWithoutFrictionSlideOff)
     const double before = motion.cloth().col(1).mean();
     motion.find_rest(0, {});
     EXPECT_LT(motion.cloth().col(1).mean(), before - 0.05);
+}
+
+/// A button of 24 by 24 edges of 1 mm on two triangles of cloth, which lies half a millimetre under it.
+struct ButtonOnCloth {
+    TriangleMesh mesh = joined(flat(2, 0.04, Vec3::Zero()), flat(25, 0.001, Vec3(0.008, 5e-4, 0.008)));
+    GarmentMesh rest { mesh.positions, mesh.triangles };
+    SewnPieces sewn = find_sewn_pieces(rest, { mesh.triangles, int(mesh.positions.rows()) });
+    StiffDetails details { sewn, mesh.positions };
+};
+
+TEST(StiffDetails, FollowTheirGround)
+{
+    const ButtonOnCloth cloth;
+    EXPECT_FALSE(cloth.details.contains(0));
+    ASSERT_TRUE(cloth.details.contains(4));
+    const Eigen::Isometry3d motion
+        = Eigen::Translation3d(0.1, 0.2, 0.3) * Eigen::AngleAxisd(2, Vec3(1, 2, -1).normalized());
+    const Positions moved
+        = (cloth.mesh.positions * motion.linear().transpose()).rowwise() + motion.translation().transpose();
+    Positions x = cloth.mesh.positions;
+    x.topRows(4) = moved.topRows(4);
+    const Positions ways = cloth.details.following(x - cloth.mesh.positions, cloth.mesh.positions);
+    EXPECT_LT((cloth.mesh.positions + ways - moved).cwiseAbs().maxCoeff(), 1e-12);
+    cloth.details.follow(x);
+    EXPECT_LT((x - moved).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(StiffDetails, HandDownForcesThatDoTheSameWork)
+{
+    const ButtonOnCloth cloth;
+    const Positions x = cloth.mesh.positions;
+    const Positions forces = Positions::NullaryExpr(
+        x.rows(), 3, [](Eigen::Index v, Eigen::Index k) { return std::sin(double(3 * v + 7 * k)); });
+    Positions on_ground = forces;
+    cloth.details.hand_down(on_ground, x);
+    EXPECT_EQ(on_ground.bottomRows(x.rows() - 4).norm(), 0);
+    for (int v = 0; v < 4; ++v)
+        for (int k = 0; k < 3; ++k) {
+            Positions way = Positions::Zero(x.rows(), 3);
+            way(v, k) = 1e-6;
+            const double work = on_ground.cwiseProduct(way).sum();
+            EXPECT_NEAR(forces.cwiseProduct(cloth.details.following(way, x)).sum() / work, 1, 1e-3) << v << ' ' << k;
+        }
+}
+
+TEST(StiffDetails, HoldNothingInALine)
+{
+    SewnPieces sewn;
+    sewn.details = { { 3, 4, 5 } };
+    sewn.ties = { { 3, { 0, 1, 2 }, { 1, 0, 0 } } };
+    Positions x = Positions::Zero(6, 3);
+    x.col(0) = Eigen::VectorXd::LinSpaced(6, 0, 1);
+    EXPECT_TRUE(StiffDetails(sewn, x).empty());
+    x(2, 1) = 1;
+    EXPECT_FALSE(StiffDetails(sewn, x).empty());
+}
+
+TEST(FindRest, BalancesTheForcesOnClothWithButtons)
+{
+    const TriangleMesh obstacle = ball();
+    TriangleMesh cloth = sheet(k_ball + 0.0035);
+    for (const double x : { -0.13, -0.05, 0.03, 0.11 })  // nearer to the cloth than contact lets them be
+        cloth = joined(cloth, flat(8, 0.002, Vec3(x, k_ball + 0.0037, 0.05)));
+    ClothMotion motion(GarmentMesh { cloth.positions, cloth.triangles }, cloth.positions, obstacle, {});
+    settle(motion, obstacle.positions, 30, {});
+    const auto [residual, out_of_time] = motion.find_rest(0, {});
+    EXPECT_TRUE(residual.is_at_rest()) << residual.mean << ' ' << residual.percentile_99;
+    EXPECT_TRUE(self_crossings({ motion.cloth(), cloth.triangles }).empty());
+    EXPECT_EQ(crossing_count({ motion.cloth(), cloth.triangles }, obstacle), 0);
 }
 
 TEST(FindRest, EndsAtADeadline)

@@ -93,6 +93,17 @@ GarmentMesh tube_of_two(double left, double right)
                         panel(std::numbers::pi + second / 2, 2 * std::numbers::pi - first / 2) });
 }
 
+TEST(SewnPieces, DetailsAreSmallAndSewnToCloth)
+{
+    EXPECT_EQ(sewn(sheet_with_button(0.001)).details.size(), 1u);
+    EXPECT_EQ(sewn(sheet_with_button(0.001)).details.front().size(), 9u);
+    EXPECT_TRUE(sewn(sheet_with_button(0.03)).details.empty()) << "a layer of its own";
+    const TriangleMesh sheet = flat(20, 0.02, Vec3::Zero()), pocket = flat(8, 0.01, Vec3(0.1, 0.001, 0.1));
+    EXPECT_TRUE(sewn(garment_of({ sheet, pocket })).details.empty()) << "7 cm a side bend with the cloth";
+    const TriangleMesh beside = flat(3, 0.02, Vec3(0.1, 0, 0.3805));
+    EXPECT_EQ(sewn(garment_of({ sheet, beside })).details.size(), 1u) << "by a seam";
+}
+
 TEST(SewnPieces, SeamsMayGapeThatAreHalfOfABorder)
 {
     EXPECT_EQ(count_pieces_held(tube_of_two(0.006, 0.006)).seamed, 1);
