@@ -5,6 +5,7 @@
 #include <climits>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -328,12 +329,19 @@ std::vector<int> corners_of(const Body& body, std::size_t face, const std::vecto
     return corners;
 }
 
-void read_faces(Body& body, const Element& element, std::size_t vertices, FanBuilder& fans)
+/// The list of corners; -1 = none.
+int corners_property(const Element& element)
 {
     int indices = property_named(element, "vertex_indices");
     if (indices < 0)
         indices = property_named(element, "vertex_index");
-    if (indices < 0 || !element.properties[indices].count)
+    return indices >= 0 && element.properties[indices].count ? indices : -1;
+}
+
+void read_faces(Body& body, const Element& element, std::size_t vertices, FanBuilder& fans)
+{
+    const int indices = corners_property(element);
+    if (indices < 0)
         body.fail("the faces have no list vertex_indices or vertex_index; export faces with one of them");
     const auto on_list = [&](std::size_t row, std::size_t p, const std::vector<double>& list) {
         if (static_cast<int>(p) == indices)
@@ -397,6 +405,46 @@ constexpr std::array<std::array<const char*, 2>, 4> k_uv_names {
     { { "u", "v" }, { "s", "t" }, { "texture_u", "texture_v" }, { "texcoord_u", "texcoord_v" } }
 };
 
+/// What MeshLab calls the list of texture coordinates of a face: u, v of each corner.
+constexpr std::string_view k_wedge_uvs = "texcoord";
+
+/// No rows where the faces have no such list; NaN at those whose list has another length.
+CornerUvs read_wedge_uvs(const FileBytes& file, const Header& header)
+{
+    const auto face = std::find_if(header.elements.begin(), header.elements.end(),
+                                   [](const Element& element) { return element.name == "face"; });
+    if (face == header.elements.end())
+        return {};
+    const int indices = corners_property(*face), wedges = property_named(*face, k_wedge_uvs);
+    if (indices < 0 || wedges < 0 || !face->properties[wedges].count)
+        return {};
+    Body body(file, header);
+    for (auto before = header.elements.begin(); before != face; ++before)
+        skip(body, *before);
+    std::vector<std::size_t> corners(face->rows);
+    std::vector<std::vector<double>> lists(face->rows);
+    const auto on_list = [&](std::size_t row, std::size_t p, const std::vector<double>& list) {
+        if (int(p) == indices)
+            corners[row] = list.size();
+        else if (int(p) == wedges)
+            lists[row] = list;
+    };
+    walk(
+        body, *face, [](auto...) {}, on_list);
+    std::vector<double> uvs;
+    FanBuilder fans;
+    for (std::size_t row = 0; row < face->rows; ++row) {
+        const bool has_uvs = lists[row].size() == 2 * corners[row];
+        std::vector<int> rows(corners[row], -1);
+        if (has_uvs) {
+            std::iota(rows.begin(), rows.end(), int(uvs.size() / 2));
+            uvs.insert(uvs.end(), lists[row].begin(), lists[row].end());
+        }
+        fans.add(rows);
+    }
+    return corner_uvs(Eigen::Map<const Appearance::Uvs>(uvs.data(), Eigen::Index(uvs.size() / 2), 2), fans.triangles());
+}
+
 struct PlyContent : MeshFile::Content {
     FileBytes file;
     Header header;
@@ -418,7 +466,7 @@ struct PlyContent : MeshFile::Content {
                 uvs.row(i) << values[u][i], values[v][i];
             return garmentfit::corner_uvs(uvs, triangles);
         }
-        return {};
+        return read_wedge_uvs(file, header);
     }
 
     double against_faces() const override { return share_against_faces(normals, triangles, triangles, positions); }

@@ -100,6 +100,22 @@ TEST_F(Look, UvsOfCornersAreThoseOfTheFileInEachFormat)
     EXPECT_EQ(MeshFile::read(folder / "bare.obj").corner_uvs().rows(), 0);
 }
 
+TEST_F(Look, UvsOfFacesInPlyAreThoseOfTheirCorners)
+{
+    const std::string header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                               "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    write_text(folder / "wedges.ply", header + "4 0 1 2 3 8 0 0 1 0 1 1 0 1\n3 0 1 2 0\n");
+    const CornerUvs uvs = MeshFile::read(folder / "wedges.ply").corner_uvs();
+    ASSERT_EQ(uvs.rows(), 3) << "the first face has four corners";
+    CornerUvs expected(2, 6);
+    expected << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
+    EXPECT_EQ(uvs.topRows(2), expected);
+    EXPECT_FALSE(uvs.row(2).array().isFinite().any()) << "an empty list";
+    write_text(folder / "none.ply", header + "4 0 1 2 3 0\n3 0 1 2 0\n");
+    EXPECT_EQ(MeshFile::read(folder / "none.ply").corner_uvs().rows(), 0);
+}
+
 TEST_F(Look, OfObjHasNoMaterialForLooseEdges)
 {
     write_cloth(folder);
