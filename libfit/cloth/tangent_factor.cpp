@@ -22,18 +22,24 @@ Eigen::Matrix3d stiffness_matrix(const SoftConstraint& constraint)
         + (along - constraint.tangent_stiffness) * constraint.normal * constraint.normal.transpose();
 }
 
-std::vector<std::pair<int, int>> ends_of(const std::vector<ClothEnergy::Spring>& springs)
+/// Vertices of a spring, and what is sewn with the corners under it.
+std::vector<std::pair<int, int>> coupled_pairs(const ClothEnergy& energy)
 {
     std::vector<std::pair<int, int>> result;
-    for (const ClothEnergy::Spring& spring : springs)
+    for (const ClothEnergy::Spring& spring : energy.springs())
         result.emplace_back(spring.i, spring.j);
+    for (const ClothEnergy::FramedSum& sum : energy.framed_sums())
+        if (sum.kind == ClothEnergy::FramedSum::Kind::tie)
+            for (int k = 0; k < 3; ++k)
+                if (sum.coefficients[k] != 0)
+                    result.emplace_back(sum.v[k], sum.v[3]);
     return result;
 }
 
 }  // namespace
 
 TangentFactor::TangentFactor(const ClothEnergy& energy) :
-    energy_(energy), matrix_(int(energy.masses().size()), ends_of(energy.springs()))
+    energy_(energy), matrix_(int(energy.masses().size()), coupled_pairs(energy))
 {
     for (const ClothEnergy::FramedSum& sum : energy_.framed_sums())
         add_outer(sum.v, sum.coefficients, sum.stiffness * Eigen::Matrix3d::Identity());

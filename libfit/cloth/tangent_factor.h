@@ -6,8 +6,8 @@
 // Method  springs keep their stiffness along themselves and, where they are stretched, their tension across; the
 //         pressure of compressed ones, which would make the matrix indefinite, is left out [choi_2002_buckling]. Hinges
 //         and ties act with their frames held, contacts and strain limits as the linear constraints that they are. What
-//         couples two vertices without a common edge is moved to the diagonal, which makes the form larger: it stays
-//         definite, and its pattern stays that of the mesh. In single precision: it is a preconditioner.
+//         couples two vertices without a common edge or tie is moved to the diagonal, which makes the form larger: it stays
+//         definite, and its pattern stays that of the garment. In single precision: it is a preconditioner.
 // Units   metres, kilograms, seconds. Positions, forces and displacements are n x 3.
 
 #include <vector>

@@ -64,6 +64,23 @@ TEST(TangentFactor, KnowsHowTheForcesOfSpringsFallAlongThem)
     EXPECT_LT((factor.solve(forces) - way).norm() / way.norm(), 0.05);
 }
 
+TEST(TangentFactor, KnowsThatWhatIsSewnMovesAlong)
+{
+    const TriangleMesh two = joined(sheet(0), flat(5, 0.02, Vec3(-0.05, 0.001, -0.05)));
+    const int n = int(two.positions.rows());
+    const GarmentMesh rest { two.positions, two.triangles };
+    const MeshTopology topology(two.triangles, n);
+    ClothEnergy energy(rest, topology, {}, ClothOptions(), find_sewn_pieces(rest, topology).ties);
+    energy.set_time_step(0.1);
+    TangentFactor factor(energy);
+    factor.factorise(two.positions, {});
+    Positions way = Positions::Zero(n, 3), forces = way;
+    way.col(1).setConstant(1e-3);  // which only inertia is against
+    for (int v = 0; v < n; ++v)
+        forces.row(v) = energy.masses()[v] * energy.inertia() * way.row(v);
+    EXPECT_LT((factor.solve(forces) - way).norm() / way.norm(), 0.05);
+}
+
 TEST(TangentFactor, HoldsWhatAConstraintHolds)
 {
     const FreeCloth cloth(0.1);
