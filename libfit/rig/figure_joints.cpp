@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "garmentfit/error.h"
+#include "leg_profile.h"
 #include "spine_line.h"
 #include "tuning.h"
 
@@ -178,6 +179,8 @@ BodyJoints label_figure(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     joints.skull_base = joints.neck_base + (k_skull_base_share - k_neck_base_share) * (joints.crown - joints.neck_base);
     joints.mid_neck = 0.5 * (joints.neck_base + joints.skull_base);
     place_back(spine, joints);
+    if (!figure.graph.has_covered_legs)
+        joints.legs_front = front_of_legs(whole, slicer, joints);
     return joints;
 }
 

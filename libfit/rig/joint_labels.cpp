@@ -4,6 +4,7 @@
 #include <string>
 
 #include "garmentfit/error.h"
+#include "leg_profile.h"
 #include "spine_line.h"
 #include "tuning.h"
 
@@ -79,6 +80,21 @@ void place_neck(const Centreline& spine, bool headless, BodyJoints& joints)
 
 }  // namespace
 
+TrunkAxes trunk_axes(const BodyJoints& joints)
+{
+    TrunkAxes axes;
+    axes.up = (joints.neck_base - joints.pelvis).normalized();
+    const auto sideways = [&](const std::array<LimbJoints, 2>& limbs) -> Vec3 {
+        const Vec3 apart = limbs[0].root - limbs[1].root;
+        return (apart - apart.dot(axes.up) * axes.up).normalized();
+    };
+    const Vec3 hips = sideways(joints.legs), shoulders = sideways(joints.arms);
+    axes.same_order = hips.dot(shoulders) > 0;
+    const Vec3 across = (hips + (axes.same_order ? 1 : -1) * shoulders).normalized();  // from leg 1 to leg 0
+    axes.front = across.cross(axes.up).normalized();
+    return axes;
+}
+
 void require_hands_or_feet(const BodyJoints& joints)
 {
     int found = 0;
@@ -108,6 +124,7 @@ BodyJoints label_joints(const TriangleMesh& proxy, const CurveSkeleton& skeleton
     adjust_arms(joints.arms, joints.legs, graph);
     place_neck(spine, graph.headless, joints);
     place_back(spine, joints);
+    joints.legs_front = front_of_legs(surface, slicer, joints);
     return joints;
 }
 

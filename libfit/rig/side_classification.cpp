@@ -45,7 +45,7 @@ void add_leg_cues(const LimbJoints& leg, const Vec3& up, double size, std::vecto
 {
     const Vec3 shin = (leg.end - leg.middle).normalized(), thigh = (leg.middle - leg.root).normalized();
     const Vec3 toes = reject(leg.tip - leg.end, shin);
-    const double stick_out = (toes.norm() / size - k_foot_stump) / k_foot_stump;
+    const double stick_out = (toes.norm() / size - k_foot_stump) / (k_foot_whole - k_foot_stump);
     cues.push_back({ transport_up_leg(leg, toes.normalized(), true, -up), std::clamp(stick_out, 0.0, 1.0) });
     const Vec3 knee = flexion(leg);
     const Vec3 kneecap = transport_up_leg(leg, reject(knee, thigh).normalized(), false, -up);
@@ -69,6 +69,7 @@ std::vector<Cue> collect_cues(const BodyJoints& joints, const Vec3& up)
     }
     const Vec3 face = reject(joints.head_off_neck, up);
     cues.push_back({ face.normalized(), std::min(k_most_head_weight, k_head_weight * face.norm() / joints.size) });
+    cues.push_back({ joints.legs_front.normalized(), k_profile_weight * joints.legs_front.norm() });
     return cues;
 }
 
@@ -77,12 +78,8 @@ std::vector<Cue> collect_cues(const BodyJoints& joints, const Vec3& up)
 Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_front)
 {
     Sides sides;
-    sides.up = (joints.neck_base - joints.pelvis).normalized();
-    const Vec3 hips = reject(joints.legs[0].root - joints.legs[1].root, sides.up).normalized();
-    const Vec3 shoulders = reject(joints.arms[0].root - joints.arms[1].root, sides.up).normalized();
-    const bool same_order = hips.dot(shoulders) > 0;
-    const Vec3 across = (hips + (same_order ? 1 : -1) * shoulders).normalized();  // from leg 1 to leg 0
-    const Vec3 front = across.cross(sides.up).normalized();  // if leg 0 is the left one
+    const TrunkAxes axes = trunk_axes(joints);
+    sides.up = axes.up;
 
     const std::vector<Cue> cues
         = known_front ? std::vector<Cue> { { known_front->normalized(), 1 } } : collect_cues(joints, sides.up);
@@ -90,14 +87,14 @@ Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_
     for (const Cue& cue : cues) {
         if (!cue.forward.allFinite())
             continue;  // a cue without direction
-        evidence += cue.weight * cue.forward.dot(front);
+        evidence += cue.weight * cue.forward.dot(axes.front);
         weights += cue.weight;
     }
     if (weights < k_no_evidence)
-        evidence = front.z();
+        evidence = axes.front.z();
     sides.left_leg = evidence >= 0 ? 0 : 1;
-    sides.left_arm = same_order ? sides.left_leg : 1 - sides.left_leg;
-    sides.front = evidence >= 0 ? front : Vec3(-front);
+    sides.left_arm = axes.same_order ? sides.left_leg : 1 - sides.left_leg;
+    sides.front = evidence >= 0 ? axes.front : Vec3(-axes.front);
     sides.confidence = weights < k_no_evidence ? 0 : std::abs(evidence) / std::max(weights, k_whole_evidence);
     return sides;
 }

@@ -84,4 +84,30 @@ TEST(SideClassification, ElbowsThatHardlyBendAreLittleEvidence)
     EXPECT_GT(classify_sides(without_feet(60, 0)).confidence, 0.2);
 }
 
+TEST(SideClassification, TheLegsProfileDecidesWhereNothingElseShows)
+{
+    for (const double z : { 0.8, -0.8 }) {
+        BodyJoints joints = without_feet(0, 0);
+        joints.legs_front = Vec3(0, 0, z);
+        const Sides sides = classify_sides(joints);
+        EXPECT_GT(sides.front.z() * z, 0.7);
+        EXPECT_NEAR(sides.confidence, 0.8, 0.05);
+    }
+}
+
+TEST(SideClassification, FeetOutweighTheLegsProfile)
+{
+    BodyJoints joints = joints_of(fixtures::person_skeleton({}), 0);
+    joints.legs_front = Vec3(0, 0, -1);
+    EXPECT_GT(classify_sides(joints).front.z(), 0.95);
+}
+
+TEST(SideClassification, StumpsOfShinsAreNoFeet)
+{
+    BodyJoints joints = without_feet(0, 0);
+    for (LimbJoints& leg : joints.legs)
+        leg.tip = leg.end + Vec3(0, -0.02, -0.04 * joints.size);
+    EXPECT_LT(classify_sides(joints).confidence, 0.2);
+}
+
 }  // namespace
