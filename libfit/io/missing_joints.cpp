@@ -18,15 +18,21 @@ int named_from(const FileSkin& skin, const NamedJoints& joints, int row)
     return row;
 }
 
-/// What mostly hangs on a joint, or on those below it that have no names.
+/// What mostly hangs on a joint, on those below it that have no names, or on others of its kind and side, such as the
+/// volumes of Second Life.
 std::vector<Vec3> skin_of(const FileSkin& skin, const NamedJoints& joints, int row)
 {
+    const auto is_own = [&](int joint) {
+        const int named = named_from(skin, joints, joint);
+        return named >= 0 && joints[std::size_t(named)]->kind == joints[std::size_t(row)]->kind
+            && joints[std::size_t(named)]->side == joints[std::size_t(row)]->side;
+    };
     std::vector<Vec3> points;
     for (std::size_t v = 0; v < skin.hangs.size(); ++v) {
         double own = 0, all = 0;
         for (const auto& [joint, weight] : skin.hangs[v]) {
             all += weight;
-            if (named_from(skin, joints, joint) == row)
+            if (is_own(joint))
                 own += weight;
         }
         if (own > 0.5 * all)

@@ -172,7 +172,8 @@ public:
 
     std::vector<std::optional<NamedJoint>> read()
     {
-        if (count(JointKind::shoulder) > 2)  // derived: a rig has two shoulders, so some are clavicles
+        // derived: a rig has two shoulders, so some are clavicles, unless these have names of their own
+        if (count(JointKind::shoulder) > 2 && count(JointKind::clavicle) == 0)
             rename(JointKind::shoulder, "shoulder", JointKind::clavicle);
         if (count(JointKind::hip) == 0)  // "Left leg" above "Left knee", or the only bone of the leg
             rename(JointKind::knee, "leg", JointKind::hip);

@@ -340,6 +340,45 @@ TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
     EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
 }
 
+/// Gives a joint a parent at its place, whose name it doubles, as the volumes of Second Life do.
+void double_joint(json& document, const std::string& name, const std::string& double_name)
+{
+    const int node = node_called(document, name);
+    const int parent = int(document["nodes"].size());
+    for (json& other : document["nodes"])
+        if (other.contains("children"))
+            for (json& child : other["children"])
+                if (child == node)
+                    child = parent;
+    json above = document["nodes"][std::size_t(node)];
+    above["children"] = { node };
+    document["nodes"].push_back(above);
+    json& below = document["nodes"][std::size_t(node)];
+    for (const char* part : { "translation", "rotation", "scale", "matrix" })
+        below.erase(part);
+    below["name"] = double_name;
+}
+
+TEST_F(SkinnedGltf, PlacesWhatTheFileLacksWhereTheSkinHangsOnVolumes)
+{
+    const Rig near = fixtures::nearest_rig(person);
+    write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
+    save("rigged.glb", edited(load(glb), [](json& document) {
+             for (const char* end : k_ends) {
+                 take_out(document, end);
+                 document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
+             }
+             double_joint(document, "ltibia", "L_LOWER_LEG");
+             double_joint(document, "rtibia", "R_LOWER_LEG");
+             double_joint(document, "lradius", "L_LOWER_ARM");
+             double_joint(document, "rradius", "R_LOWER_ARM");
+         }));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_FALSE(read.by_tree);
+    for (const int b : { ltibia, rtibia, lradius, rradius })
+        EXPECT_LT((read.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 0.06) << bone_name(b);
+}
+
 constexpr const char* k_limb_ends[]
     = { "lhand", "lhand_tip", "rhand", "rhand_tip", "lfoot", "lfoot_tip", "rfoot", "rfoot_tip" };
 constexpr std::pair<int, const char*> k_lower_limbs[]
