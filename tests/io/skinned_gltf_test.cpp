@@ -323,16 +323,20 @@ TEST_F(SkinnedGltf, TakesHandsFeetAndHeadWithoutSkinFromTheNodesBelowJoints)
         EXPECT_LT((read.skeleton.tips[e] - rig.skeleton.tips[e]).norm(), 1e-5) << e;
 }
 
+/// Hands, feet and the head have neither skin nor names.
+void forget_ends(json& document)
+{
+    for (const char* end : k_ends) {
+        take_out(document, end);
+        document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
+    }
+}
+
 TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
 {
     const Rig near = fixtures::nearest_rig(person);
     write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
-    save("rigged.glb", edited(load(glb), [](json& document) {
-             for (const char* end : k_ends) {
-                 take_out(document, end);
-                 document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
-             }
-         }));
+    save("rigged.glb", edited(load(glb), forget_ends));
     const ForeignRig read = read_skinned_gltf(glb);
     EXPECT_FALSE(read.by_tree);
     for (const int b : { ltibia, rtibia, lradius, rradius, upperneck })
@@ -364,10 +368,7 @@ TEST_F(SkinnedGltf, PlacesWhatTheFileLacksWhereTheSkinHangsOnVolumes)
     const Rig near = fixtures::nearest_rig(person);
     write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
     save("rigged.glb", edited(load(glb), [](json& document) {
-             for (const char* end : k_ends) {
-                 take_out(document, end);
-                 document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
-             }
+             forget_ends(document);
              double_joint(document, "ltibia", "L_LOWER_LEG");
              double_joint(document, "rtibia", "R_LOWER_LEG");
              double_joint(document, "lradius", "L_LOWER_ARM");
