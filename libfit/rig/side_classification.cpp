@@ -90,12 +90,14 @@ Sides classify_sides(const BodyJoints& joints, const std::optional<Vec3>& known_
         evidence += cue.weight * cue.forward.dot(axes.front);
         weights += cue.weight;
     }
-    if (weights < k_no_evidence)
+    sides.confidence = std::abs(evidence) / std::max(weights, k_whole_evidence);
+    if (sides.confidence < k_no_confidence) {
         evidence = axes.front.z();
+        sides.confidence = 0;
+    }
     sides.left_leg = evidence >= 0 ? 0 : 1;
     sides.left_arm = axes.same_order ? sides.left_leg : 1 - sides.left_leg;
     sides.front = evidence >= 0 ? axes.front : Vec3(-axes.front);
-    sides.confidence = weights < k_no_evidence ? 0 : std::abs(evidence) / std::max(weights, k_whole_evidence);
     return sides;
 }
 

@@ -76,6 +76,17 @@ TEST(SideClassification, WithoutEvidenceTheFrontIsZ)
     }
 }
 
+TEST(SideClassification, HardlyAnyEvidenceIsNone)
+{
+    BodyJoints joints = without_feet(0, 0);
+    joints.legs_front = Vec3(0, 0, -0.03);
+    const Sides unknown = classify_sides(joints);
+    EXPECT_GT(unknown.front.z(), 0.95);
+    EXPECT_EQ(unknown.confidence, 0);
+    joints.legs_front = Vec3(0, 0, -0.2);
+    EXPECT_LT(classify_sides(joints).front.z(), -0.95);
+}
+
 TEST(SideClassification, ElbowsThatHardlyBendAreLittleEvidence)
 {
     const Sides sides = classify_sides(without_feet(5, 0));
