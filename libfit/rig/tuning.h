@@ -190,7 +190,7 @@ inline constexpr double k_profile_weight = 1;
 /// man whose feet were hidden and whose arms are held back a little.
 inline constexpr double k_whole_evidence = 1;
 /// Confidence below which nothing shows the front, or what does contradicts itself: it is +z then, as of 44 of 50
-/// strangers' files. fitted: guess; of the two strangers' figures known to be below, both face +z
+/// strangers' files. fitted: guess; of two strangers' figures known to be below, one faces +z, one +x
 inline constexpr double k_no_confidence = 0.05;
 
 // ---- profile of the legs (leg_profile.cpp) -------------------------------------------------------------------------
