@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "garment_scale.h"
+#include "garmentfit/body_place.h"
 #include "garmentfit/error.h"
 #include "garmentfit/filters/schema.h"
 #include "garmentfit/garment_size.h"
@@ -158,6 +159,34 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
     }
 }
 
+std::string unit_text(const Frame& frame)
+{
+    return std::string(name_of_unit(frame.metres_per_unit).value_or("no unit"));
+}
+
+/// The body's frame, or one of its axes and another unit, in which the garment lies round the body. Inches and feet are
+/// too near to others: in them a garment elsewhere may come to lie at a limb.
+std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& triangles, const Frame& body,
+                                   const TriangleMesh& skin)
+{
+    for (const double metres_per_unit : { body.metres_per_unit, 1.0, 0.1, 0.01, 0.001 }) {
+        Frame frame = body;
+        frame.metres_per_unit = metres_per_unit;
+        if (lies_on_body({ frame.to_metres(positions), triangles }, skin))
+            return frame;
+    }
+    return {};
+}
+
+std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& triangles, const Frame& body,
+                                   const GarmentChoice& choice, const TriangleMesh& skin)
+{
+    if (choice.as_placed)
+        return body;
+    const bool is_free = choice.unit == "auto" && choice.up == "auto" && choice.scale == 1;
+    return is_free ? frame_on_body(positions, triangles, body, skin) : std::nullopt;
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& unit_choices()
@@ -183,17 +212,20 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
 }
 
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
-                         const GarmentChoice& choice, std::optional<double> stature)
+                         const GarmentChoice& choice, std::optional<double> stature, const TriangleMesh& skin)
 {
     const GarmentSizes sizes { choice.scale };
     describe(sizes, CheckRanges());
     FrameGuess guess = guess_garment_frame(positions, triangles, in_named_unit(body));
-    if (choice.as_placed)
-        guess = { body, 1, 1, "the garment lies on the body in its file, in the same units and axes" };
+    const std::optional<Frame> on_body = frame_on_body(positions, triangles, body, choice, skin);
+    if (on_body)
+        guess = { *on_body, 1, 1,
+                  "the garment lies on the body in its file, in the same axes, and in "
+                      + (on_body->metres_per_unit == body.metres_per_unit ? "the same unit" : unit_text(*on_body)) };
     else if (choice.up == "auto")
         choose_up(guess, positions, triangles, body);
     guess = apply_choice(guess, choice);
-    if (stature && choice.unit == "auto" && choice.scale == 1 && !choice.as_placed)
+    if (stature && choice.unit == "auto" && choice.scale == 1 && !on_body)
         scale_to_body(guess, positions, triangles, body, *stature);
     guess.frame.metres_per_unit *= choice.scale;
     if (choice.scale != 1)

@@ -125,6 +125,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[profile_evidence] = held * profile_of(cloth.patches(), worn, level);
     e[in_place_evidence] = in_place != nullptr;
     e[in_place_inside_evidence] = in_place ? std::min(in_place->inside_share, k_max_inside_evidence) / k_tenth : 0;
+    e[in_place_near_evidence] = in_place ? std::max(0.0, in_place->near_share - k_near_by_chance) / k_tenth : 0;
     e[near_input_evidence] = std::exp(-distance_from_input(context, given, leg));
     return e;
 }
@@ -186,6 +187,7 @@ const std::array<std::string_view, evidence_count>& evidence_names()
         "near_input",
         "in_place",
         "in_place_inside",
+        "in_place_near",
     };
     return names;
 }

@@ -14,6 +14,7 @@
 
 #include "coverage.h"
 #include "fit_energy.h"
+#include "place_of_garment.h"
 
 namespace garmentfit {
 
@@ -76,6 +77,8 @@ enum Evidence {
     // As it lies: 0 unless the posture is the input pose itself
     in_place_evidence,  ///< 1
     in_place_inside_evidence,  ///< share of the garment's vertices inside the body, at most 0.2, as a multiple of 0.1
+    in_place_near_evidence,  ///< share of the cloth near the skin, above k_near_by_chance, as a multiple of 0.1; 0 where
+    ///< the file says no place, or the bones inside tell how the garment is worn
     evidence_count
 };
 /// Evidence that tells the facings of one coverage apart, and nothing else (log_odds).
@@ -93,12 +96,6 @@ struct Wearing {
     Vec3 front;  ///< unit, of the body; in the garment as it was given
     int rank = 0;  ///< among those that face alike: 0 for the one with most evidence
     WearEvidence evidence {};
-};
-
-/// Where the input body may stand in the garment's file: where it is, or on the same floor.
-struct BodyPlace {
-    Vec3 shift;  ///< m, of the body
-    double inside_share;  ///< of the garment's vertices in it
 };
 
 /// A garment held in one way, with one coverage.

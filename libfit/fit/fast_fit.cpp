@@ -205,6 +205,8 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool m
     result.up = hypothesis.up();
     result.front = hypothesis.wearing.front;
     result.covered = bones_inside(energy, fitted, k_mostly_inside);
+    if (result.covered.empty())  // straps and a band: it lies round the body all the same
+        result.covered = inside;
     if (leaves_legs_empty(attempt, result.covered))
         throw refusal_of_empty_legs();
     result.pose = pose_of(attempt.rig().skeleton, rotate(fitted, attempt.garment().turn.conjugate()));
@@ -219,8 +221,9 @@ FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool m
 {
     if (!hypothesis.is_possible())
         throw refusal_of(hypothesis, options);
-    return finish(hypothesis, options, moves,
-                  bones_inside(hypothesis.attempt->energy(), hypothesis.wearing.posture, k_partly_inside));
+    const std::vector<Bone> inside
+        = bones_inside(hypothesis.attempt->energy(), hypothesis.wearing.posture, k_partly_inside);
+    return finish(hypothesis, options, moves, inside.empty() ? hypothesis.attempt->coverage().bones : inside);
 }
 
 // The most probable hypothesis in which a body fits, FitOptions::skipped of those left out.

@@ -9,15 +9,13 @@
 #include "best_start.h"
 #include "outline.h"
 #include "outward_cloth.h"
+#include "place_of_garment.h"
 #include "posture_moves.h"
 #include "tuning.h"
 #include "way_up.h"
-#include "winding_number.h"
 
 namespace garmentfit {
 namespace {
-
-constexpr Eigen::Index k_vertices_looked_at = 1000;  // derived: a share of 1 % is known to a third of it
 
 std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& way, const std::optional<Vec3>& front)
 {
@@ -93,13 +91,34 @@ bool lies_round_body(const Attempt& attempt, const BodyPlace& place, const FitOp
 {
     const Posture posture = input_posture(attempt.energy().rest(), place.shift);
     return (options.as_placed || place.inside_share <= k_most_inside_body) && attempt.garment().turn.w() == 1
-        && !bones_inside(attempt.energy(), posture, k_partly_inside).empty();
+        && (place.near_share >= k_plainly_near || !bones_inside(attempt.energy(), posture, k_partly_inside).empty());
 }
 
-Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garment& given, const FitOptions& options)
+bool has_room(const Attempt& attempt, const Posture& posture)
+{
+    const FitEnergy& energy = attempt.energy();
+    return 2 * bones_inside(energy, posture, k_mostly_inside).size() >= attempt.coverage().bones.size()
+        && energy.clearance_share(posture) >= k_min_clearance_share;
+}
+
+// Cloth near the skin says how a garment is worn that has no room for most bones of any coverage where it lies, such as
+// straps and bikinis. Of others the bones say it: a skirt that is turned round is near the skin, too.
+std::vector<BodyPlace> without_needless_evidence(std::vector<BodyPlace> places,
+                                                 const std::vector<std::shared_ptr<const Attempt>>& attempts)
+{
+    for (BodyPlace& place : places)
+        if (std::any_of(attempts.begin(), attempts.end(), [&](const std::shared_ptr<const Attempt>& attempt) {
+                return has_room(*attempt, input_posture(attempt->energy().rest(), place.shift));
+            }))
+            place.near_share = 0;
+    return places;
+}
+
+Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garment& given,
+                      const std::vector<BodyPlace>& places, const FitOptions& options)
 {
     Search search { attempt, find_rough_starts(attempt->energy(), facings(*attempt, options)), {}, {} };
-    for (const BodyPlace& place : given.places)
+    for (const BodyPlace& place : places)
         if (lies_round_body(*attempt, place, options))
             search.in_place.push_back(place);
     search.wearings = wearings_of(search, search.rough, given, options);
@@ -109,9 +128,13 @@ Search search_roughly(const std::shared_ptr<const Attempt>& attempt, const Garme
 std::vector<Search> search_roughly(const Rig& rig, const Garment& given, const WayUp& way, const FitOptions& options)
 {
     const std::shared_ptr<const HeldGarment> held = hold(given.held, way, options.front);
-    std::vector<Search> searches;
+    std::vector<std::shared_ptr<const Attempt>> attempts;
     for (const Coverage& coverage : possible_coverages(options.type, held->openings))
-        searches.push_back(search_roughly(std::make_shared<const Attempt>(rig, held, coverage), given, options));
+        attempts.push_back(std::make_shared<const Attempt>(rig, held, coverage));
+    const std::vector<BodyPlace> places = without_needless_evidence(given.places, attempts);
+    std::vector<Search> searches;
+    for (const std::shared_ptr<const Attempt>& attempt : attempts)
+        searches.push_back(search_roughly(attempt, given, places, options));
     return searches;
 }
 
@@ -197,27 +220,11 @@ void sort_by_probability(std::vector<Hypothesis>& hypotheses)
     });
 }
 
-// Of some vertices, evenly spread over the list.
-double inside_share(const Positions& garment, const WindingNumber& body, const Vec3& shift)
+// Whatever its openings and straps leave bare.
+bool lies_plainly_round(const Wearing& wearing)
 {
-    const Eigen::Index step = std::max<Eigen::Index>(1, garment.rows() / k_vertices_looked_at);
-    int inside = 0, count = 0;
-    for (Eigen::Index v = 0; v < garment.rows(); v += step, ++count)
-        inside += body(garment.row(v) - shift.transpose()) > 0.5;
-    return double(inside) / std::max(count, 1);
-}
-
-// Files of avatars and their clothes have the floor or the pelvis at the origin: where body and garment do not come
-// from one file, one may have this and the other one that.
-std::vector<Vec3> body_shifts(const Rig& rig, const Positions& body)
-{
-    std::vector<Vec3> shifts { Vec3::Zero() };
-    const double soles = body.col(1).minCoeff(), pelvis = rig.skeleton.root.y(),
-                 least = k_least_shift * (body.col(1).maxCoeff() - soles);
-    for (const double height : { soles, pelvis })
-        if (std::abs(height) > least)
-            shifts.push_back({ 0, -height, 0 });
-    return shifts;
+    return wearing.is_in_place
+        && wearing.evidence[in_place_near_evidence] * k_tenth + k_near_by_chance >= k_plainly_near;
 }
 
 Garment measure(const Rig& rig, const TriangleMesh& body, const TriangleMesh& outward, const FitOptions& options)
@@ -228,10 +235,11 @@ Garment measure(const Rig& rig, const TriangleMesh& body, const TriangleMesh& ou
     given.held.openings = openings_of(outward);
     if (body.positions.rows() == 0)
         return given;
-    const WindingNumber winding(body);
-    for (const Vec3& shift : body_shifts(rig, body.positions))
+    const BodySurface surface(body);
+    const Positions corners = spread_corners(outward);
+    for (const Vec3& shift : body_shifts(body.positions, rig.skeleton.root.y()))
         if (shift.isZero() || !options.as_placed)
-            given.places.push_back({ shift, inside_share(outward.positions, winding, shift) });
+            given.places.push_back(surface.place_of(corners, shift, options.as_placed));
     return given;
 }
 
@@ -248,8 +256,9 @@ Attempt::Attempt(const Rig& rig, std::shared_ptr<const HeldGarment> garment, con
 bool Hypothesis::is_possible(int max_crossing) const
 {
     const FitEnergy& energy = attempt->energy();
-    return 2 * bones_inside(energy, wearing.posture, k_mostly_inside).size() >= attempt->coverage().bones.size()
-        && energy.clearance_share(wearing.posture) >= k_min_clearance_share
+    if (lies_plainly_round(wearing))
+        return true;
+    return has_room(*attempt, wearing.posture)
         && (wearing.is_in_place || energy.bones_through_cloth(wearing.posture) <= max_crossing);
 }
 

@@ -235,7 +235,7 @@ void add_garment(Session& session, const fs::path& path, GarmentType type, const
     require_no_body(garment.file);
     try {
         garment.frame = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame,
-                                      choice, stature_of(*session.scene.body));
+                                      choice, stature_of(*session.scene.body), session.scene.body->surface);
     } catch (const InvalidInput& error) {
         throw InvalidInput(error.code(), garment.name() + ": " + error.what());
     }

@@ -54,8 +54,8 @@ void put_on_garments(Fitting& fitting, const Choice& choice, Report& report)
             const TriangleMesh mesh = mesh_of(*choice.garments[i]);
             const GarmentChoice garment { choice.garment_frame, choice.parameters.garment_sizes.scale,
                                           choice.parameters.fit.as_placed, choice.garment_fronts[i] };
-            const FrameGuess guess
-                = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment, stature_of(*scene.body));
+            const FrameGuess guess = garment_frame(mesh.positions, mesh.triangles, fitting.body_frame, garment,
+                                                   stature_of(*scene.body), scene.body->surface);
             scene.garments.push_back(input_of(*choice.garments[i], guess.frame, choice.types[i], choice.fabrics[i]));
             scene.garments.back().front = front_of_garment(guess.frame, garment.front);
             fitting.garment_names.push_back(name_of(*choice.garments[i]));

@@ -160,8 +160,9 @@ WornGarment worn_garment(const Choice& choice, const Fitting& fitting, const Tri
                            name_of(*choice.worn) + " has " + std::to_string(worn.positions.rows()) + " vertices, "
                                + name_of(given) + " has " + std::to_string(rest.positions.rows())
                                + "; choose the same garment as given and as worn");
-    const Frame rest_frame
-        = garment_frame(rest.positions, rest.triangles, fitting.body_frame, {}, stature_of(*fitting.scene.body)).frame;
+    const Frame rest_frame = garment_frame(rest.positions, rest.triangles, fitting.body_frame, {},
+                                           stature_of(*fitting.scene.body), fitting.scene.body->surface)
+                                 .frame;
     const GarmentMesh garment
         = with_name(given, [&] { return make_garment(rest_frame.to_metres(rest.positions), rest.triangles); });
     const Positions positions = fitting.body_frame.to_metres(worn.positions);

@@ -132,7 +132,8 @@ Progress progress_to(const nb::object& progress)
 Frame guessed_frame(PythonScene& scene, const Positions& in_file, const Triangles& triangles,
                     const GarmentChoice& choice, const std::string& name)
 {
-    const FrameGuess guess = garment_frame(in_file, triangles, scene.body_frame, choice, stature_of(*scene.scene.body));
+    const FrameGuess guess = garment_frame(in_file, triangles, scene.body_frame, choice, stature_of(*scene.scene.body),
+                                           scene.scene.body->surface);
     for (const std::string& line : warnings_about_frame(name, guess, "garment_", set_by_name))
         scene.frame_warnings.push_back(line);
     return guess.frame;

@@ -95,6 +95,23 @@ TEST(FrameChoice, OfAGarmentOnItsBodyIsThatOfTheBody)
     EXPECT_EQ(garment_frame(person().positions, person().triangles, odd, in_cm).frame.metres_per_unit, 0.01);
 }
 
+// A band round the chest is flat: by its shape alone it hangs along another axis, and by its widths on somebody smaller.
+TEST(FrameChoice, OfAGarmentThatLiesRoundTheBodyIsThatOfTheBody)
+{
+    const Person person = capsule_person({ .arm_angle = 45 });
+    TriangleMesh band = garment_round(
+        person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 1.22 && p.y() < 1.34 && std::abs(p.x()) < 0.25; });
+    const Frame decimetres { 0.1 };
+    band.positions *= 10;
+    const FrameGuess guess = garment_frame(band.positions, band.triangles, decimetres, {}, 1.7, person.mesh);
+    EXPECT_EQ(guess.frame.metres_per_unit, 0.1) << guess.why;
+    EXPECT_EQ(guess.frame.up, Vec3::UnitY()) << guess.why;
+    EXPECT_EQ(guess.scale, 1) << guess.why;
+    const GarmentChoice in_cm { { "cm", "auto" } };
+    EXPECT_EQ(garment_frame(band.positions, band.triangles, decimetres, in_cm, 1.7, person.mesh).frame.metres_per_unit,
+              0.01);
+}
+
 TEST(FrameChoice, TurnsTheFrontOfAGarmentWithItsAxes)
 {
     const Frame up_is_z { 1, Vec3::UnitZ() };

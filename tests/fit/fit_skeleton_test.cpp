@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -422,6 +423,21 @@ TEST(FitSkeleton, AsPlacedRefusesAGarmentThatLiesElsewhere)
     garment.positions.rowwise() += Vec3(3, 0, 0).transpose();
     expect_invalid([&] { fit_skeleton(rig, person.mesh, garment, as_placed); }, "does not lie round the body");
     expect_invalid([&] { fit_skeleton(rig, garment, as_placed); }, "give the body");
+}
+
+// Its openings could be those of a skirt, a top, or either upside down.
+TEST(FitSkeleton, ABandIsWornWhereItLies)
+{
+    const Person person = capsule_person({ .arm_angle = 45 });
+    const Rig rig = simple_rig(person);
+    for (const auto& [low, high, bone] : { std::tuple(1.22, 1.34, upperback), std::tuple(0.82, 0.94, lhipjoint) }) {
+        const TriangleMesh band = garment_round(person.skeleton, 0.02, [&](const Vec3& p) {
+            return p.y() > low && p.y() < high && std::abs(p.x()) < 0.25;
+        });
+        const FitResult result = fit_skeleton(rig, person.mesh, make_garment(band.positions, band.triangles));
+        EXPECT_EQ(largest_difference(pose_skeleton(rig.skeleton, result.pose), rig.skeleton), 0) << low;
+        EXPECT_NE(std::find(result.covered.begin(), result.covered.end(), bone), result.covered.end()) << low;
+    }
 }
 
 TEST(FitSkeleton, AGivenFrontIsTheFront)

@@ -41,8 +41,10 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
 /// taken to be in the nearest known unit. A garment whose parts fit the body in no unit is scaled until they do, where
 /// the user gives neither unit nor scale. @throws InvalidInput.
 /// @param stature  of the body, m (body_scale.h); without it, garments are not scaled
+/// @param skin  of the body, m; a garment that lies round it has its frame. Without it, its place says nothing
 FrameGuess garment_frame(const Positions& positions, const Triangles& triangles, const Frame& body,
-                         const GarmentChoice& choice = {}, std::optional<double> stature = {});
+                         const GarmentChoice& choice = {}, std::optional<double> stature = {},
+                         const TriangleMesh& skin = {});
 
 /// The axis of a file as a direction in metres with +y up; none for "auto". @throws InvalidInput.
 std::optional<Vec3> front_of_body(const Frame& frame, const std::string& axis);
