@@ -73,7 +73,7 @@ bool lies_on_body(const TriangleMesh& garment, const TriangleMesh& body)
     const std::vector<Vec3> shifts = body_shifts(body.positions, pelvis);
     return std::any_of(shifts.begin(), shifts.end(), [&](const Vec3& shift) {
         const BodyPlace place = surface.place_of(corners, shift, false);
-        return place.near_share >= k_plainly_near && place.inside_share <= k_most_inside_body;
+        return place.near_share >= k_surely_near && place.inside_share <= k_most_inside_body;
     });
 }
 

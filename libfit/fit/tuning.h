@@ -121,6 +121,9 @@ inline constexpr double k_near_skin = 0.04;
 inline constexpr double k_near_by_chance = 0.5;
 /// Of a garment's vertices: it lies round the body, whatever its openings and straps leave bare. guess
 inline constexpr double k_plainly_near = 0.8;
+/// Likewise, where its unit and axes are read from that: .97 and more for a camisole, both parts of a bikini and a suit
+/// on two women; trousers of a shop, a third too small, that their unit put round the legs by chance had .9. guess
+inline constexpr double k_surely_near = 0.95;
 /// Share of the body's height from the origin: the middle of a garment that is nearer was put there, and says no
 /// place. guess
 inline constexpr double k_told_place = 0.05;
