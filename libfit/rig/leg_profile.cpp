@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
+#include <span>
 
 #include "tuning.h"
 
@@ -27,7 +27,7 @@ public:
 
     /// Mean over some places of the middle between the foremost and the rearmost skin: its distance before the bone, a
     /// share of the bone's length. Not a number where the skin does not show.
-    double middle(std::initializer_list<double> places) const
+    double middle(std::span<const double> places) const
     {
         double sum = 0;
         for (const double place : places)
@@ -76,9 +76,9 @@ LegBows leg_bows(const LabelledSurface& surface, const Slicer& slicer, const Bod
     const Vec3 of_shin = Eigen::Quaterniond::FromTwoVectors(thigh, shin) * of_thigh;
     const ProfiledBone upper(surface, slicer, 2 + leg, limb.root, limb.middle, of_thigh),
         lower(surface, slicer, 2 + leg, limb.middle, limb.end, of_shin);
-    const double thigh_bow = upper.middle({ 0.5, 0.6, 0.7, 0.8 }) - upper.middle({ 0.1, 0.15 });
-    const double shin_bow = lower.middle({ 0.2, 0.3, 0.4, 0.5, 0.6 })
-        - 0.5 * (lower.middle({ 0.01, 0.05 }) + lower.middle({ 0.9, 0.95 }));
+    const double thigh_bow = upper.middle(k_thigh_places) - upper.middle(k_buttock_places);
+    const double shin_bow
+        = lower.middle(k_calf_places) - 0.5 * (lower.middle(k_below_knee_places) + lower.middle(k_ankle_places));
     return { straightness(down, thigh) * zero_if_unseen(thigh_bow),
              straightness(thigh, shin) * zero_if_unseen(shin_bow) };
 }

@@ -10,6 +10,7 @@
 //        from MakeHuman's, as a share of stature; for the rejection limits the number of bodies judged correctly.
 // A number "fitted: guess" was tried by hand on these data, without a record of the score. No script fits them again.
 
+#include <array>
 #include <cstddef>
 #include <numbers>
 
@@ -199,6 +200,11 @@ inline constexpr double k_no_confidence = 0.05;
 /// bodies and copies of them without head, hands or feet. Fitted on one half, 41 of 43 and 46 of 53 of the other are
 /// right; of all, the 74 whose probability is 0.9 or more.
 inline constexpr double k_thigh_bow = 38, k_shin_bow = -65;
+/// Where thighs and shins are cut, shares of the bone's length. fitted: by eye, on profiles of the same bodies.
+inline constexpr std::array k_buttock_places { 0.1, 0.15 }, k_below_knee_places { 0.01, 0.05 },
+    k_ankle_places { 0.9, 0.95 };
+inline constexpr std::array k_thigh_places { 0.5, 0.6, 0.7, 0.8 };
+inline constexpr std::array k_calf_places { 0.2, 0.3, 0.4, 0.5, 0.6 };
 /// fitted: guess. Points of a cut's outline below which a bone has no skin of its own there.
 inline constexpr int k_fewest_in_profile = 6;
 /// fitted: guess. Cosine of a bend at hip or knee from which the profile of the bone below says nothing.
