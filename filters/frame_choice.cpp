@@ -169,10 +169,15 @@ std::string unit_text(const Frame& frame)
 std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& triangles, const Frame& body,
                                    const TriangleMesh& skin)
 {
-    for (const double metres_per_unit : { body.metres_per_unit, 1.0, 0.1, 0.01, 0.001 }) {
+    const auto lies_in = [&](const Frame& frame) {
+        return lies_on_body({ frame.to_metres(positions), triangles }, skin);
+    };
+    if (lies_in(body))
+        return body;
+    for (const double metres_per_unit : { 1.0, 0.1, 0.01, 0.001 }) {
         Frame frame = body;
         frame.metres_per_unit = metres_per_unit;
-        if (lies_on_body({ frame.to_metres(positions), triangles }, skin))
+        if (metres_per_unit != body.metres_per_unit && lies_in(frame))
             return frame;
     }
     return {};

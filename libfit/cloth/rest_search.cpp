@@ -54,8 +54,8 @@ ForceResidual measure(const Positions& forces, const std::vector<double>& masses
 class ClothMotion::RestSearch {
 public:
     explicit RestSearch(ClothMotion& motion) :
-        motion_(motion), details_(motion.sewn_, cloth()), energy_without_details_(energy_without_details()),
-        energy_(energy_without_details_ ? *energy_without_details_ : *motion.energy_), anchors_(motion.cloth_vertices_)
+        motion_(motion), details_(motion.sewn_, cloth()), untied_energy_(untied_energy()),
+        energy_(untied_energy_ ? *untied_energy_ : *motion.energy_), anchors_(motion.cloth_vertices_)
     {
         step_.contact_stiffness = k_settling_contact_stiffness;
         step_.contact_softening = k_contact_softening;
@@ -100,8 +100,8 @@ private:
         double grip;
     };
 
-    /// The energy of cloth whose details are held by no springs, but go along; none where it has no details.
-    std::optional<ClothEnergy> energy_without_details() const
+    /// The energy of cloth on which no ties hold the details, for these go along; none where it has no details.
+    std::optional<ClothEnergy> untied_energy() const
     {
         if (details_.empty())
             return {};
@@ -394,7 +394,7 @@ private:
 
     ClothMotion& motion_;
     StiffDetails details_;
-    std::optional<ClothEnergy> energy_without_details_;
+    std::optional<ClothEnergy> untied_energy_;
     ClothEnergy& energy_;
     MotionStep step_ {};
     std::optional<TangentFactor> factor_;

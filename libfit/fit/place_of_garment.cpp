@@ -66,8 +66,9 @@ bool lies_on_body(const TriangleMesh& garment, const TriangleMesh& body)
     const Positions corners = spread_corners(garment);
     const double height = height_of(body.positions),
                  length = (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).maxCoeff();
-    if (length < k_shortest_on_body * height || length > k_longest_garment * height)
-        return false;  // it has another unit
+    const bool has_unit = length >= k_shortest_on_body * height && length <= k_longest_garment * height;
+    if (!has_unit || !tells_place(corners, height))
+        return false;
     const BodySurface surface(body);
     const double pelvis = body.positions.col(1).minCoeff() + k_pelvis_height * height;
     const std::vector<Vec3> shifts = body_shifts(body.positions, pelvis);
