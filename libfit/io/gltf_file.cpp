@@ -23,6 +23,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// In diagonals of all that is written: from a mesh's origin to the furthest of its vertices.
+/// unit: of the 24 binary digits of a number, three say where a garment is, and the others what it looks like.
+constexpr double k_far = 8;
+
 // ---- the scene -----------------------------------------------------------------------------------------------------
 
 /// A run of vertices in the file: rows [first_row, first_row + positions.count) of the whole.
@@ -185,37 +189,64 @@ struct GltfContent : MeshFile::Content {
         const Positions turned = turn_normals(normals, triangles, triangles, positions, moved);
         Buffers written = buffers;
         GltfContainer result = container;
-        std::vector<MovedNode> moved_nodes;
-        for (const Block& block : blocks)
-            if (write_block(block, moved, turned, written, result.json)
-                && (moved_nodes.empty() || moved_nodes.back().node != block.node))  // primitives of a node follow it
-                moved_nodes.push_back({ block.node, block.world_from_local });
-        if (!moved_nodes.empty())
-            remove_stale(result.json, moved_nodes);
+        std::vector<WrittenNode> nodes;
+        for (const Block& block : blocks) {
+            if (nodes.empty() || nodes.back().node != block.node)  // primitives of a node follow it
+                nodes.push_back(written_node(block.node, moved));
+            if (nodes.back().has_moved)
+                write_block(block, nodes.back(), moved, turned, written, result.json);
+        }
+        if (std::any_of(nodes.begin(), nodes.end(), [](const WrittenNode& node) { return node.has_moved; }))
+            remove_stale(result.json, nodes);
         store(written, result);
         return bytes_of(result);
     }
 
 private:
-    /// @return whether a vertex has moved
-    bool write_block(const Block& block, const Positions& moved, const Positions& turned, Buffers& written,
-                     ordered_json& json) const
+    /// A mesh that moves far away from where its node stands, as when it is written in another unit, is placed in the
+    /// middle of all: single precision has too few digits for both.
+    WrittenNode written_node(int node, const Positions& moved) const
     {
-        const Eigen::Affine3d local_from_world = block.world_from_local.inverse();
+        WrittenNode result { node, Eigen::Affine3d::Identity() };
+        double distance = 0;
+        for (const Block& block : blocks) {
+            if (block.node != node)
+                continue;
+            result.world_from_mesh = block.world_from_local;
+            const Positions now = rows_of(block, moved);
+            if (now == rows_of(block, positions))
+                continue;
+            result.has_moved = true;
+            distance = std::max(
+                distance, (now.rowwise() - block.world_from_local.translation().transpose()).cwiseAbs().maxCoeff());
+        }
+        if (!result.has_moved)
+            return result;
+        const Vec3 low = moved.colwise().minCoeff(), high = moved.colwise().maxCoeff();
+        result.is_placed_anew = distance > k_far * (high - low).norm();
+        if (result.is_placed_anew)  // by a place that single precision knows
+            result.world_from_mesh.translation() = ((low + high) / 2).cast<float>().cast<double>();
+        return result;
+    }
+
+    static Positions rows_of(const Block& block, const Positions& all)
+    {
+        return all.middleRows(block.first_row, Eigen::Index(block.positions.count));
+    }
+
+    void write_block(const Block& block, const WrittenNode& node, const Positions& moved, const Positions& turned,
+                     Buffers& written, ordered_json& json) const
+    {
+        const Eigen::Affine3d local_from_world = node.world_from_mesh.inverse();
         const Eigen::Matrix3d local_from_world_normal = block.world_from_local.linear().transpose();
-        bool has_moved = false;
         for (std::size_t i = 0; i < block.positions.count; ++i) {
             const Eigen::Index row = block.first_row + static_cast<Eigen::Index>(i);
-            if (moved.row(row) != positions.row(row)) {
+            if (node.is_placed_anew || moved.row(row) != positions.row(row))
                 set_value(written, block.positions, i, local_from_world * Vec3(moved.row(row)));
-                has_moved = true;
-            }
             if (block.normals && turned.row(row) != normals.row(row) && turned.row(row).allFinite())
                 set_value(written, *block.normals, i, (local_from_world_normal * Vec3(turned.row(row))).normalized());
         }
-        if (has_moved)
-            write_bounds(block.positions, written, json["accessors"][block.positions.accessor]);
-        return has_moved;
+        write_bounds(block.positions, written, json["accessors"][block.positions.accessor]);
     }
 
     static void write_bounds(const Column& column, const Buffers& written, ordered_json& accessor)

@@ -42,15 +42,15 @@ ordered_json matrix_of(const Eigen::Affine3d& transform)
 }
 
 /// A skin ignores the place of its node; without it the place counts.
-void hang_on_own_node(ordered_json& json, const MovedNode& moved)
+void hang_on_own_node(ordered_json& json, const WrittenNode& written)
 {
     ordered_json& nodes = json["nodes"];
-    const ordered_json given = nodes[std::size_t(moved.node)];
+    const ordered_json given = nodes[std::size_t(written.node)];
     ordered_json own { { "name", given.value("name", "") }, { "mesh", given.at("mesh") } };
-    if (!moved.world_from_mesh.matrix().isIdentity(0))
-        own["matrix"] = matrix_of(moved.world_from_mesh);
+    if (!written.world_from_mesh.matrix().isIdentity(0))
+        own["matrix"] = matrix_of(written.world_from_mesh);
     for (const char* member : { "mesh", "skin", "weights" })
-        nodes[std::size_t(moved.node)].erase(member);
+        nodes[std::size_t(written.node)].erase(member);
     if (json.contains("scenes") && !json["scenes"].empty())
         json["scenes"].at(json.value("scene", std::size_t(0)))["nodes"].push_back(nodes.size());
     nodes.push_back(own);
@@ -89,13 +89,17 @@ std::vector<std::string> list_stale(const ordered_json& json, const std::vector<
     return stale;
 }
 
-void remove_stale(ordered_json& json, const std::vector<MovedNode>& moved)
+void remove_stale(ordered_json& json, const std::vector<WrittenNode>& nodes)
 {
-    for (const MovedNode& each : moved) {
+    bool hangs_on_own = false;
+    for (const WrittenNode& each : nodes) {
         ordered_json& node = json["nodes"].at(std::size_t(each.node));
-        strip_mesh(mesh_of(json, node));
-        node.erase("weights");
-        if (node.contains("skin"))
+        if (each.has_moved) {
+            strip_mesh(mesh_of(json, node));
+            node.erase("weights");
+            hangs_on_own |= each.is_placed_anew || node.contains("skin");
+        }
+        if (hangs_on_own)
             hang_on_own_node(json, each);
     }
     json.erase("animations");

@@ -11,17 +11,21 @@
 
 namespace garmentfit {
 
-/// A node whose mesh has moved, and where the mesh stands without its skin.
-struct MovedNode {
+/// A node that shows a mesh, and where that is written to stand, without its skin.
+struct WrittenNode {
     int node = 0;
     Eigen::Affine3d world_from_mesh;
+    bool is_placed_anew = false;  ///< elsewhere than the node says
+    bool has_moved = false;  ///< any of its vertices
 };
 
 /// "a skin", "morph targets", "tangents", "animations": those that meshes of these nodes have.
 std::vector<std::string> list_stale(const nlohmann::ordered_json& json, const std::vector<int>& nodes);
 
-/// Removes these from meshes of the nodes, and all animations. A mesh with a skin hangs on a node of its own then.
+/// Removes these from meshes that have moved, and all animations. One with a skin, or that is placed anew, hangs on a node
+/// of its own then, and so does all that follows: meshes stay in their order.
+/// @param nodes  all that show a mesh, in the order of the scene; one of them has moved
 /// @throws nlohmann::json::exception: a member of an unexpected type
-void remove_stale(nlohmann::ordered_json& json, const std::vector<MovedNode>& moved);
+void remove_stale(nlohmann::ordered_json& json, const std::vector<WrittenNode>& nodes);
 
 }  // namespace garmentfit

@@ -40,6 +40,18 @@ protected:
         save("shirt.glb", bytes_of(container));
     }
 
+    /// The shirt without its skin below a node that is moved by so much along y.
+    MeshFile hung_at(double height)
+    {
+        GltfContainer container = read_gltf_container(read_file(folder / "shirt.glb"));
+        for (Json& node : container.json["nodes"])
+            if (node.contains("mesh")) {
+                node["translation"] = { 0, height, 0 };
+                node.erase("skin");
+            }
+        return MeshFile::read(save("hung.glb", bytes_of(container)));
+    }
+
     Json json_of(const char* name) const { return read_gltf_container(read_file(folder / name)).json; }
 };
 
@@ -58,6 +70,45 @@ TEST_F(StaleGltf, DoesNotComeAlongWhereVerticesHaveMoved)
     const Json json = json_of("worn.glb");
     for (const char* gone : { "TANGENT", "JOINTS_", "WEIGHTS_", "targets", "targetNames", "animations", "skins" })
         EXPECT_EQ(json.dump().find(gone), std::string::npos) << gone;
+}
+
+TEST_F(StaleGltf, KeepsItsDigitsWhereItIsWrittenFarFromItsNode)
+{
+    const MeshFile shirt = hung_at(1000);
+    const Positions moved = shirt.positions().rowwise() - Eigen::RowVector3d(1e-3, 1000, 0);
+    shirt.write(folder / "worn.glb", moved);
+    EXPECT_LT((MeshFile::read(folder / "worn.glb").positions() - moved).cwiseAbs().maxCoeff(), 2e-7);
+}
+
+TEST_F(StaleGltf, KeepsItsNodeWhereItStaysNearIt)
+{
+    const MeshFile shirt = hung_at(2);
+    shirt.write(folder / "worn.glb", shirt.positions() * 1.25);
+    EXPECT_EQ(json_of("worn.glb")["nodes"], [&] {
+        Json nodes = json_of("hung.glb")["nodes"];
+        for (Json& node : nodes)
+            node.erase("weights");
+        return nodes;
+    }());
+}
+
+TEST_F(StaleGltf, LeavesMeshesInTheirOrder)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    TriangleMesh smaller = person.mesh;
+    smaller.positions *= 0.5;
+    const Rig rig = fixtures::simple_rig(person);
+    write_outfit_glb(folder / "both.glb", rig,
+                     { { "skinned", person.mesh, rig.weights }, { "plain", smaller, rig.weights } },
+                     { .names = BoneNames::smpl });
+    GltfContainer container = read_gltf_container(read_file(folder / "both.glb"));
+    for (Json& node : container.json["nodes"])
+        if (node.value("name", "") == "plain")
+            node.erase("skin");
+    const MeshFile both = MeshFile::read(save("both.glb", bytes_of(container)));
+    const Positions moved = both.positions() * 1.25;
+    both.write(folder / "worn.glb", moved);
+    EXPECT_LT((MeshFile::read(folder / "worn.glb").positions() - moved).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST_F(StaleGltf, StaysWhereNothingHasMoved)
