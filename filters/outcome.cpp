@@ -198,7 +198,7 @@ std::string in_one_line(const std::string& name, GarmentType type, const WornGar
     if (kept > 0)
         text << kept << " with itself kept as given, ";
     if (c.shifted_self_crossings > 0)
-        text << c.shifted_self_crossings << " beside these, ";
+        text << c.shifted_self_crossings << " between sheets that lay on each other, ";
     text << "minimum distance " << rounded_text(1000 * c.min_distance, 3) << " mm, strain "
          << rounded_text(100 * c.strain.p95, 3) << "% at the 95th percentile";
     return text.str();

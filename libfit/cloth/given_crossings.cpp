@@ -38,26 +38,9 @@ MeetingPlace meeting_place(const Positions& positions, const Triangles& triangle
 // Well inside both of them.
 bool surely_crosses(const MeetingPlace& place)
 {
-    return place.along > k_inside_margin
-        && place.along<1 - k_inside_margin&& * std::min_element(place.corners.begin(), place.corners.end())>
-               k_inside_margin;
-}
-
-/// The two places on the cloth that meet there, at some positions.
-struct MeetingPoints {
-    Vec3 on_edge, on_triangle;
-};
-
-MeetingPoints points_at(const Positions& positions, const Triangles& triangles, const Edges& edges,
-                        const Crossing& crossing, const MeetingPlace& place)
-{
-    const auto& [edge, triangle] = crossing;
-    MeetingPoints points {
-        (1 - place.along) * positions.row(edges(edge, 0)) + place.along * positions.row(edges(edge, 1)), Vec3::Zero()
-    };
-    for (int k = 0; k < 3; ++k)
-        points.on_triangle += place.corners[k] * positions.row(triangles(triangle, k)).transpose();
-    return points;
+    const auto is_inside = [](double share) { return share > k_inside_margin; };
+    return is_inside(place.along) && is_inside(1 - place.along)
+        && std::all_of(place.corners.begin(), place.corners.end(), is_inside);
 }
 
 // Two triangles cross along a segment, at whose ends an edge of one meets the other one.
@@ -100,33 +83,24 @@ bool is_among(const std::vector<Crossing>& known, const Crossing& crossing)
 
 Vec3 offset_at_rest(const TriangleMesh& rest, const Edges& edges, const Positions& positions, const Crossing& crossing)
 {
-    const auto [a, b] = points_at(rest.positions, rest.triangles, edges, crossing,
-                                  meeting_place(positions, rest.triangles, edges, crossing));
-    return a - b;
+    const auto [along, corners] = meeting_place(positions, rest.triangles, edges, crossing);
+    const auto& [edge, triangle] = crossing;
+    Vec3 offset = (1 - along) * rest.positions.row(edges(edge, 0)) + along * rest.positions.row(edges(edge, 1));
+    for (int k = 0; k < 3; ++k)
+        offset -= corners[k] * rest.positions.row(rest.triangles(triangle, k)).transpose();
+    return offset;
 }
 
 GivenCrossings::GivenCrossings(const TriangleMesh& given, const Edges& edges, const std::vector<Crossing>& crossings) :
     given_(given), edges_(edges), count_(crossings.size())
 {
     std::vector<Crossing> touching;
-    std::vector<Vec3> places;
     for (const Crossing& crossing : crossings) {
         const MeetingPlace place = meeting_place(given.positions, given.triangles, edges, crossing);
-        const bool is_sure = surely_crosses(place);
-        (is_sure ? sure_ : touching).push_back(crossing);
-        if (is_sure)
-            places.push_back(points_at(given.positions, given.triangles, edges, crossing, place).on_edge);
+        (surely_crosses(place) ? sure_ : touching).push_back(crossing);
     }
-    if (sure_.empty())
-        return;
-    Positions rows(Eigen::Index(places.size()), 3);
-    for (std::size_t i = 0; i < places.size(); ++i)
-        rows.row(Eigen::Index(i)) = places[i];
-    places_.emplace(rows);
-    const double size = diagonal(given.positions);
-    largest_shift_ = k_shifted_curve * size;
-    largest_gap_ = k_shifted_gap * size;
-    if (touching.empty())
+    largest_gap_ = k_shifted_gap * diagonal(given.positions);
+    if (sure_.empty() || touching.empty())
         return;
     const MeshTopology topology(given.triangles, int(given.positions.rows()));
     const SureSegments segments(topology, sure_);
@@ -134,13 +108,10 @@ GivenCrossings::GivenCrossings(const TriangleMesh& given, const Edges& edges, co
                  [&](const Crossing& crossing) { return segments.continue_at(crossing); });
 }
 
-// The two places that meet now lay on each other at rest, beside a place where the cloth crossed itself.
+// The two places that meet now lay on each other at rest.
 bool GivenCrossings::is_shifted(const Positions& positions, const Crossing& crossing) const
 {
-    const auto [a, b] = points_at(given_.positions, given_.triangles, edges_, crossing,
-                                  meeting_place(positions, given_.triangles, edges_, crossing));
-    return (a - b).norm() < largest_gap_ && places_->distance(a) < largest_shift_
-        && places_->distance(b) < largest_shift_;
+    return offset_at_rest(given_, edges_, positions, crossing).norm() < largest_gap_;
 }
 
 // A pair that only touched in the input did not cross there, unless cloth crosses on both sides of it. Where more pairs
@@ -149,7 +120,7 @@ bool GivenCrossings::is_shifted(const Positions& positions, const Crossing& cros
 ComparedCrossings GivenCrossings::compare(const Positions& positions, const std::vector<Crossing>& present) const
 {
     const bool forgives_touching = present.size() <= sure_.size(),
-               forgives_shifted = places_ && present.size() <= count_;
+               forgives_shifted = !sure_.empty() && present.size() <= count_;
     ComparedCrossings result;
     for (const Crossing& crossing : present)
         if (is_among(sure_, crossing) || (forgives_touching && is_among(touching_, crossing)))

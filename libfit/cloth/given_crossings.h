@@ -3,11 +3,9 @@
 
 // Tells the crossings of a garment with itself from those that it was given with.
 
-#include <optional>
 #include <vector>
 
 #include "garmentfit/certificate.h"
-#include "nearest.h"
 #include "topology.h"
 
 namespace garmentfit {
@@ -15,7 +13,7 @@ namespace garmentfit {
 /// Crossings of a moved garment with itself, each in one of these, in ascending order.
 struct ComparedCrossings {
     std::vector<Crossing> kept;  ///< pairs that it was given with
-    std::vector<Crossing> shifted;  ///< pairs beside these (Certificate::shifted_self_crossings)
+    std::vector<Crossing> shifted;  ///< pairs that lay on each other (Certificate::shifted_self_crossings)
     std::vector<Crossing> fresh;
 };
 
@@ -39,8 +37,7 @@ private:
     std::size_t count_;  // of all that were given
     std::vector<Crossing> sure_;  // whatever the rounding
     std::vector<Crossing> touching_;  // within a border, where the curve of a sure one passes on to the next triangle
-    std::optional<NearestPoint> places_;  // of the sure ones
-    double largest_shift_ = 0, largest_gap_ = 0;  // m
+    double largest_gap_ = 0;  // m
 };
 
 }  // namespace garmentfit

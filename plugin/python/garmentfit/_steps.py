@@ -81,7 +81,7 @@ class Certificate:
     self_crossings: int
     input_self_crossings: int  #: of the garment as given
     kept_self_crossings: int  #: those of them that were not resolved
-    shifted_self_crossings: int  #: beside those, where sheets lie on each other
+    shifted_self_crossings: int  #: others, where sheets lay on each other
     layer_crossings: int
     vertices_inside: int
     min_distance: float

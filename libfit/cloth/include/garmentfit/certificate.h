@@ -35,8 +35,8 @@ struct Certificate {
         = 0;  ///< of the garment with itself, pairs that the input did not have, without the shifted ones
     int input_self_crossings = 0;  ///< that the garment was given with
     std::vector<Crossing> kept_self_crossings;  ///< those of them that it still has
-    /// Pairs beside those: where sheets that lie on each other were given crossing, the curve along which they cross went
-    /// on to other triangles, by less than 2 % of the garment's diagonal. Only where no more pairs cross than were given
+    /// Other pairs of sheets that lay on each other, within 0.15 % of the garment's diagonal: the curves along which they
+    /// cross went on to other triangles. Only where no more pairs cross than were given
     /// (docs/decisions/0034-shifted-crossings.md).
     int shifted_self_crossings = 0;
     int layer_crossings = 0;  ///< with the garments worn under it
