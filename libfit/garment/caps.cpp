@@ -224,8 +224,27 @@ void Caps::collect_regions()
 
 void Caps::add_areas(Region& region) const
 {
-    for (const int f : region.faces)  // of either orientation
-        region.area += (areas_[f].dot(areas_[region.faces[0]]) < 0 ? -1 : 1) * areas_[f];
+    std::map<int, double> sign;  // of the faces of the region, as they are oriented to its first one; 0 if unknown
+    for (const int f : region.faces)
+        sign[f] = 0;
+    std::vector<int> open;
+    const auto reach = [&](int f, double orientation) {
+        sign[f] = orientation;
+        region.area += orientation * areas_[f];
+        open.push_back(f);
+    };
+    for (const int first : region.faces) {
+        if (sign[first] == 0)
+            reach(first, areas_[first].dot(region.area) < 0 ? -1 : 1);
+        while (!open.empty()) {
+            const int f = open.back();
+            open.pop_back();
+            for (int side = 3 * f; side < 3 * f + 3; ++side)
+                if (const int other = topology_.opposite(side); other >= 0)
+                    if (const auto next = sign.find(other / 3); next != sign.end() && next->second == 0)
+                        reach(next->first, sign[f] * orientation(side, other));
+        }
+    }
 }
 
 void Caps::add_to_outline(int side, Region& region) const

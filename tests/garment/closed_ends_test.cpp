@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/closed_ends.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -200,6 +201,23 @@ TEST(ClosedEnds, OfAGarmentClosedEverywhereAreOpenedThoughTheyAreNotFlat)
     const OpenedGarment result = opened(pair_of_tubes(0.02, true));
     EXPECT_EQ(result.closed_ends, 4);
     EXPECT_LE(result.garment.triangles.rows(), open.triangles.rows() + 2 * 4) << "a zigzag has an ear at either end";
+}
+
+TEST(ClosedEnds, OfAGarmentClosedEverywhereAreOpenedWhereAFanFoldsBackAtANeckline)
+{
+    const auto with_neckline = [](Cap lower, Cap upper, double x) {
+        TriangleMesh mesh = tube(lower, upper, x);
+        const int first = (k_rows - 1) * k_around, centre = k_rows * k_around + 1;
+        for (int v = first; v < first + k_around; ++v)  // lower in front
+            mesh.positions(v, 1) -= 0.6 * std::max(0., mesh.positions(v, 2));
+        mesh.positions.row(centre) += Eigen::RowVector3d(0, 0.06, 0.06);
+        return mesh;
+    };
+    const auto pair
+        = [&](Cap end) { return fixtures::joined(with_neckline(end, end, -0.15), with_neckline(end, end, 0.15)); };
+    const OpenedGarment result = opened(pair(Cap::around_centre));
+    EXPECT_EQ(result.closed_ends, 4);
+    EXPECT_EQ(result.garment.triangles, pair(Cap::none).triangles);
 }
 
 TEST(ClosedEnds, OfAClosedPieceAreOpenedThoughALabelBesideItIsOpen)
