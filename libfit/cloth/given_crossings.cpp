@@ -130,4 +130,13 @@ ComparedCrossings GivenCrossings::compare(const Positions& positions, const std:
     return result;
 }
 
+std::vector<Crossing> GivenCrossings::of_cloth_apart(const Positions& positions, std::vector<Crossing> present) const
+{
+    std::erase_if(present, [&](const Crossing& crossing) {
+        return is_among(sure_, crossing) || is_among(touching_, crossing)
+            || (!sure_.empty() && is_shifted(positions, crossing));
+    });
+    return present;
+}
+
 }  // namespace garmentfit

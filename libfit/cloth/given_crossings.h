@@ -28,6 +28,8 @@ public:
 
     /// @param present  the crossings of the garment where it is now; ascending
     ComparedCrossings compare(const Positions& positions, const std::vector<Crossing>& present) const;
+    /// Those of the same crossings that are new however few there are: of cloth that lay apart.
+    std::vector<Crossing> of_cloth_apart(const Positions& positions, std::vector<Crossing> present) const;
 
 private:
     bool is_shifted(const Positions& positions, const Crossing& crossing) const;

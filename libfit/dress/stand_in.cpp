@@ -107,10 +107,11 @@ Positions moved_by(const Eigen::MatrixXd& motions, const Positions& rest)
     return positions;
 }
 
-/// Marks where cloth meets itself and did not as given, and where it is torn. @return how many such places there are
+/// Marks where cloth meets itself that lay apart as given, and where it is torn. Of sheets that lay on each other some are
+/// parted later, until no more of them cross than did. @return how many such places there are
 std::size_t mark_faults(const Parts& cloth, const Positions& positions, std::vector<char>& marks)
 {
-    const std::vector<Crossing> fresh = cloth.fresh_crossings(positions);
+    const std::vector<Crossing> fresh = cloth.given.of_cloth_apart(positions, cloth.self_crossings(positions));
     for (const Crossing& crossing : fresh) {
         for (const int v : cloth.topology.edges().row(crossing.first))
             marks[v] = 1;

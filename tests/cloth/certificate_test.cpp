@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "given_crossings.h"
 
 namespace {
 
@@ -147,14 +148,19 @@ TEST(Certificate, FollowsACurveThatWentOnBetweenSheetsThatLieOnEachOther)
     EXPECT_TRUE(crossed_at(0.6).clean());
 }
 
+/// The same, with the upper sheet 5 mm above the lower one beyond .8 m.
+TriangleMesh partly_doubled_sheet(double line)
+{
+    TriangleMesh mesh = doubled_sheet(line);
+    for (Eigen::Index v = mesh.positions.rows() / 2; v < mesh.positions.rows(); ++v)
+        if (mesh.positions(v, 0) > 0.8)
+            mesh.positions(v, 1) += 5e-3;
+    return mesh;
+}
+
 TEST(Certificate, CallsCrossingsNewOfSheetsThatLayApart)
 {
-    const double lifted = 5e-3;  // m, of what lies beyond .8 m
-    const TriangleMesh body = ball(0.05, Vec3(0, 5, 0));
-    TriangleMesh given = doubled_sheet(0.503);
-    for (Eigen::Index v = given.positions.rows() / 2; v < given.positions.rows(); ++v)
-        if (given.positions(v, 0) > 0.8)
-            given.positions(v, 1) += lifted;
+    const TriangleMesh given = partly_doubled_sheet(0.503), body = ball(0.05, Vec3(0, 5, 0));
     const auto crossed_at = [&](double line) {
         return certify(body, { given.positions, given.triangles }, doubled_sheet(line).positions).self_crossings;
     };
@@ -172,6 +178,25 @@ TEST(Certificate, CallsCrossingsNewThatAreMoreThanTheGivenOnes)
     const Certificate more = certify(body, { given.positions, given.triangles }, moved);
     EXPECT_EQ(more.shifted_self_crossings, 0);
     EXPECT_GT(more.self_crossings, more.input_self_crossings);
+}
+
+TEST(GivenCrossings, TellThoseOfClothThatLayApartHoweverManyThereAre)
+{
+    const TriangleMesh doubled = doubled_sheet(0.503), partly = partly_doubled_sheet(0.503);
+    Positions moved = doubled_sheet(0.523).positions;
+    const Eigen::Index half = moved.rows() / 2;
+    for (Eigen::Index v = half; v < 2 * half; v += 7)  // up and down through the lower sheet
+        moved(v, 1) *= -1;
+    const Edges edges = edges_of(doubled.triangles);
+    const std::vector<Crossing> crossings = self_crossings(TriangleMesh { moved, doubled.triangles });
+    const auto count_apart = [&](const TriangleMesh& given, const std::vector<Crossing>& known) {
+        return GivenCrossings(given, edges, known).of_cloth_apart(moved, crossings).size();
+    };
+    EXPECT_EQ(count_apart(doubled, self_crossings(doubled)), 0);
+    EXPECT_EQ(count_apart(doubled, {}), crossings.size()) << "given without any";
+    const std::size_t apart = count_apart(partly, self_crossings(partly));
+    EXPECT_GT(apart, 0);
+    EXPECT_LT(apart, crossings.size());
 }
 
 TEST(Certificate, MeasuresStrainAgainstTheRestLengths)
