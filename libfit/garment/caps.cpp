@@ -106,7 +106,8 @@ std::vector<std::vector<int>> Caps::find_filled(const std::vector<std::vector<in
 
 bool Caps::is_filled(const Region& region) const
 {
-    if (!is_hole(region, k_fill_depth) || !is_without_inner_vertices(topology_, region.faces))
+    if (region.faces.size() < k_fill_faces || !is_hole(region, k_fill_depth)
+        || !is_without_inner_vertices(topology_, region.faces))
         return false;
     const bool is_sure = region.faces.size() >= k_fan_faces && roundness_of(region) > k_fill_roundness;
     return is_sure || is_closed_[region.faces[0]];

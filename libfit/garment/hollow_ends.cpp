@@ -246,10 +246,21 @@ bool lies_in(const Place& hollow, const Opening& opening)
     return (hollow.middle - opening.centre).norm() < k_in_opening * opening.girth;
 }
 
+/// Those of pieces through which something passes: prints and pockets that lie on the cloth have one border each.
+std::vector<Opening> openings_of_passages(const TriangleMesh& cloth)
+{
+    std::vector<Opening> openings = openings_of(cloth);
+    std::map<int, int> count;  // by piece
+    for (const Opening& opening : openings)
+        ++count[opening.piece];
+    std::erase_if(openings, [&](const Opening& opening) { return count[opening.piece] == 1; });
+    return openings;
+}
+
 /// Of a garment with two openings, hem and neck: both sleeves may be closed. Where there are other hollows, all are folds.
 HollowEnds search_sleeves(const GarmentMesh& opened, const PlainReading& plain)
 {
-    const std::vector<Opening> openings = openings_of(plain.outer);
+    const std::vector<Opening> openings = openings_of_passages(plain.outer);
     if (openings.size() != 2)
         return {};
     const TriangleMesh closed = fill_openings(plain.outer);

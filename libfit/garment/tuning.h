@@ -79,6 +79,9 @@ inline constexpr double k_fan_outline = 0.6;
 /// fitted: guess, on two T-shirts and trousers whose openings were filled. Edges in a filled hole, from rim to rim, and
 /// at its rim, over the median edge of the garment.
 inline constexpr double k_fill_edge = 4, k_ear_edge = 1.3;
+/// fitted: guess, on two clothes of web shops, coarse facets of which, of one and two faces, were taken for such holes.
+/// Faces of a hole that is filled from rim to rim, at least: no end of cloth is a square.
+inline constexpr std::size_t k_fill_faces = 4;
 /// fitted: guess, on the openings of six generated tops. Depth of a filled hole of a garment without any opening, as a
 /// share of the root of its area: crumpled cuffs have up to 0.6.
 inline constexpr double k_fill_depth = 0.7;

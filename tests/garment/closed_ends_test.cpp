@@ -229,6 +229,26 @@ TEST(ClosedEnds, OfAClosedPieceAreOpenedThoughALabelBesideItIsOpen)
     EXPECT_EQ(opened(fixtures::joined(tube_with_wavy_ends(0.02, false), label)).closed_ends, 0);
 }
 
+TEST(ClosedEnds, AreNoCoarseFacets)
+{
+    // on either tube one column and one row are wide: where they meet, a square of two faces is as wide as a cuff
+    constexpr double wide = 3.5, shear = 0.1;  // cells
+    const auto with_wide_cell = [](double x) {
+        TriangleMesh mesh = tube(Cap::around_centre, Cap::around_centre, x);
+        const double cell = 2 * std::numbers::pi / (k_around - 1 + wide);  // rad; and radii
+        for (int i = 0; i < k_rows; ++i)
+            for (int k = 0; k < k_around; ++k) {
+                const double up = i + (i > k_rows / 2 ? wide - 1 : 0), angle = cell * (k + shear * up);
+                mesh.positions.row(i * k_around + k) << x + 0.1 * std::sin(angle), 0.1 * cell * up,
+                    0.1 * std::cos(angle);
+            }
+        mesh.positions(k_rows * k_around + 1, 1) = mesh.positions(k_rows * k_around - 1, 1);
+        return mesh;
+    };
+    const OpenedGarment result = opened(fixtures::joined(with_wide_cell(-0.15), with_wide_cell(0.15)));
+    EXPECT_EQ(result.closed_ends, 4);
+}
+
 TEST(ClosedEnds, ThatAreNotFlatAreOpenedThoughAnotherEndIsOpen)
 {
     TriangleMesh filled = tube_with_wavy_ends(0.02, true);

@@ -203,6 +203,16 @@ TEST(HollowEnds, OfBothSleevesAreLeftOutWhereHemAndNeckAreOpen)
     EXPECT_EQ(count_openings(outward_cloth(garment_of(shirt))), 4u);
 }
 
+TEST(HollowEnds, OfBothSleevesAreLeftOutWhereAPrintLiesOnTheCloth)
+{
+    TriangleMesh print = fixtures::sheet(16, 0.02, [](double, double) { return 0; });
+    for (auto row : print.positions.rowwise())  // on the back
+        row = Eigen::RowVector3d(row.x() - 0.15, 0.1 + row.z(), -0.13);
+    const TriangleMesh shirt = fixtures::joined(shirt_with_closed_sleeves(), print);
+    ASSERT_EQ(count_openings(shirt), 3u);
+    EXPECT_EQ(open_ends(garment_of(shirt)).closed_ends, 2);
+}
+
 TEST(HollowEnds, OfBothSleevesAreLeftOutWhereTheyHang)
 {
     const TriangleMesh shirt = shirt_with_closed_sleeves(1.1, 0.6);
