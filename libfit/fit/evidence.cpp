@@ -130,6 +130,15 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     return e;
 }
 
+// In log odds.
+double counted(const WearEvidence& evidence, Evidence e)
+{
+    static_assert(k_evidence_weights.size() == evidence_count);
+    const double weighted = k_evidence_weights[e] * evidence[e];
+    const bool is_bounded = e >= k_first_of_garment_front && e <= k_last_of_garment_front;
+    return is_bounded ? std::clamp(weighted, -k_most_of_a_front, k_most_of_a_front) : weighted;
+}
+
 bool is_same_facing(const Wearing& a, const Wearing& b) { return a.front.dot(b.front) > k_same_direction; }
 
 }  // namespace
@@ -225,12 +234,25 @@ std::vector<Wearing> wearings_of(const WearingContext& context, const std::vecto
 // the odds of a coverage between its facings; without the denominator a marked shape would raise those odds, too.
 double log_odds(const WearEvidence& evidence)
 {
-    static_assert(k_evidence_weights.size() == evidence_count);
-    const double all = std::inner_product(evidence.begin(), evidence.end(), k_evidence_weights.begin(), 0.0);
-    double shape = 0;
+    double all = 0, shape = 0;
+    for (int e = 0; e < evidence_count; ++e)
+        all += counted(evidence, Evidence(e));
     for (const Evidence e : k_shape_evidence)
-        shape += k_evidence_weights[e] * evidence[e];
+        shape += counted(evidence, e);
     return all - std::abs(shape) - std::log1p(std::exp(-2 * std::abs(shape)));
+}
+
+double pose_log_odds(const WearEvidence& evidence)
+{
+    double sum = 0;
+    for (int e = 0; e <= k_last_of_pose; ++e)
+        sum += counted(evidence, Evidence(e));
+    return sum;
+}
+
+double log_odds(const WearEvidence& evidence, double best_pose)
+{
+    return log_odds(evidence) + (1 - k_pose_between_facings) * (best_pose - pose_log_odds(evidence));
 }
 
 std::vector<double> probabilities(const std::vector<double>& log_odds)

@@ -84,6 +84,11 @@ enum Evidence {
 /// Evidence that tells the facings of one coverage apart, and nothing else (log_odds).
 inline constexpr std::array k_shape_evidence { torso_evidence, waist_evidence, seat_evidence, lap_evidence,
                                                rise_evidence,  bow_evidence,   bare_evidence, profile_evidence };
+/// How well the body fits into the garment: from the first to this one.
+inline constexpr Evidence k_last_of_pose = uncovered_inside_evidence;
+/// From the first to the last: what the garment itself tells of its front. Any of these may be deceived, by a rolled
+/// waistband or a low back, so none of them counts for more than k_most_of_a_front (tuning.h).
+inline constexpr Evidence k_first_of_garment_front = openings_evidence, k_last_of_garment_front = profile_evidence;
 using WearEvidence = std::array<double, evidence_count>;
 
 /// "energy", "clearance", ... in the order of Evidence.
@@ -117,6 +122,12 @@ std::vector<Wearing> wearings_of(const WearingContext& context, const std::vecto
 
 /// But for a constant that all hypotheses of a garment have in common.
 double log_odds(const WearEvidence& evidence);
+/// The part of it that says how well the body fits into the garment.
+double pose_log_odds(const WearEvidence& evidence);
+/// Likewise, beside other facings that were searched for the same coverage: most clothes fit a body nearly as well the
+/// other way round, so between these the pose counts only k_pose_between_facings of what it counts between coverages.
+/// @param best_pose  the most pose_log_odds among the facings
+double log_odds(const WearEvidence& evidence, double best_pose);
 
 /// Of hypotheses with these log odds, in the same order; they sum to 1.
 std::vector<double> probabilities(const std::vector<double>& log_odds);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -201,12 +202,29 @@ const Hypothesis& first_of_its_facing(const std::vector<Hypothesis>& all, const 
                          [&](const Hypothesis& other) { return other.wearing.rank == 0 && is_same_way(other, one); });
 }
 
+// Of the facings that were searched for one attempt.
+double best_pose(const std::vector<Hypothesis>& all, const Attempt& attempt)
+{
+    double best = -std::numeric_limits<double>::infinity();
+    for (const auto& [of, wearing, probability] : all)
+        if (of.get() == &attempt && wearing.rank == 0 && !wearing.is_in_place)
+            best = std::max(best, pose_log_odds(wearing.evidence));
+    return best;
+}
+
+// The input pose is no facing that a search may have missed: how well it fits tells whether the garment lies right.
+double log_odds_among(const std::vector<Hypothesis>& all, const Hypothesis& one)
+{
+    return one.wearing.is_in_place ? log_odds(one.wearing.evidence)
+                                   : log_odds(one.wearing.evidence, best_pose(all, *one.attempt));
+}
+
 void sort_by_probability(std::vector<Hypothesis>& hypotheses)
 {
     std::vector<double> odds;
     for (const Hypothesis& hypothesis : hypotheses)
         if (hypothesis.wearing.rank == 0)
-            odds.push_back(log_odds(hypothesis.wearing.evidence));
+            odds.push_back(log_odds_among(hypotheses, hypothesis));
     const std::vector<double> p = probabilities(odds);
     auto next = p.begin();
     for (Hypothesis& hypothesis : hypotheses)

@@ -4,6 +4,7 @@
 // scripts/fit-evidence fits the weights of libfit/fit/evidence.h on them.
 //   wear_evidence BODY GARMENT[@METRES_PER_UNIT]...
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <iostream>
@@ -26,7 +27,8 @@ using Json = nlohmann::ordered_json;
 
 Json list(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
 
-Json json_of(const Hypothesis& hypothesis)
+// @param number  of its attempt: a way of holding the garment with one coverage
+Json json_of(const Hypothesis& hypothesis, int number)
 {
     const Attempt& attempt = *hypothesis.attempt;
     const Skeleton joints = place_bones(attempt.rig().skeleton, hypothesis.wearing.posture).joints;
@@ -35,7 +37,8 @@ Json json_of(const Hypothesis& hypothesis)
         inside[std::string(bone_name(b))] = attempt.energy().metric().samples_inside(joints.head(b), joints.tail(b));
     for (int e = 0; e < evidence_count; ++e)
         evidence[std::string(evidence_names()[e])] = hypothesis.wearing.evidence[e];
-    return { { "kind", k_coverage_kind_names[int(attempt.coverage().kind)] },
+    return { { "attempt", number },
+             { "kind", k_coverage_kind_names[int(attempt.coverage().kind)] },
              { "type", name_of(attempt.coverage().type) },
              { "up", list(hypothesis.up()) },
              { "front", list(hypothesis.wearing.front) },
@@ -65,8 +68,15 @@ Json evidence_of(const Rig& rig, const TriangleMesh& body, const GarmentMesh& ga
     const GarmentMesh turned = make_garment(garment.positions * turn.transpose(), garment.triangles);
     const TriangleMesh outward = outward_cloth(open_ends(turned).garment);
     Json hypotheses = Json::array();
-    for (const Hypothesis& hypothesis : find_hypotheses(rig, body, outward, {}, {}))
-        hypotheses.push_back(json_of(hypothesis));
+    std::vector<const Attempt*> attempts;
+    const std::vector<Hypothesis> found = find_hypotheses(rig, body, outward, {}, {});
+    for (const Hypothesis& hypothesis : found) {
+        const auto attempt = std::find(attempts.begin(), attempts.end(), hypothesis.attempt.get());
+        const int number = int(attempt - attempts.begin());
+        if (attempt == attempts.end())
+            attempts.push_back(hypothesis.attempt.get());
+        hypotheses.push_back(json_of(hypothesis, number));
+    }
     return { { "turn", { list(turn.row(0)), list(turn.row(1)), list(turn.row(2)) } }, { "hypotheses", hypotheses } };
 }
 

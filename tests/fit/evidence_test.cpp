@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence.h"
 #include "outline.h"
+#include "tuning.h"
 
 #include <cmath>
 #include <numeric>
@@ -58,6 +59,40 @@ TEST(Evidence, AClearShapeOutweighsTheFileItCameIn)
     opposite[openings_evidence] = 1;
     opposite[bare_evidence] = 1;
     EXPECT_GT(log_odds(opposite), log_odds(same));
+}
+
+TEST(Evidence, OneDeceivedMeasureOfTheFrontIsNeverSure)
+{
+    for (int e = k_first_of_garment_front; e <= k_last_of_garment_front; ++e) {
+        WearEvidence one {}, opposite {};
+        one[e] = 100;
+        opposite[e] = -100;
+        EXPECT_NEAR(std::abs(log_odds(one) - log_odds(opposite)), 2 * k_most_of_a_front, 1e-9) << evidence_names()[e];
+    }
+}
+
+TEST(Evidence, LapAndFileOutweighAWaistThatIsHigherInFront)
+{
+    WearEvidence forwards {}, backwards {};
+    forwards[rise_evidence] = -0.7;
+    forwards[lap_evidence] = 0.3;
+    forwards[input_front_evidence] = 1;
+    for (int e = 0; e < evidence_count; ++e)
+        backwards[e] = -forwards[e];
+    EXPECT_GT(log_odds(forwards), log_odds(backwards));
+}
+
+TEST(Evidence, ThePoseTellsLessBetweenFacingsThanBetweenCoverages)
+{
+    WearEvidence good {}, poor {};
+    good[clearance_evidence] = 1;
+    good[covered_inside_evidence] = 1;
+    poor[clearance_evidence] = 0.6;
+    poor[covered_inside_evidence] = 0.6;
+    const double best = pose_log_odds(good);
+    EXPECT_NEAR(log_odds(good, best), log_odds(good), 1e-9) << "the best facing stands for its coverage";
+    EXPECT_NEAR(log_odds(good, best) - log_odds(poor, best), k_pose_between_facings * (log_odds(good) - log_odds(poor)),
+                1e-9);
 }
 
 // A tube 0.5 m high with its rim at 0; it is `factor` times as wide 21 cm below the rim as there.
