@@ -35,6 +35,7 @@ struct Parts {
     const Weld weld;
     const TriangleMesh rest;
     const MeshTopology topology;
+    mutable SelfCrossingSearch search;  ///< its trees are renewed each time
     const std::vector<Crossing> crossings;  ///< with itself, as given
     const GivenCrossings given;
     const LedPlaces led;  ///< with the stand-in
@@ -42,18 +43,15 @@ struct Parts {
 
     Parts(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment) :
         weld(garment), rest(sewn(weld.gather(garment))), topology(rest.triangles, int(rest.positions.rows())),
-        crossings(self_crossings(rest.positions)), given(rest, topology.edges(), crossings),
-        led(lead_along(stand_in, worn, rest.positions, topology)), beside(rest.positions, topology, led.positions)
+        search(rest.triangles, topology.edges()), crossings(self_crossings(rest.positions)),
+        given(rest, topology.edges(), crossings), led(lead_along(stand_in, worn, rest.positions, topology)),
+        beside(rest.positions, topology, led.positions)
     {
     }
     Parts(const Parts&) = delete;
     Parts& operator=(const Parts&) = delete;
 
-    std::vector<Crossing> self_crossings(const Positions& positions) const
-    {
-        return find_self_crossings({ positions, rest.triangles }, topology.edges(),
-                                   TriangleTree({ positions, rest.triangles }));
-    }
+    std::vector<Crossing> self_crossings(const Positions& positions) const { return search.find(positions); }
     /// Those that it was not given with.
     std::vector<Crossing> fresh_crossings(const Positions& positions) const
     {
