@@ -19,6 +19,8 @@ using namespace skeleton_tuning;
 
 constexpr double k_smallest_squared_distance = 1e-8;  // m^2, unit: 0.1 mm, for skin that touches a bone
 constexpr double k_no_length = 1e-300;  // unit: avoids 0 / 0
+/// unit: share of the mean area of a vertex. Where triangles without area are a part of their own, no heat would come in.
+constexpr double k_least_area = 1e-9;
 
 /// The nearest point of a bone, which includes the hand, foot or head at its end.
 Vec3 nearest_on_bone(const Vec3& p, const Skeleton& skeleton, int bone)
@@ -67,11 +69,12 @@ Eigen::MatrixXd heat_weights(const TriangleMesh& closed, const Skeleton& skeleto
     const Eigen::Index n = closed.positions.rows();
     auto [system, areas] = cotangent_laplacian(closed);
     const Positions normals = vertex_normals(closed.positions, closed.triangles);
+    const double least_area = k_least_area * areas.mean();
     Eigen::MatrixXd heat = Eigen::MatrixXd::Zero(n, bone_count);
     for (Eigen::Index v = 0; v < n; ++v) {
         const NearestBone nearest = nearest_visible(closed.positions.row(v), normals.row(v), skeleton, visible[v]);
         const double heat_of_bone = is_arm(nearest.bone) ? k_heat_of_arms : k_heat;
-        const double source = heat_of_bone * areas[v]
+        const double source = heat_of_bone * std::max(areas[v], least_area)
             / std::max(std::pow(nearest.distance, 2), k_smallest_squared_distance);  // H of the paper
         system.coeffRef(v, v) += source;
         heat(v, nearest.bone) = source;

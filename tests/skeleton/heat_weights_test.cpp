@@ -32,4 +32,19 @@ TEST(HeatWeights, TrianglesWithoutAreaDoNotKeepTheRestFromItsWeights)
         }
 }
 
+TEST(HeatWeights, APartOfTrianglesWithoutAreaHasWeightsToo)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    const Eigen::Index n = person.mesh.positions.rows(), faces = person.mesh.triangles.rows();
+    TriangleMesh mesh = person.mesh;
+    mesh.positions.conservativeResize(n + 4, 3);
+    for (int k = 0; k < 4; ++k)
+        mesh.positions.row(n + k) = mesh.positions.row(0) + Eigen::RowVector3d(0.01 * k, 0, 0);
+    mesh.triangles.conservativeResize(faces + 2, 3);
+    mesh.triangles.bottomRows(2) << int(n), int(n) + 1, int(n) + 2, int(n) + 1, int(n) + 3, int(n) + 2;
+    const Eigen::MatrixXd weights = heat_weights(mesh, person.skeleton, all_bones(n + 4));
+    EXPECT_TRUE(weights.allFinite());
+    EXPECT_LT((weights.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-9);
+}
+
 }  // namespace
