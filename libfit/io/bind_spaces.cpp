@@ -9,6 +9,8 @@
 
 #include <assimp/scene.h>
 
+#include "tuning.h"
+
 namespace garmentfit {
 namespace {
 
@@ -79,7 +81,82 @@ std::vector<aiMesh*>::iterator next_of(std::vector<aiMesh*>& meshes, const BindM
     return meshes.begin();
 }
 
+/// The scene's space from that of each node, by name.
+using NodePlaces = std::map<std::string, aiMatrix4x4>;
+
+struct SkinnedMesh {
+    aiMesh* mesh;
+    aiMatrix4x4 scene_from_node;
+};
+
+void list_nodes(const aiScene& scene, const aiNode& node, const aiMatrix4x4& scene_from_parent, NodePlaces& places,
+                std::vector<SkinnedMesh>& meshes)
+{
+    const aiMatrix4x4 scene_from_node = scene_from_parent * node.mTransformation;
+    places.emplace(node.mName.C_Str(), scene_from_node);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        if (aiMesh* const mesh = scene.mMeshes[node.mMeshes[i]]; mesh->mNumBones > 0)
+            meshes.push_back({ mesh, scene_from_node });
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        list_nodes(scene, *node.mChildren[i], scene_from_node, places, meshes);
+}
+
+/// A joint, and the middle of the skin that hangs on it where its mesh's node and where the bind matrix shows it.
+struct HeldSkin {
+    aiVector3D joint, by_node, by_bind;
+    float weight = 0;
+};
+
+void list_held_skin(const SkinnedMesh& skinned, const NodePlaces& places, std::vector<HeldSkin>& held)
+{
+    const aiMesh& mesh = *skinned.mesh;
+    for (const aiBone* bone : bones_of(mesh)) {
+        aiVector3D middle;
+        HeldSkin skin;
+        for (unsigned i = 0; i < bone->mNumWeights; ++i)
+            if (const aiVertexWeight& of = bone->mWeights[i]; of.mVertexId < mesh.mNumVertices) {
+                middle += mesh.mVertices[of.mVertexId] * of.mWeight;
+                skin.weight += of.mWeight;
+            }
+        const auto place = places.find(bone->mName.C_Str());
+        if (place == places.end() || !(skin.weight > 0))
+            continue;
+        middle /= skin.weight;
+        skin.joint = aiVector3D(place->second.a4, place->second.b4, place->second.c4);
+        skin.by_node = skinned.scene_from_node * middle;
+        skin.by_bind = place->second * bone->mOffsetMatrix * middle;
+        held.push_back(skin);
+    }
+}
+
+/// Sum over the skin.
+float distance_from_joints(const std::vector<HeldSkin>& held, aiVector3D HeldSkin::*shown)
+{
+    float sum = 0;
+    for (const HeldSkin& skin : held)
+        sum += skin.weight * (skin.*shown - skin.joint).Length();
+    return sum;
+}
+
 }  // namespace
+
+void restore_bind_shapes(aiScene& scene)
+{
+    NodePlaces places;
+    std::vector<SkinnedMesh> meshes;
+    if (scene.mRootNode)
+        list_nodes(scene, *scene.mRootNode, {}, places, meshes);
+    std::vector<HeldSkin> held;
+    for (const SkinnedMesh& skinned : meshes)
+        list_held_skin(skinned, places, held);
+    if (!(distance_from_joints(held, &HeldSkin::by_node)
+          < k_much_nearer_joints * distance_from_joints(held, &HeldSkin::by_bind)))
+        return;
+    for (const SkinnedMesh& skinned : meshes)
+        for (aiBone* const bone : bones_of(*skinned.mesh))
+            if (const auto place = places.find(bone->mName.C_Str()); place != places.end())
+                bone->mOffsetMatrix = aiMatrix4x4(place->second).Inverse() * skinned.scene_from_node;
+}
 
 void unify_bind_spaces(aiScene& scene)
 {

@@ -58,6 +58,7 @@ std::string convert(const FileBytes& file)
     const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
     if (!scene)
         throw std::runtime_error(importer.GetErrorString());
+    restore_bind_shapes(*scene);
     unify_bind_spaces(*scene);
     Assimp::Exporter exporter;
     const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2");

@@ -67,6 +67,11 @@ inline constexpr double k_clear_preference = 0.4;
 /// guess; files have none or all.
 inline constexpr double k_left_handed = 0.75;
 
+/// Dimensionless, a ratio of distances between joints and their skin: below it, meshes are shown where their nodes are
+/// and not where their bind matrices put them. fitted: guess; one file that lacks the turn and scale of its armature has
+/// 0.0007, nine others have 1 to 20.
+inline constexpr float k_much_nearer_joints = 0.3f;
+
 /// Dimensionless, a share of the diagonal of what an avatar's joints move: what is farther from it is not worn, nor hair
 /// or eyes. fitted: guess, on three files with a desk, a ball and a floor.
 inline constexpr double k_far_from_skin = 0.08;

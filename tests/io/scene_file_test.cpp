@@ -117,6 +117,34 @@ TEST_F(SceneFile, MeshesWithBindMatricesOfTheirOwnLieWhereTheyBelong)
     EXPECT_NEAR(shown.col(1).minCoeff(), person.mesh.positions.col(1).minCoeff(), 1e-4);
 }
 
+TEST_F(SceneFile, ABodyWhoseBindMatricesLackTheTurnOfItsArmatureStands)
+{
+    const fixtures::Person person = fixtures::capsule_person();
+    const Rig rig = fixtures::simple_rig(person);
+    write_outfit_glb(folder / "body.glb", rig, { { "body", person.mesh, rig.weights } }, { .names = BoneNames::smpl });
+    Assimp::Importer importer;
+    importer.ReadFile((folder / "body.glb").string(), 0);
+    const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+    ASSERT_TRUE(scene && scene->mNumMeshes == 1) << importer.GetErrorString();
+    const aiMatrix4x4 scene_from_armature { 0, 0, .01f, 0, 0, .01f, 0, 0, -.01f, 0, 0, 0, 0, 0, 0, 1 };
+    move_bind_space(*scene->mMeshes[0], aiMatrix4x4(scene_from_armature).Inverse());
+    for (unsigned b = 0; b < scene->mMeshes[0]->mNumBones; ++b) {  // as though the mesh lay in the scene's space
+        aiMatrix4x4& joint_from_mesh = scene->mMeshes[0]->mBones[b]->mOffsetMatrix;
+        joint_from_mesh = joint_from_mesh * aiMatrix4x4(scene_from_armature).Inverse();
+    }
+    aiNode* const shown = scene->mRootNode->FindNode("body");
+    ASSERT_TRUE(shown && shown->mNumMeshes == 1);
+    shown->mTransformation = scene_from_armature * shown->mTransformation;
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(scene.get(), "collada", (folder / "body.dae").string()), aiReturn_SUCCESS);
+
+    const ForeignRig read = read_skinned_gltf(folder / "body.dae");
+    const Positions positions = MeshFile::read(folder / "body.dae").positions();
+    EXPECT_NEAR(positions.col(1).maxCoeff(), person.mesh.positions.col(1).maxCoeff(), 1e-4);
+    for (const int bone : { lfemur, ltibia, rfemur, lhumerus, rradius })
+        EXPECT_LT((read.skeleton.head(bone) - person.skeleton.head(bone)).norm(), 1e-4) << bone_name(bone);
+}
+
 TEST_F(SceneFile, FilesThatOnlyNameTheseFormatsAreReadAsWhatTheyAre)
 {
     std::string json = samples::gltf_json("");
