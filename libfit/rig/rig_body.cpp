@@ -439,6 +439,24 @@ private:
     double score_ = 0;
 };
 
+/// Looks at a wrap of a body in parts. @return the vertices of the wrap, 0 where there is none
+Eigen::Index look_at_wrap(FigureSearch& search, const BodyMesh& body, Gaps gaps, const RigOptions& options,
+                          const Progress& progress)
+{
+    Eigen::Index vertices = 0;
+    try {
+        const std::optional<TriangleMesh> joined = join_parts(body.surface, gaps, progress.part(0, 0.5));
+        if (!joined)
+            return 0;
+        vertices = joined->positions.rows();
+        TriangleMesh proxy = proxy_surface(*joined, options.proxy_vertices);
+        search.look_at(contract(std::move(proxy), progress.part(0.5, 1)), gaps == Gaps::wide ? k_wide_wrap_cost : 0);
+    } catch (const InvalidInput&) {
+        // this wrap does not contract to curves
+    }
+    return vertices;
+}
+
 /// Looks at what was contracted for a human, at finer and coarser copies, and, of a body in parts, at other ways to join
 /// them.
 void look_for_figures(FigureSearch& search, const BodyMesh& body, const RigOptions& options, Copies& copies,
@@ -454,22 +472,11 @@ void look_for_figures(FigureSearch& search, const BodyMesh& body, const RigOptio
         } catch (const InvalidInput&) {
             // this copy does not contract to curves
         }
-    double done = 0.2;
-    for (const Gaps gaps : { Gaps::wide, Gaps::narrow }) {
-        if (!body.repaired || search.is_sure())
-            break;
-        try {
-            if (const std::optional<TriangleMesh> joined
-                = join_parts(body.surface, gaps, progress.part(done, done + 0.15))) {
-                TriangleMesh proxy = proxy_surface(*joined, options.proxy_vertices);
-                search.look_at(contract(std::move(proxy), progress.part(done + 0.15, done + 0.3)),
-                               gaps == Gaps::wide ? k_wide_wrap_cost : 0);
-            }
-        } catch (const InvalidInput&) {
-            // this wrap does not contract to curves
-        }
-        progress.at(done += 0.3);
-    }
+    if (!body.repaired || search.is_sure())
+        return;
+    const Eigen::Index vertices = look_at_wrap(search, body, Gaps::wide, options, progress.part(0.2, 0.5));
+    if (vertices <= k_most_in_wide_wrap && !search.is_sure())
+        look_at_wrap(search, body, Gaps::narrow, options, progress.part(0.5, 0.8));
 }
 
 /// @throws `refusal` when there is none, also where the time ends before all is looked at: why it is no human says more.

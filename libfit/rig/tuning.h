@@ -306,6 +306,9 @@ inline constexpr double k_doubtful_spread = 0.145;
 inline constexpr double k_divided_cost = 0.4;
 /// fitted: guess. Score that a wide wrap costs: it joins arms with the trunk, too.
 inline constexpr double k_wide_wrap_cost = 1;
+/// fitted: guess. A wide wrap with more vertices is of layers or tangled hair: the narrow one would be given up after 10 s
+/// or has no use. Six figures that the narrow wrap helped have 850 to 1700, three whose wrap was in vain from 2800.
+inline constexpr int k_most_in_wide_wrap = 2500;
 /// fitted: guess. A figure with this score (minus its costs) needs no other way to join its parts.
 inline constexpr double k_sure_figure = -1.5;
 
