@@ -2,6 +2,7 @@
 #include "gltf_stale.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace garmentfit {
 namespace {
@@ -41,18 +42,30 @@ ordered_json matrix_of(const Eigen::Affine3d& transform)
     return matrix;
 }
 
+/// That which is shown, as readers take it: members of another type than they should have do not count.
+ordered_json& shown_scene(ordered_json& json)
+{
+    ordered_json& scenes = json["scenes"];
+    const auto given = json.find("scene");
+    const double number = given != json.end() && given->is_number() ? given->get<double>() : 0;
+    const bool is_one = number >= 0 && number < double(scenes.size()) && number == std::floor(number);
+    return scenes.at(is_one ? std::size_t(number) : 0);
+}
+
 /// A skin ignores the place of its node; without it the place counts.
 void hang_on_own_node(ordered_json& json, const WrittenNode& written)
 {
     ordered_json& nodes = json["nodes"];
     const ordered_json given = nodes[std::size_t(written.node)];
-    ordered_json own { { "name", given.value("name", "") }, { "mesh", given.at("mesh") } };
+    ordered_json own { { "mesh", given.at("mesh") } };
+    if (const auto name = given.find("name"); name != given.end())
+        own["name"] = *name;
     if (!written.world_from_mesh.matrix().isIdentity(0))
         own["matrix"] = matrix_of(written.world_from_mesh);
     for (const char* member : { "mesh", "skin", "weights" })
         nodes[std::size_t(written.node)].erase(member);
     if (json.contains("scenes") && !json["scenes"].empty())
-        json["scenes"].at(json.value("scene", std::size_t(0)))["nodes"].push_back(nodes.size());
+        shown_scene(json)["nodes"].push_back(nodes.size());
     nodes.push_back(own);
 }
 

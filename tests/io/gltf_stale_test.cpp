@@ -80,6 +80,16 @@ TEST_F(StaleGltf, KeepsItsDigitsWhereItIsWrittenFarFromItsNode)
     EXPECT_LT((MeshFile::read(folder / "worn.glb").positions() - moved).cwiseAbs().maxCoeff(), 2e-7);
 }
 
+TEST_F(StaleGltf, IsWrittenThoughItsSceneHasNoNumber)
+{
+    GltfContainer container = read_gltf_container(read_file(folder / "shirt.glb"));
+    container.json["scene"] = Json::array();
+    const MeshFile shirt = MeshFile::read(save("odd.glb", bytes_of(container)));
+    const Positions moved = shirt.positions() * 1.25;
+    shirt.write(folder / "worn.glb", moved);
+    EXPECT_LT((MeshFile::read(folder / "worn.glb").positions() - moved).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST_F(StaleGltf, KeepsItsNodeWhereItStaysNearIt)
 {
     const MeshFile shirt = hung_at(2);
