@@ -108,10 +108,10 @@ GivenCrossings::GivenCrossings(const TriangleMesh& given, const Edges& edges, co
                  [&](const Crossing& crossing) { return segments.continue_at(crossing); });
 }
 
-// The two places that meet now lay on each other at rest.
+// The two places that meet now lay on each other at rest. Cloth that was given without crossings has none forgiven.
 bool GivenCrossings::is_shifted(const Positions& positions, const Crossing& crossing) const
 {
-    return offset_at_rest(given_, edges_, positions, crossing).norm() < largest_gap_;
+    return !sure_.empty() && offset_at_rest(given_, edges_, positions, crossing).norm() < largest_gap_;
 }
 
 // A pair that only touched in the input did not cross there, unless cloth crosses on both sides of it. Where more pairs
@@ -119,8 +119,7 @@ bool GivenCrossings::is_shifted(const Positions& positions, const Crossing& cros
 // more cross than before.
 ComparedCrossings GivenCrossings::compare(const Positions& positions, const std::vector<Crossing>& present) const
 {
-    const bool forgives_touching = present.size() <= sure_.size(),
-               forgives_shifted = !sure_.empty() && present.size() <= count_;
+    const bool forgives_touching = present.size() <= sure_.size(), forgives_shifted = present.size() <= count_;
     ComparedCrossings result;
     for (const Crossing& crossing : present)
         if (is_among(sure_, crossing) || (forgives_touching && is_among(touching_, crossing)))
@@ -133,8 +132,7 @@ ComparedCrossings GivenCrossings::compare(const Positions& positions, const std:
 std::vector<Crossing> GivenCrossings::of_cloth_apart(const Positions& positions, std::vector<Crossing> present) const
 {
     std::erase_if(present, [&](const Crossing& crossing) {
-        return is_among(sure_, crossing) || is_among(touching_, crossing)
-            || (!sure_.empty() && is_shifted(positions, crossing));
+        return is_among(sure_, crossing) || is_among(touching_, crossing) || is_shifted(positions, crossing);
     });
     return present;
 }
