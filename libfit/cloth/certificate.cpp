@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact.h"
 #include "disjoint_sets.h"
 #include "exact_crossings.h"
 #include "given_crossings.h"
 #include "parallel.h"
+#include "part_of_mesh.h"
 #include "quantile.h"
 #include "stretch.h"
 #include "used_vertices.h"
@@ -22,6 +24,11 @@ namespace {
 constexpr double k_inside = 0.5;
 // unit: what is nearer to that is summed exactly; dipoles err by some hundredths at most.
 constexpr double k_unsure = 0.25;
+
+// unit: m; how far around a garment the body is looked at first. Garments touch their bodies.
+constexpr double k_near = 0.02;
+// unit: for fewer places the sum of all solid angles takes less time than its tree.
+constexpr std::size_t k_few_places = 16;
 
 /// A mesh with its edges and its tree, made once for all searches of a certificate.
 struct IndexedMesh {
@@ -63,10 +70,11 @@ int count_vertices_inside(const TriangleMesh& body, const IndexedMesh& garment,
         if (size[pieces.root(v)]++ == 0)
             roots.push_back(pieces.root(v));
     std::vector<char> inside(size.size(), 0);
-    const WindingNumber about(body);
+    const std::optional<WindingNumber> about
+        = roots.size() > k_few_places ? std::optional<WindingNumber>(body) : std::nullopt;
     parallel_for(roots.size(), [&](std::size_t i) {
         const Vec3 place = positions.row(roots[i]);
-        double number = about(place);
+        double number = about ? (*about)(place) : k_inside;
         if (std::abs(number - k_inside) < k_unsure)
             number = winding_number(body, place);
         inside[roots[i]] = number > k_inside;
@@ -113,7 +121,9 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
                     const std::vector<TriangleMesh>& under)
 {
     const TriangleMesh worn { positions, rest.triangles }, given { rest.positions, rest.triangles };
-    const IndexedMesh garment(worn), obstacle(body);
+    const Box around = box_of(positions);
+    const TriangleMesh near = part_in(body, { around.min().array() - k_near, around.max().array() + k_near });
+    const IndexedMesh garment(worn), obstacle(near);
     const std::vector<Crossing> through_body = crossings(garment, obstacle);
     Certificate result;
     result.body_crossings = int(through_body.size() + crossings(obstacle, garment).size());
@@ -130,6 +140,8 @@ Certificate certify(const TriangleMesh& body, const GarmentMesh& rest, const Pos
     }
     result.vertices_inside = count_vertices_inside(body, garment, through_body);
     result.min_distance = result.body_crossings > 0 ? 0 : min_distance(garment, obstacle);
+    if (result.min_distance > k_near)  // what is nearer may lie outside
+        result.min_distance = min_distance(garment, IndexedMesh(body));
     result.strain = strain_of(rest, positions);
     return result;
 }

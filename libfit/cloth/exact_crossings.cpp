@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "parallel.h"
+#include "part_of_mesh.h"
 #include "segment_triangle.h"
 
 namespace garmentfit {
@@ -100,7 +101,8 @@ std::vector<Crossing> self_crossings(const TriangleMesh& mesh)
 
 int crossing_count(const TriangleMesh& a, const TriangleMesh& b)
 {
-    return int(crossings(a, b).size() + crossings(b, a).size());
+    const TriangleMesh of_a = part_in(a, box_of(b.positions)), of_b = part_in(b, box_of(a.positions));
+    return int(crossings(of_a, of_b).size() + crossings(of_b, of_a).size());
 }
 
 }  // namespace garmentfit

@@ -2,15 +2,18 @@
 #include "garmentfit/drape_garment.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "cloth_motion.h"
+#include "coarse_body.h"
 #include "garmentfit/closed_ends.h"
 #include "garmentfit/fit_skeleton.h"
 #include "growing_body.h"
 #include "held_back.h"
 #include "layers.h"
 #include "prepared_cloth.h"
+#include "rest_on_body.h"
 #include "sewn_body.h"
 #include "skin_weights.h"
 #include "sleeve_retraction.h"
@@ -251,6 +254,21 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
     return result;
 }
 
+/// Lets the body go from where it is laid to its own skin, and the garments hang there.
+void hang_on_own_skin(DrapeResult& result, const Rig& rig, const BodyMesh& body, const DrapeOptions& options,
+                      const Progress& progress)
+{
+    RecoverOptions hanging { .cloth = options.cloth, .quality = Quality::draft };
+    hanging.cloth.largest_stretch = std::numeric_limits<double>::infinity();  // as the body grew, it was judged
+    const RecoverResult hung = rest_on_body(rig, body, result, hanging, progress);
+    static_cast<DressedBody&>(result) = hung;
+    result.held_back = hung.held_back;
+    result.speed = hung.speed;
+    result.certified = hung.certified;
+    result.out_of_time = hung.out_of_time;
+    result.seconds += hung.seconds;
+}
+
 }  // namespace
 
 Material material_of(const ClothOptions& options, const WornGarment& worn)
@@ -273,9 +291,16 @@ bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,
                           const DrapeOptions& options, const Progress& progress)
 {
+    const auto drape = [&](const Rig& on, const BodyMesh& skin, const DressedBody& worn, const Progress& part) {
+        return drape_on(on, skin, worn, given, options, part);
+    };
     return move_sewn(rig, body, dressed, progress,
                      [&](const Rig& on, const BodyMesh& skin, const DressedBody& worn, const Progress& part) {
-                         return drape_on(on, skin, worn, given, options, part);
+                         return move_coarse(on, skin, worn, part, drape,
+                                            [&](DrapeResult& result, bool has_own_skin, const Progress& rest) {
+                                                if (!has_own_skin)
+                                                    hang_on_own_skin(result, on, skin, options, rest);
+                                            });
                      });
 }
 

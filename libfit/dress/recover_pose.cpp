@@ -7,12 +7,14 @@
 #include "append_mesh.h"
 #include "body_parts.h"
 #include "cloth_motion.h"
+#include "coarse_body.h"
 #include "creases.h"
 #include "garmentfit/error.h"
 #include "held_back.h"
 #include "layers.h"
 #include "overlaps.h"
 #include "pose_path.h"
+#include "rest_on_body.h"
 #include "sewn_body.h"
 #include "skin_weights.h"
 #include "stretch.h"
@@ -397,7 +399,26 @@ RecoverResult recover_on(const Rig& rig, const BodyMesh& body, const DressedBody
     return other.pose_reached > result.pose_reached ? other : result;
 }
 
+/// Lets the body go from where it is laid to its own skin, and the garments find their rest on that.
+void rest_on_own_skin(RecoverResult& result, const Rig& rig, const BodyMesh& body, const RecoverOptions& options,
+                      const Progress& progress)
+{
+    RecoverResult rest = rest_on_body(rig, body, result, options, progress);
+    rest.frames = std::move(result.frames);
+    rest.seconds += result.seconds;
+    result = std::move(rest);
+}
+
 }  // namespace
+
+RecoverResult rest_on_body(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, RecoverOptions options,
+                           const Progress& progress)
+{
+    options.settling_steps = k_own_skin_steps;
+    options.frames = 0;
+    options.only_rests = true;
+    return recover_on(rig, body, dressed, dressed.pose, options, progress);
+}
 
 const std::vector<std::string_view>& quality_names()
 {
@@ -408,9 +429,16 @@ const std::vector<std::string_view>& quality_names()
 RecoverResult recover_pose(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
                            const RecoverOptions& options, const Progress& progress)
 {
+    const auto recover = [&](const Rig& on, const BodyMesh& skin, const DressedBody& worn, const Progress& part) {
+        return recover_on(on, skin, worn, target, options, part);
+    };
     return move_sewn(rig, body, dressed, progress,
                      [&](const Rig& on, const BodyMesh& skin, const DressedBody& worn, const Progress& part) {
-                         return recover_on(on, skin, worn, target, options, part);
+                         return move_coarse(on, skin, worn, part, recover,
+                                            [&](RecoverResult& result, bool has_own_skin, const Progress& rest) {
+                                                if (!has_own_skin || options.quality == Quality::standard)
+                                                    rest_on_own_skin(result, on, skin, options, rest);
+                                            });
                      });
 }
 

@@ -20,37 +20,31 @@ bool is_torn(const Positions& body, const Weld& weld, const std::vector<int>& ve
 
 }  // namespace
 
-SewnBody::SewnBody(const Rig& rig, const BodyMesh& body, const DressedBody& dressed) : given_(body.surface.positions)
+SewnBody::SewnBody(const Rig& rig, const BodyMesh& body, const DressedBody& dressed) :
+    given_(body.surface.positions), weld_(GarmentMesh { body.surface.positions, body.surface.triangles })
 {
-    const GarmentMesh surface { body.surface.positions, body.surface.triangles };
-    Weld weld(surface);
-    GarmentMesh one = weld.gather(surface);
-    const std::vector<int> used = used_vertices(surface.triangles);
+    GarmentMesh one = weld_.gather(GarmentMesh { body.surface.positions, body.surface.triangles });
+    const std::vector<int> used = used_vertices(body.surface.triangles);
     if (one.positions.rows() == Eigen::Index(used.size()))
         return;
-    if (dressed.body.rows() > 0 && is_torn(dressed.body, weld, used))
+    if (dressed.body.rows() > 0 && is_torn(dressed.body, weld_, used))
         return;
-    std::vector<int> rows;
+    std::vector<int> vertices;
     for (int v = 0; v < int(one.positions.rows()); ++v)
-        rows.push_back(weld.given_vertex(v));
-    Rig sewn_rig = rig;
-    sewn_rig.weights.bones = rig.weights.bones(rows, Eigen::all).eval();
-    sewn_rig.weights.weights = rig.weights.weights(rows, Eigen::all).eval();
-    sewn_ = Sewn { std::move(weld),
-                   std::move(sewn_rig),
-                   { { std::move(one.positions), std::move(one.triangles) }, body.closed, body.repaired } };
+        vertices.push_back(weld_.given_vertex(v));
+    sewn_.emplace(rig, body, vertices, std::move(one.triangles));
 }
 
 DressedBody SewnBody::gather(DressedBody dressed) const
 {
     if (dressed.body.rows() > 0)
-        dressed.body = sewn_->weld.gather(dressed.body);
+        dressed.body = weld_.gather(dressed.body);
     return dressed;
 }
 
 Positions SewnBody::spread(const Positions& sewn) const
 {
-    return sewn == sewn_->body.surface.positions ? given_ : sewn_->weld.place(sewn);
+    return sewn == sewn_->body.surface.positions ? given_ : weld_.place(sewn);
 }
 
 }  // namespace garmentfit

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "garmentfit/drape_garment.h"
+#include "partial_body.h"
 #include "weld.h"
 
 namespace garmentfit {
@@ -27,14 +28,9 @@ public:
     Positions spread(const Positions& sewn) const;
 
 private:
-    struct Sewn {
-        Weld weld;
-        Rig rig;
-        BodyMesh body;
-    };
-
     const Positions& given_;
-    std::optional<Sewn> sewn_;
+    Weld weld_;
+    std::optional<PartialBody> sewn_;
 };
 
 /// What `move` makes of the sewn body. Where that does not end certified, and nothing is too tight, what it makes of the

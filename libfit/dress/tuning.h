@@ -38,6 +38,16 @@ inline constexpr double k_named_stretch_share = 0.7;
 /// Fitted: guess.
 inline constexpr double k_enlarged_stretch_share = 0.5;
 
+// ---- bodies of many vertices (coarse_body.cpp, recover_pose.cpp), docs/decisions/0053-coarse-bodies.md ---------------
+
+/// Vertices from which on a body is dressed on some of them, at least about so many; with edges that collapse as long as
+/// that moves the surface by less than this, m; and their share, up to which it is worth it. Fitted: guesses by time, on
+/// one body of 13,000, 54,000 and 214,000 vertices.
+inline constexpr int k_fine_body = 30000, k_coarse_body_vertices = 15000;
+inline constexpr double k_coarse_body_error = 4e-4, k_worth_coarsening = 0.7;
+/// Time steps under gravity, once the body goes from the coarse surface to its own skin. Fitted: guess.
+inline constexpr int k_own_skin_steps = 4;
+
 // ---- hands (hand_stretch.cpp) ------------------------------------------------------------------------------------
 
 /// Shares of its bend that are taken back from a hand, tried from the first. Fitted: of half stretches, a jacket with

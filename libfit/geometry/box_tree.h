@@ -10,10 +10,9 @@
 
 #include "garmentfit/types.h"
 #include "parallel.h"
+#include "part_of_mesh.h"
 
 namespace garmentfit {
-
-using Box = Eigen::AlignedBox3d;
 
 class BoxTree {
 public:

@@ -158,6 +158,29 @@ void cloth_sizes(benchmark::internal::Benchmark* run)
         run->Arg(vertices);
     run->Unit(benchmark::kSecond)->Complexity();
 }
+/// The skirt on a body of so many vertices: from some tens of thousands on it is dressed on fewer.
+void dress_fine_body(benchmark::State& state)
+{
+    const TriangleMesh woman = at_level(GARMENTFIT_SAMPLES "/walking_woman.ply", int(state.range(0)));
+    const TriangleMesh skirt = read(GARMENTFIT_SAMPLES "/skirt.ply");
+    Parameters parameters;
+    parameters.recover.quality = Quality::draft;
+    parameters.time_limit = 0;
+    Scene scene;
+    for (auto _ : state) {
+        scene = Scene();
+        scene.body = make_body(woman.positions, woman.triangles);
+        scene.garments = { { make_garment(skirt.positions, skirt.triangles), GarmentType::skirt } };
+        filter_of("dress").run(scene, parameters);
+    }
+    state.counters["drape"] = scene.seconds[int(Stage::drape)];
+    state.counters["recover"] = scene.seconds[int(Stage::recover)];
+    state.counters["certified"] = scene.recovered && scene.recovered->certified;
+    count_vertices(state, woman.positions);
+    state.SetComplexityN(woman.positions.rows());
+}
+BENCHMARK(dress_fine_body)->DenseRange(0, 3)->Unit(benchmark::kSecond)->Complexity();
+
 BENCHMARK(drape)->Apply(cloth_sizes);
 BENCHMARK(recover)->Apply(cloth_sizes);
 BENCHMARK(dress_to_rest)->Apply(cloth_sizes);
