@@ -2,12 +2,16 @@
 #include "coarse_body.h"
 
 #include <algorithm>
+#include <cmath>
+#include <queue>
+#include <tuple>
 
 #include <meshoptimizer.h>
 
-#include "barycentric.h"
 #include "nearest.h"
 #include "parallel.h"
+#include "proximity.h"
+#include "topology.h"
 #include "tuning.h"
 #include "used_vertices.h"
 
@@ -32,7 +36,7 @@ Triangles simplify(const TriangleMesh& mesh)
     return left.topRows(Eigen::Index(count / 3)).cast<int>();
 }
 
-/// Turns with the triangle: along its first side, its normal, and across both. None where it has no area.
+/// Turns with the triangle: along its first side, its normal, and across both. Zero columns where it has no area.
 Eigen::Matrix3d frame_of(const Vec3& a, const Vec3& b, const Vec3& c)
 {
     const Vec3 along = (b - a).normalized(), normal = (b - a).cross(c - a).normalized();
@@ -50,6 +54,38 @@ Eigen::Matrix3d frame_of(const Positions& positions, const Triangles& triangles,
 {
     return frame_of(corner(positions, triangles, triangle, 0), corner(positions, triangles, triangle, 1),
                     corner(positions, triangles, triangle, 2));
+}
+
+/// Of each vertex the source, by its place in the list, that is nearest along edges; -1 where none is joined to it.
+/// Dijkstra's algorithm, O(n log n).
+std::vector<int> nearest_along_edges(const TriangleMesh& mesh, const std::vector<int>& sources)
+{
+    const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
+    using Step = std::tuple<double, int, int>;  // length, vertex, source
+    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
+    std::vector<int> result(std::size_t(mesh.positions.rows()), -1);
+    for (int s = 0; s < int(sources.size()); ++s)
+        next.emplace(0, sources[std::size_t(s)], s);
+    while (!next.empty()) {
+        const auto [length, vertex, source] = next.top();
+        next.pop();
+        if (result[std::size_t(vertex)] >= 0)
+            continue;
+        result[std::size_t(vertex)] = source;
+        for (const int other : topology.neighbours(vertex))
+            if (result[std::size_t(other)] < 0)
+                next.emplace(length + (mesh.positions.row(vertex) - mesh.positions.row(other)).norm(), other, source);
+    }
+    return result;
+}
+
+std::vector<std::vector<int>> triangles_by_vertex(const TriangleMesh& mesh)
+{
+    std::vector<std::vector<int>> result(std::size_t(mesh.positions.rows()));
+    for (int t = 0; t < mesh.triangles.rows(); ++t)
+        for (const int v : mesh.triangles.row(t))
+            result[std::size_t(v)].push_back(t);
+    return result;
 }
 
 bool are_clear_of_body(const std::vector<WornGarment>& garments)
@@ -70,18 +106,56 @@ CoarseBody::CoarseBody(const Rig& rig, const BodyMesh& body) : given_(body.surfa
     if (vertices_.empty() || double(vertices_.size()) > k_worth_coarsening * double(given_.rows()))
         return;
     coarse_.emplace(rig, body, vertices_, numbered_among(vertices_, left));
-    const auto& [positions, triangles] = coarse_->body.surface;
+    const std::vector<int> joined = nearest_along_edges(body.surface, vertices_);
+    const std::vector<std::vector<int>> round = triangles_by_vertex(coarse_->body.surface);
     const TriangleTree tree(coarse_->body.surface);
-    bindings_.resize(std::size_t(given_.rows()));
-    parallel_for(given_.rows(), [&](Eigen::Index v) {
-        const Vec3 place = given_.row(v);
-        const auto [nearest, t] = *tree.nearest_triangle(place);
-        bindings_[std::size_t(v)]
-            = { t,
-                barycentric(nearest, corner(positions, triangles, t, 0), corner(positions, triangles, t, 1),
-                            corner(positions, triangles, t, 2)),
-                frame_of(positions, triangles, t).transpose() * (place - nearest) };
+    bindings_.resize(joined.size());
+    parallel_for(joined.size(), [&](std::size_t v) {
+        const Vec3 place = given_.row(Eigen::Index(v));
+        Binding& binding = bindings_[v];
+        if (joined[v] >= 0)
+            binding = bind(place, joined[v], round);
+        if (joined[v] < 0
+            || binding.offset.norm() > k_bound_beside)  // an island collapsed, or the way ended in a corner
+            binding = bound_to(tree.nearest_triangle(place)->triangle, place);
     });
+}
+
+// From the triangles round a vertex to ever nearer ones beside them: across a gap, another limb may be nearer, or a sheet
+// that the body wears.
+CoarseBody::Binding CoarseBody::bind(const Vec3& place, int from, const std::vector<std::vector<int>>& round) const
+{
+    Binding best { round[std::size_t(from)].front(), {}, Vec3::Constant(INFINITY) };
+    const auto find_nearer = [&](int vertex) {
+        bool found = false;
+        for (const int triangle : round[std::size_t(vertex)])
+            if (const Binding other = bound_to(triangle, place); other.offset.norm() < best.offset.norm()) {
+                best = other;
+                found = true;
+            }
+        return found;
+    };
+    bool goes_on = find_nearer(from);
+    while (goes_on) {
+        goes_on = false;
+        for (const int vertex : Eigen::RowVector3i(coarse_->body.surface.triangles.row(best.triangle)))
+            goes_on |= find_nearer(vertex);
+    }
+    return best;
+}
+
+CoarseBody::Binding CoarseBody::bound_to(int triangle, const Vec3& place) const
+{
+    const auto& [positions, triangles] = coarse_->body.surface;
+    const Corners corners { place, corner(positions, triangles, triangle, 0), corner(positions, triangles, triangle, 1),
+                            corner(positions, triangles, triangle, 2) };
+    const ClosestPoints at = closest_points(PairKind::vertex_face, corners);
+    const Eigen::Matrix3d frame = frame_of(positions, triangles, triangle);
+    if (frame.determinant() == 0)  // its neighbours have its edges
+        return { triangle, {}, Vec3::Constant(INFINITY) };
+    return { triangle,
+             { -at.weights[1], -at.weights[2], -at.weights[3] },
+             frame.transpose() * separation(at.weights, corners) };
 }
 
 DressedBody CoarseBody::gather(DressedBody dressed) const
@@ -113,6 +187,12 @@ Positions CoarseBody::spread(const Positions& coarse) const
 
 Positions CoarseBody::lay(const Positions& coarse) const { return place(coarse, 0); }
 
+bool are_clean(const std::vector<WornGarment>& garments)
+{
+    return std::all_of(garments.begin(), garments.end(),
+                       [](const WornGarment& garment) { return garment.certificate.clean(); });
+}
+
 bool are_clear_of(const CoarseBody& coarse, const DressedBody& dressed)
 {
     if (dressed.garments.empty())
@@ -143,8 +223,7 @@ bool put_on_given(const CoarseBody& coarse, const Triangles& given, RecoverFrame
         dressed.garments[i].positions = frame.garments[i];
     put_on_given(coarse, given, dressed);
     frame.body = std::move(dressed.body);
-    return std::all_of(dressed.garments.begin(), dressed.garments.end(),
-                       [](const WornGarment& garment) { return garment.certificate.clean(); });
+    return are_clean(dressed.garments);
 }
 
 }  // namespace garmentfit

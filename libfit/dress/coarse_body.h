@@ -33,12 +33,15 @@ public:
     Positions lay(const Positions& coarse) const;
 
 private:
-    /// Where a vertex is to a triangle of the coarse body.
+    /// Where a vertex is to a triangle of the coarse body that it is joined with.
     struct Binding {
         int triangle;
         std::array<double, 3> shares;  // of its corners at the nearest point
         Vec3 offset;  // from there, in the triangle's frame
     };
+    /// @param round  triangles by vertex
+    Binding bind(const Vec3& place, int from, const std::vector<std::vector<int>>& round) const;
+    Binding bound_to(int triangle, const Vec3& place) const;
     /// @param height  share of the offsets
     Positions place(const Positions& coarse, double height) const;
 
@@ -47,6 +50,9 @@ private:
     std::optional<PartialBody> coarse_;
     std::vector<Binding> bindings_;  // of all
 };
+
+/// By their certificates.
+bool are_clean(const std::vector<WornGarment>& garments);
 
 /// Whether the garments are clear of the coarse body where they are. @pre gathered
 bool are_clear_of(const CoarseBody& coarse, const DressedBody& dressed);
@@ -75,11 +81,13 @@ auto move_coarse(const Rig& rig, const BodyMesh& body, const DressedBody& dresse
     const Triangles& triangles = body.surface.triangles;
     if constexpr (requires { result.frames; })
         std::erase_if(result.frames, [&](auto& frame) { return !put_on_given(coarse, triangles, frame, result); });
-    const bool has_own_skin = put_on_given(coarse, triangles, result);
-    if (!result.certified)
-        return result;
-    settle(result, has_own_skin, progress.part(k_progress_of_coarse, k_progress_of_settled));
-    if (result.certified || progress.is_late())
+    const bool was_certified = result.certified, was_clean = are_clean(result.garments),
+               has_own_skin = put_on_given(coarse, triangles, result), is_clean = are_clean(result.garments);
+    if (was_certified && is_clean)
+        settle(result, has_own_skin, progress.part(k_progress_of_coarse, k_progress_of_settled));
+    const bool is_as_good = was_certified ? is_clean && result.certified : is_clean || !was_clean;
+    result.certified &= is_as_good;
+    if (is_as_good || progress.is_late())
         return result;
     return move(rig, body, dressed, progress.part(k_progress_of_settled, 1));
 }

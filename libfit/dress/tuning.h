@@ -45,6 +45,9 @@ inline constexpr double k_enlarged_stretch_share = 0.5;
 /// one body of 13,000, 54,000 and 214,000 vertices.
 inline constexpr int k_fine_body = 30000, k_coarse_body_vertices = 15000;
 inline constexpr double k_coarse_body_error = 4e-4, k_worth_coarsening = 0.7;
+/// m; a vertex is bound to a triangle that it is joined with, if there is one so near. Fitted: guess, of twice that error
+/// and more.
+inline constexpr double k_bound_beside = 1e-3;
 /// Time steps under gravity, once the body goes from the coarse surface to its own skin. Fitted: guess.
 inline constexpr int k_own_skin_steps = 4;
 
