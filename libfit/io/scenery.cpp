@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Eigenvalues>
+
 #include "garmentfit/error.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
@@ -25,11 +27,7 @@ std::vector<char> find_moved(const std::filesystem::path& avatar)
     return is_moved;
 }
 
-bool has_both(const std::vector<MeshPart>& parts)
-{
-    const auto is_skinned = [](const MeshPart& part) { return part.is_skinned; };
-    return std::any_of(parts.begin(), parts.end(), is_skinned) && !std::all_of(parts.begin(), parts.end(), is_skinned);
-}
+bool is_skinned(const MeshPart& part) { return part.is_skinned; }
 
 std::vector<int> corners_of(const Triangles& triangles, const MeshPart& part)
 {
@@ -76,12 +74,45 @@ private:
     const double far_;  ///< units of the file
 };
 
+/// Whether the corners lie in a plane, however that lies.
+bool is_flat(const Positions& corners)
+{
+    const Eigen::MatrixX3d arms = corners.rowwise() - corners.colwise().mean();
+    const Vec3 squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(arms.transpose() * arms,
+                                                                        Eigen::EigenvaluesOnly)
+                             .eigenvalues();  // ascending
+    return squares[0] <= k_flat * k_flat * squares[2];
+}
+
+/// Panels beside a body that no joint moves: backdrops, floors and lamps.
+std::vector<char> find_panels(const MeshFile& file, const std::vector<MeshPart>& parts)
+{
+    const Positions positions = file.positions();
+    const Triangles triangles = file.triangles();
+    std::vector<char> is_panel(parts.size(), 0);
+    std::vector<int> others;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::vector<int> corners = corners_of(triangles, parts[i]);
+        is_panel[i] = !corners.empty() && is_flat(positions(corners, Eigen::all));
+        if (!is_panel[i])
+            others.insert(others.end(), corners.begin(), corners.end());
+    }
+    if (others.empty())
+        return std::vector<char>(parts.size(), 0);
+    const double least = k_panel_size * diagonal(positions(others, Eigen::all));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        is_panel[i] = is_panel[i] && diagonal(positions(corners_of(triangles, parts[i]), Eigen::all)) > least;
+    return is_panel;
+}
+
 }  // namespace
 
 std::vector<char> find_scenery(const MeshFile& avatar, const std::vector<MeshPart>& parts)
 {
     std::vector<char> is_scenery(parts.size(), 0);
-    if (!has_both(parts))
+    if (std::none_of(parts.begin(), parts.end(), is_skinned))
+        return find_panels(avatar, parts);
+    if (std::all_of(parts.begin(), parts.end(), is_skinned))
         return is_scenery;
     try {
         const std::vector<char> is_moved = find_moved(avatar.path());

@@ -76,6 +76,11 @@ inline constexpr float k_much_nearer_joints = 0.3f;
 /// or eyes. fitted: guess, on three files with a desk, a ball and a floor.
 inline constexpr double k_far_from_skin = 0.08;
 
+/// Dimensionless, the least extent of a part by its largest, up to which it is a panel. unit: digits of single precision
+/// and of an exporter. Dimensionless, a share of the diagonal of what is none: smaller panels may be eyes or hair. fitted:
+/// guess, on one file with three lamps.
+inline constexpr double k_flat = 1e-3, k_panel_size = 0.3;
+
 /// Dimensionless, a share of the weights of a part of clothes: it hangs on bones with more. Dimensionless, a share of
 /// the samples of a bone: skin is under clothes where so many are inside of it. fitted: guess.
 inline constexpr double k_least_hold = 0.05, k_least_skin = 0.7;

@@ -331,8 +331,7 @@ std::vector<std::string> notes_on(const StrippedBody& body)
     if (!body.stripped.empty())
         notes.push_back("left out of the body: " + list_of(body.stripped));
     if (!body.scenery.empty())
-        notes.push_back("left out, as no joint moves it and it lies away from what joints move: "
-                        + first_of(body.scenery));
+        notes.push_back("left out, as it is flat, or lies away from what joints move: " + first_of(body.scenery));
     return notes;
 }
 

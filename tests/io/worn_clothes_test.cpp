@@ -148,6 +148,35 @@ TEST_F(Scenery, IsNotWhatLiesOnTheSkin)
     EXPECT_FALSE(find_body(write_with_ball(person.skeleton.tips[head_top], 0.08), Wears::keep)) << "a hat";
 }
 
+/// A square in any plane.
+TriangleMesh panel(const Vec3& centre, const Vec3& side, const Vec3& other)
+{
+    TriangleMesh result { Positions(4, 3), Triangles(2, 3) };
+    result.positions << (centre - side - other).transpose(), (centre + side - other).transpose(),
+        (centre + side + other).transpose(), (centre - side + other).transpose();
+    result.triangles << 0, 1, 2, 0, 2, 3;
+    return result;
+}
+
+TEST_F(Scenery, IsWhatIsFlatAndLargeWhereThereIsNoSkin)
+{
+    const TriangleMesh backdrop = panel({ 1, 1.5, -1 }, { 0.6, 0.1, 0.5 }, { -0.2, 0.9, 0.1 }),
+                       brow = panel(person.skeleton.tips[head_top], { 0.05, 0, 0 }, { 0, 0.01, 0 });
+    write_skinned_glb(folder / "figure.glb", person.skeleton,
+                      { part("Body", person.mesh), part("Brow", brow), part("Lamp", backdrop) });
+    const MeshFile skinned = MeshFile::read(folder / "figure.glb");
+    EXPECT_FALSE(find_body(skinned, Wears::keep)) << "joints move all of it";
+    save("figure.glb", fixtures::edited(load(folder / "figure.glb"), [](nlohmann::json& document) {
+             for (nlohmann::json& node : document["nodes"])
+                 node.erase("skin");
+         }));
+    const MeshFile figure = MeshFile::read(folder / "figure.glb");
+    const std::optional<StrippedBody> body = find_body(figure, Wears::keep);
+    ASSERT_TRUE(body);
+    EXPECT_EQ(body->scenery, Names { "Lamp" });
+    EXPECT_EQ(Eigen::Index(body->kept.size()), person.mesh.triangles.rows() + 2);
+}
+
 TEST_F(WornClothes, TakeTheirMaterialsWithThem)
 {
     Appearance look;

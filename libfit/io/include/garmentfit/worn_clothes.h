@@ -29,8 +29,8 @@ struct StrippedBody {
     std::vector<std::string> warnings;  ///< of what cannot be left out, in whole sentences
 };
 
-/// Leaves out scenery, which no joint moves and which lies away from what joints move (a desk, a floor, a stand), and
-/// clothes if `wears` says so: parts that are named as clothes (by material, mesh or node) and have skin under them,
+/// Leaves out scenery, which no joint moves and which lies away from what joints move (a desk, a floor, a stand), or which is
+/// flat where the file has no joints, and clothes if `wears` says so: parts that are named as clothes (by material, mesh or node) and have skin under them,
 /// which is where each bone that a part hangs on runs inside the skin that is left. Vertices stay, so that weights and
 /// files still fit. Clothes that have no skin under them stay, with a warning; so do all where no part is named as
 /// clothes, or where joints are unknown, so that nothing tells where skin has to be. Nothing without scenery where
