@@ -109,15 +109,17 @@ CoarseBody::CoarseBody(const Rig& rig, const BodyMesh& body) : given_(body.surfa
     const std::vector<int> joined = nearest_along_edges(body.surface, vertices_);
     const std::vector<std::vector<int>> round = triangles_by_vertex(coarse_->body.surface);
     const TriangleTree tree(coarse_->body.surface);
-    bindings_.resize(joined.size());
+    bindings_.resize(joined.size(), { 0, { 1, 0, 0 }, Vec3::Constant(INFINITY) });
     parallel_for(joined.size(), [&](std::size_t v) {
         const Vec3 place = given_.row(Eigen::Index(v));
         Binding& binding = bindings_[v];
         if (joined[v] >= 0)
             binding = bind(place, joined[v], round);
-        if (joined[v] < 0
-            || binding.offset.norm() > k_bound_beside)  // an island collapsed, or the way ended in a corner
-            binding = bound_to(tree.nearest_triangle(place)->triangle, place);
+        if (!(binding.offset.norm() < k_bound_beside))  // an island collapsed, or the way ended in a corner
+            if (const auto nearest = tree.nearest_triangle(place))
+                binding = bound_to(nearest->triangle, place);
+        if (!binding.offset.allFinite())  // no triangle has an area
+            binding.offset.setZero();
     });
 }
 
@@ -125,7 +127,7 @@ CoarseBody::CoarseBody(const Rig& rig, const BodyMesh& body) : given_(body.surfa
 // that the body wears.
 CoarseBody::Binding CoarseBody::bind(const Vec3& place, int from, const std::vector<std::vector<int>>& round) const
 {
-    Binding best { round[std::size_t(from)].front(), {}, Vec3::Constant(INFINITY) };
+    Binding best { round[std::size_t(from)].front(), { 1, 0, 0 }, Vec3::Constant(INFINITY) };
     const auto find_nearer = [&](int vertex) {
         bool found = false;
         for (const int triangle : round[std::size_t(vertex)])
@@ -152,7 +154,7 @@ CoarseBody::Binding CoarseBody::bound_to(int triangle, const Vec3& place) const
     const ClosestPoints at = closest_points(PairKind::vertex_face, corners);
     const Eigen::Matrix3d frame = frame_of(positions, triangles, triangle);
     if (frame.determinant() == 0)  // its neighbours have its edges
-        return { triangle, {}, Vec3::Constant(INFINITY) };
+        return { triangle, { 1, 0, 0 }, Vec3::Constant(INFINITY) };
     return { triangle,
              { -at.weights[1], -at.weights[2], -at.weights[3] },
              frame.transpose() * separation(at.weights, corners) };
