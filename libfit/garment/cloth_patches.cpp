@@ -12,6 +12,7 @@
 #include "outer_sheet.h"
 #include "panel.h"
 #include "surface_measures.h"
+#include "used_vertices.h"
 #include "winding_number.h"
 
 namespace garmentfit {
@@ -158,7 +159,8 @@ bool is_thick_cloth(const Patch& patch, const Triangles& triangles, double thick
 TriangleMesh cut_open(const Patch& patch, const TriangleMesh& cloth)
 {
     const Triangles faces = cloth.triangles(patch.faces, Eigen::all);
-    const MeshTopology topology(faces, int(cloth.positions.rows()));
+    const std::vector<int> used = used_vertices(faces);
+    const MeshTopology topology(numbered_among(used, faces), int(used.size()));
     const auto next = [](int side) { return side / 3 * 3 + (side + 1) % 3; };
     const auto vertex = [&](int corner) { return faces(corner / 3, corner % 3); };
     DisjointSets corners { int(faces.size()) };

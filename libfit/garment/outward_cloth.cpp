@@ -5,13 +5,16 @@
 
 #include "garment_wrap.h"
 #include "garmentfit/closed_ends.h"
+#include "kept_results.h"
 #include "plain_reading.h"
 #include "surface_measures.h"
 #include "tuning.h"
 
 namespace garmentfit {
 
-TriangleMesh outward_cloth(const GarmentMesh& garment)
+namespace {
+
+TriangleMesh read_outward_cloth(const GarmentMesh& garment)
 {
     OpenedGarment opened = open_ends(garment);
     if (opened.outside.triangles.rows() > 0)
@@ -24,6 +27,17 @@ TriangleMesh outward_cloth(const GarmentMesh& garment)
         return std::move(plain.outer);
     const bool reads_inner = sheets->inner_goes_round() && !sheets->inner_is_ragged();
     return reads_inner ? std::move(sheets->inner) : std::move(sheets->outer);
+}
+
+}  // namespace
+
+TriangleMesh outward_cloth(const GarmentMesh& garment)
+{
+    constexpr Eigen::Index k_large = 20000;  // unit: vertices; what has fewer is read in tenths of a second
+    if (garment.positions.rows() < k_large)
+        return read_outward_cloth(garment);
+    static KeptResults<TriangleMesh> kept;
+    return kept.of(garment, [&] { return read_outward_cloth(garment); });
 }
 
 std::optional<Lining> lining_of(const GarmentMesh& garment, Lined lined)

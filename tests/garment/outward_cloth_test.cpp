@@ -113,6 +113,18 @@ TEST(OutwardCloth, OfThickClothTheOuterSheetIsTheSameInAnyUnit)
     }
 }
 
+TEST(OutwardCloth, OfManyVerticesIsReadOnce)
+{
+    constexpr double k_unit = 100;
+    const TriangleMesh ball = fixtures::polygonise([](const Vec3& p) { return p.norm() - 0.3; }, Vec3::Constant(-0.4),
+                                                   Vec3::Constant(0.4), 0.004);
+    ASSERT_GT(ball.positions.rows(), 20000);
+    const TriangleMesh first = outward_cloth(garment_of(ball)),
+                       scaled = outward_cloth(garment_of({ k_unit * ball.positions, ball.triangles }));
+    EXPECT_EQ(scaled.triangles, first.triangles);
+    EXPECT_LT((scaled.positions - k_unit * first.positions).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(OutwardCloth, OfThickClothTheOuterSheetRemains)
 {
     constexpr double radius = 0.25, thickness = 0.004;
