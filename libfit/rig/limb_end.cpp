@@ -44,11 +44,21 @@ double taper(const Centreline& line, double size)
     return girth(k_taper_to) / girth(k_taper_from);
 }
 
-/// Angle between the shin and the end of a leg, rad: the curve of a leg follows its foot to the toes.
+/// The last point of the line that is so far from its end, m, as the crow flies.
+Vec3 at_distance_from_end(const Centreline& line, double distance)
+{
+    int i = line.size() - 1;
+    while (i > 0 && (line.points[i] - line.points.back()).norm() < distance)
+        --i;
+    return line.points[i];
+}
+
+/// Angle between the shin and the end of a leg, rad: the curve of a leg follows its foot to the toes. Where it goes to and
+/// fro at the ankle, lengths along it say little.
 double foot_angle(const Centreline& line, double size)
 {
     const auto direction = [&](double from, double to) -> Vec3 {
-        return (line.at(line.length() - to * size) - line.at(line.length() - from * size)).normalized();
+        return (at_distance_from_end(line, to * size) - at_distance_from_end(line, from * size)).normalized();
     };
     const double cosine = direction(k_shin_from, k_shin_to).dot(direction(k_forefoot, 0));
     return std::acos(std::clamp(cosine, -1.0, 1.0));

@@ -131,7 +131,8 @@ LimbJoints place_leg(const LabelledSurface& surface, const LimbLine& leg, const 
     const double knee_ratio = joints.whole ? k_knee_above_shin : k_knee_ratio;
     joints.middle = place_bend(line, line.first_free, shin, joints.root, knee_ratio, size);
     joints.end = joints.whole ? ankle(foot, joints.middle, line.points[shin], size) : line.points[shin];
-    const Vec3 toes = leg.tip() - joints.end;
+    const Vec3 toes
+        = joints.whole ? Vec3(leg.tip() - joints.end) : Vec3(joints.end - joints.middle);  // a stump has none
     joints.tip = *std::max_element(foot.begin(), foot.end(), [&](const Vec3& a, const Vec3& b) {
         return (a - joints.end).dot(toes) < (b - joints.end).dot(toes);
     });

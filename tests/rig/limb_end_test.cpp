@@ -46,6 +46,33 @@ TEST(LimbEnd, ASlimFootShowsThoughItsHeelIsShort)
     EXPECT_FALSE(shows_foot(limb(k_hem, 9), 1));
 }
 
+/// Goes to and fro in the ankle, n times, before it goes on to the toes.
+Centreline with_zigzag(const Centreline& line, int heel, int n)
+{
+    Centreline result = line;
+    result.points.assign(line.points.begin(), line.points.begin() + heel);
+    for (int i = 0; i < 2 * n; ++i)
+        result.points.push_back(line.points[std::size_t(heel)] + Vec3(0, i % 2 == 0 ? 0.05 : 0, 0));
+    result.points.insert(result.points.end(), line.points.begin() + heel, line.points.end());
+    result.axes.assign(result.points.size(), -Vec3::UnitY());
+    result.girths.assign(result.points.size(), 0.15);
+    result.free.assign(result.points.size(), true);
+    result.across.assign(result.points.size(), true);
+    result.arcs = { 0 };
+    for (std::size_t i = 1; i < result.points.size(); ++i)
+        result.arcs.push_back(result.arcs.back() + (result.points[i] - result.points[i - 1]).norm());
+    return result;
+}
+
+TEST(LimbEnd, AFootIsToldByItsDirectionThoughTheLineGoesToAndFroAtTheAnkle)
+{
+    const std::vector<double> thick(20, 0.15);  // neither thin nor wider at its end
+    EXPECT_TRUE(has_foot(limb(thick, 12), 1));
+    EXPECT_FALSE(has_foot(limb(thick, 0), 1));
+    EXPECT_TRUE(has_foot(with_zigzag(limb(thick, 12), 48, 4), 1));
+    EXPECT_FALSE(has_foot(with_zigzag(limb(thick, 0), 48, 4), 1));
+}
+
 TEST(LimbEnd, AHandShowsByItsThinFingers)
 {
     const std::vector<double> hand { 0.10, 0.09, 0.085, 0.09, 0.10, 0.10, 0.09, 0.07, 0.05, 0.03, 0.02 },

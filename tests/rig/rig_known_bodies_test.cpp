@@ -187,9 +187,14 @@ TEST(Slow, JointsStayWhereHandsOrFeetAreCutOff)
         const BodyMesh body = body_of(name);
         const Rig rig = rig_body(body);
         for (const std::array<int, 2>& bones : { k_forearms, k_shins }) {
-            const std::vector<double> off = errors(name, rig_body(cut_off(body, rig, bones)).skeleton);
+            const Skeleton cut = rig_body(cut_off(body, rig, bones)).skeleton;
+            const std::vector<double> off = errors(name, cut);
             EXPECT_LT(mean(off), 0.02) << name << " without what is beyond " << bone_name(bones[0]);
             EXPECT_LT(*std::max_element(off.begin(), off.end()), 0.05) << name << ", " << bone_name(bones[0]);
+            if (bones == k_shins) {
+                EXPECT_LT((cut.tips[lfoot_tip] - cut.tail(ltibia)).norm(), 0.4 * cut.length(ltibia)) << name;
+                EXPECT_LT((cut.tips[rfoot_tip] - cut.tail(rtibia)).norm(), 0.4 * cut.length(rtibia)) << name;
+            }
         }
     }
 }
