@@ -50,7 +50,7 @@ public:
         double sum = 0;
         for (int i = -k_steps_of_others; i <= k_steps_of_others; ++i) {
             const double other = i * k_step;
-            sum += density_of_others(other) * k_step * likelihood(log_factor, other);
+            sum += density_of_others(other) * likelihood_of_stature(other) * k_step * likelihood(log_factor, other);
         }
         return sum;
     }
@@ -72,6 +72,13 @@ public:
 private:
     static constexpr int k_steps_of_others = 100;
     static constexpr double k_widest = 4;  // unit: of a spread, where nothing is left of it
+
+    /// Nobody is taller than people are, but clothes may be made as if for somebody who is.
+    double likelihood_of_stature(double log_stature) const
+    {
+        const double beyond = std::max(0.0, log_stature - std::max(0.0, std::log(k_tallest_wearer / height_)));
+        return std::exp(-0.5 * std::pow(beyond / k_oversize, 2));
+    }
 
     double likelihood_of_measures(double log_factor) const
     {

@@ -92,6 +92,9 @@ inline constexpr double k_dependence = 2;
 /// Of people for whom clothes are made, against the body that wears them; share of clothes of children and other people
 /// of another size, and their mean and spread.
 inline constexpr double k_wearer_spread = 0.12, k_children = 0.15, k_child_size = -0.1, k_child_spread = 0.35;
+/// Spread of how much larger clothes are made than for the tallest people, as a style. fitted: guess, on two clothes of a
+/// web shop that kept their metres at twice the size.
+inline constexpr double k_oversize = 0.1;
 /// Probability that a file has no unit, and its density then: the same in fourteen units, a factor of a million.
 inline constexpr double k_without_unit = 0.2, k_without_unit_density = 0.07;
 /// How near the longest side of a model that was scaled to one or two units comes to that, as a share; and how much
