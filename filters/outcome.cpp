@@ -157,11 +157,6 @@ LeftOut left_out_of(const Scene& scene, std::size_t garment)
     return garment < scene.fits.size() ? scene.fits[garment].left_out : LeftOut();
 }
 
-bool all_clean(const std::vector<WornGarment>& garments)
-{
-    return std::all_of(garments.begin(), garments.end(), [](const WornGarment& g) { return g.certificate.clean(); });
-}
-
 bool all_put_on(const Scene& scene)
 {
     const auto& draped = scene.draped;

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "surface_measures.h"
 
 namespace garmentfit {
 namespace {
@@ -17,10 +18,8 @@ Positions about_their_middle(const Positions& points) { return points.rowwise() 
 
 bool lie_in_a_line(const Positions& points)
 {
-    const Positions arms = about_their_middle(points);
-    const Eigen::Vector3d spread
-        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(arms.transpose() * arms, Eigen::EigenvaluesOnly).eigenvalues();
-    return !(spread[1] > k_line * spread[2]);  // ascending
+    const Vec3 spread = squared_extents(points);
+    return !(spread[1] > k_line * spread[2]);
 }
 
 /// Of each detail the vertices that are sewn to it, and are of no detail.

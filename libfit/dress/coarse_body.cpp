@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
-#include <tuple>
 
 #include <meshoptimizer.h>
 
+#include "edge_distances.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "proximity.h"
-#include "topology.h"
 #include "tuning.h"
 #include "used_vertices.h"
 
@@ -56,29 +54,6 @@ Eigen::Matrix3d frame_of(const Positions& positions, const Triangles& triangles,
                     corner(positions, triangles, triangle, 2));
 }
 
-/// Of each vertex the source, by its place in the list, that is nearest along edges; -1 where none is joined to it.
-/// Dijkstra's algorithm, O(n log n).
-std::vector<int> nearest_along_edges(const TriangleMesh& mesh, const std::vector<int>& sources)
-{
-    const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
-    using Step = std::tuple<double, int, int>;  // length, vertex, source
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
-    std::vector<int> result(std::size_t(mesh.positions.rows()), -1);
-    for (int s = 0; s < int(sources.size()); ++s)
-        next.emplace(0, sources[std::size_t(s)], s);
-    while (!next.empty()) {
-        const auto [length, vertex, source] = next.top();
-        next.pop();
-        if (result[std::size_t(vertex)] >= 0)
-            continue;
-        result[std::size_t(vertex)] = source;
-        for (const int other : topology.neighbours(vertex))
-            if (result[std::size_t(other)] < 0)
-                next.emplace(length + (mesh.positions.row(vertex) - mesh.positions.row(other)).norm(), other, source);
-    }
-    return result;
-}
-
 std::vector<std::vector<int>> triangles_by_vertex(const TriangleMesh& mesh)
 {
     std::vector<std::vector<int>> result(std::size_t(mesh.positions.rows()));
@@ -106,15 +81,17 @@ CoarseBody::CoarseBody(const Rig& rig, const BodyMesh& body) : given_(body.surfa
     if (vertices_.empty() || double(vertices_.size()) > k_worth_coarsening * double(given_.rows()))
         return;
     coarse_.emplace(rig, body, vertices_, numbered_among(vertices_, left));
-    const std::vector<int> joined = nearest_along_edges(body.surface, vertices_);
+    const MeshTopology topology(body.surface.triangles, int(given_.rows()));
+    EdgeDistances along_edges(given_, topology, INFINITY);
+    along_edges.add(vertices_);
     const std::vector<std::vector<int>> round = triangles_by_vertex(coarse_->body.surface);
     const TriangleTree tree(coarse_->body.surface);
-    bindings_.resize(joined.size(), { 0, { 1, 0, 0 }, Vec3::Constant(INFINITY) });
-    parallel_for(joined.size(), [&](std::size_t v) {
-        const Vec3 place = given_.row(Eigen::Index(v));
-        Binding& binding = bindings_[v];
-        if (joined[v] >= 0)
-            binding = bind(place, joined[v], round);
+    bindings_.resize(std::size_t(given_.rows()), { 0, { 1, 0, 0 }, Vec3::Constant(INFINITY) });
+    parallel_for(given_.rows(), [&](Eigen::Index v) {
+        const Vec3 place = given_.row(v);
+        Binding& binding = bindings_[std::size_t(v)];
+        if (const int kept = along_edges.source_of(int(v)); kept >= 0)
+            binding = bind(place, number_among(vertices_, kept), round);
         if (!(binding.offset.norm() < k_bound_beside))  // an island collapsed, or the way ended in a corner
             if (const auto nearest = tree.nearest_triangle(place))
                 binding = bound_to(nearest->triangle, place);
@@ -189,12 +166,6 @@ Positions CoarseBody::spread(const Positions& coarse) const
 
 Positions CoarseBody::lay(const Positions& coarse) const { return place(coarse, 0); }
 
-bool are_clean(const std::vector<WornGarment>& garments)
-{
-    return std::all_of(garments.begin(), garments.end(),
-                       [](const WornGarment& garment) { return garment.certificate.clean(); });
-}
-
 bool are_clear_of(const CoarseBody& coarse, const DressedBody& dressed)
 {
     if (dressed.garments.empty())
@@ -225,7 +196,7 @@ bool put_on_given(const CoarseBody& coarse, const Triangles& given, RecoverFrame
         dressed.garments[i].positions = frame.garments[i];
     put_on_given(coarse, given, dressed);
     frame.body = std::move(dressed.body);
-    return are_clean(dressed.garments);
+    return all_clean(dressed.garments);
 }
 
 }  // namespace garmentfit

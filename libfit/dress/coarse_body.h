@@ -51,9 +51,6 @@ private:
     std::vector<Binding> bindings_;  // of all
 };
 
-/// By their certificates.
-bool are_clean(const std::vector<WornGarment>& garments);
-
 /// Whether the garments are clear of the coarse body where they are. @pre gathered
 bool are_clear_of(const CoarseBody& coarse, const DressedBody& dressed);
 
@@ -81,8 +78,8 @@ auto move_coarse(const Rig& rig, const BodyMesh& body, const DressedBody& dresse
     const Triangles& triangles = body.surface.triangles;
     if constexpr (requires { result.frames; })
         std::erase_if(result.frames, [&](auto& frame) { return !put_on_given(coarse, triangles, frame, result); });
-    const bool was_certified = result.certified, was_clean = are_clean(result.garments),
-               has_own_skin = put_on_given(coarse, triangles, result), is_clean = are_clean(result.garments);
+    const bool was_certified = result.certified, was_clean = all_clean(result.garments),
+               has_own_skin = put_on_given(coarse, triangles, result), is_clean = all_clean(result.garments);
     if (was_certified && is_clean)
         settle(result, has_own_skin, progress.part(k_progress_of_coarse, k_progress_of_settled));
     const bool is_as_good = was_certified ? is_clean && result.certified : is_clean || !was_clean;

@@ -276,16 +276,20 @@ Material material_of(const ClothOptions& options, const WornGarment& worn)
     return material_of(options, worn.fabric.value_or(options.fabric));
 }
 
+bool all_clean(const std::vector<WornGarment>& garments)
+{
+    return std::all_of(garments.begin(), garments.end(),
+                       [](const WornGarment& garment) { return garment.certificate.clean(); });
+}
+
 bool certify_all(std::vector<WornGarment>& garments, const TriangleMesh& body)
 {
-    bool clean = true;
     std::vector<TriangleMesh> under;
     for (WornGarment& garment : garments) {
         garment.certificate = certify(body, garment.rest, garment.positions, under);
-        clean &= garment.certificate.clean();
         under.push_back({ garment.positions, garment.rest.triangles });
     }
-    return clean;
+    return all_clean(garments);
 }
 
 DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const GarmentMesh& given,

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "cloth_patches.h"
@@ -344,9 +343,8 @@ private:
             places.row(Eigen::Index(i)) = middles_[faces[i]];
         }
         const Vec3 axis = sum.stableNormalized();
-        places.rowwise() -= places.colwise().mean().eval();
         places -= (places * axis * axis.transpose()).eval();
-        const Vec3 spreads = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(places.transpose() * places).eigenvalues();
+        const Vec3 spreads = squared_extents(places);
         return spreads[1] > k_hollow_roundness * k_hollow_roundness * spreads[2]
             && area > k_least_hollow * diagonal_ * diagonal_
             && area > k_hollow_share * std::numbers::pi / 4 * tube.width * tube.width;

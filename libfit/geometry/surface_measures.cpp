@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_measures.h"
 
+#include <Eigen/Eigenvalues>
+
 namespace garmentfit {
 
 double diagonal(const Positions& positions)
 {
     return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+Vec3 squared_extents(const Positions& points)
+{
+    const Positions arms = points.rowwise() - points.colwise().mean();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(arms.transpose() * arms, Eigen::EigenvaluesOnly)
+        .eigenvalues();
 }
 
 double area(const TriangleMesh& mesh)

@@ -8,6 +8,9 @@ namespace garmentfit {
 /// m, of the box about all vertices: the length that relative tolerances refer to.
 double diagonal(const Positions& positions);
 
+/// m^2, ascending: sums of the squared coordinates of points, from their middle, along their three principal axes.
+Vec3 squared_extents(const Positions& points);
+
 /// m^2; the area of triangle `f` times its unit normal.
 inline Vec3 area_vector(const Positions& positions, const Triangles& triangles, Eigen::Index f)
 {

@@ -17,11 +17,17 @@ inline std::vector<int> used_vertices(const Triangles& triangles)
     return result;
 }
 
+/// The place of a vertex in a list that ascends. @pre it is there
+inline int number_among(const std::vector<int>& used, int vertex)
+{
+    return int(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
+}
+
 /// The same triangles in the numbers that their vertices have in `used`.
 inline Triangles numbered_among(const std::vector<int>& used, Triangles triangles)
 {
     for (int& v : triangles.reshaped())
-        v = int(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+        v = number_among(used, v);
     return triangles;
 }
 

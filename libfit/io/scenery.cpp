@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
-
 #include "garmentfit/error.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
@@ -77,10 +75,7 @@ private:
 /// Whether the corners lie in a plane, however that lies.
 bool is_flat(const Positions& corners)
 {
-    const Eigen::MatrixX3d arms = corners.rowwise() - corners.colwise().mean();
-    const Vec3 squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(arms.transpose() * arms,
-                                                                        Eigen::EigenvaluesOnly)
-                             .eigenvalues();  // ascending
+    const Vec3 squares = squared_extents(corners);
     return squares[0] <= k_flat * k_flat * squares[2];
 }
 
@@ -89,19 +84,21 @@ std::vector<char> find_panels(const MeshFile& file, const std::vector<MeshPart>&
 {
     const Positions positions = file.positions();
     const Triangles triangles = file.triangles();
-    std::vector<char> is_panel(parts.size(), 0);
+    std::vector<double> widths(parts.size(), 0);  // of flat parts
     std::vector<int> others;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::vector<int> corners = corners_of(triangles, parts[i]);
-        is_panel[i] = !corners.empty() && is_flat(positions(corners, Eigen::all));
-        if (!is_panel[i])
+        const Positions places = positions(corners, Eigen::all);
+        if (!corners.empty() && is_flat(places))
+            widths[i] = diagonal(places);
+        else
             others.insert(others.end(), corners.begin(), corners.end());
     }
+    std::vector<char> is_panel(parts.size(), 0);
     if (others.empty())
-        return std::vector<char>(parts.size(), 0);
+        return is_panel;
     const double least = k_panel_size * diagonal(positions(others, Eigen::all));
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        is_panel[i] = is_panel[i] && diagonal(positions(corners_of(triangles, parts[i]), Eigen::all)) > least;
+    std::transform(widths.begin(), widths.end(), is_panel.begin(), [&](double width) { return char(width > least); });
     return is_panel;
 }
 

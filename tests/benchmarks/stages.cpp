@@ -129,24 +129,31 @@ void recover(benchmark::State& state)
     count_seconds(state, seconds);
 }
 
-/// Fitting, draping and recovering as hosts run them: a rough copy may lead the coat.
-void dress(benchmark::State& state, Quality quality)
+/// Dressing as hosts run it, each time from the same scene.
+void run_filter(benchmark::State& state, const Filter& filter, const Scene& start, Quality quality)
 {
-    const Fitted coat(state);
     Parameters parameters;
     parameters.recover.quality = quality;
     parameters.time_limit = 0;
     Scene scene;
     for (auto _ : state) {
-        scene = Scene();
-        scene.body = coat.woman;
-        scene.rig = coat.rigged;
-        scene.garments = { { coat.garment, GarmentType::coat } };
-        filter_of("dress").on_known_rig().run(scene, parameters);
+        scene = start;
+        filter.run(scene, parameters);
     }
     state.counters["drape"] = scene.seconds[int(Stage::drape)];
     state.counters["recover"] = scene.seconds[int(Stage::recover)];
     state.counters["certified"] = scene.recovered && scene.recovered->certified;
+}
+
+/// Fitting, draping and recovering: a rough copy may lead the coat.
+void dress(benchmark::State& state, Quality quality)
+{
+    const Fitted coat(state);
+    Scene scene;
+    scene.body = coat.woman;
+    scene.rig = coat.rigged;
+    scene.garments = { { coat.garment, GarmentType::coat } };
+    run_filter(state, filter_of("dress").on_known_rig(), scene, quality);
 }
 
 void dress_to_rest(benchmark::State& state) { dress(state, Quality::standard); }
@@ -158,24 +165,16 @@ void cloth_sizes(benchmark::internal::Benchmark* run)
         run->Arg(vertices);
     run->Unit(benchmark::kSecond)->Complexity();
 }
+
 /// The skirt on a body of so many vertices: from some tens of thousands on it is dressed on fewer.
 void dress_fine_body(benchmark::State& state)
 {
     const TriangleMesh woman = at_level(GARMENTFIT_SAMPLES "/walking_woman.ply", int(state.range(0)));
     const TriangleMesh skirt = read(GARMENTFIT_SAMPLES "/skirt.ply");
-    Parameters parameters;
-    parameters.recover.quality = Quality::draft;
-    parameters.time_limit = 0;
     Scene scene;
-    for (auto _ : state) {
-        scene = Scene();
-        scene.body = make_body(woman.positions, woman.triangles);
-        scene.garments = { { make_garment(skirt.positions, skirt.triangles), GarmentType::skirt } };
-        filter_of("dress").run(scene, parameters);
-    }
-    state.counters["drape"] = scene.seconds[int(Stage::drape)];
-    state.counters["recover"] = scene.seconds[int(Stage::recover)];
-    state.counters["certified"] = scene.recovered && scene.recovered->certified;
+    scene.body = make_body(woman.positions, woman.triangles);
+    scene.garments = { { make_garment(skirt.positions, skirt.triangles), GarmentType::skirt } };
+    run_filter(state, filter_of("dress"), scene, Quality::draft);
     count_vertices(state, woman.positions);
     state.SetComplexityN(woman.positions.rows());
 }

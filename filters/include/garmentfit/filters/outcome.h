@@ -16,7 +16,6 @@ enum class Outcome { done = 0, too_small = 3, not_certified = 4 };
 
 /// The last dressing of a scene; null where no garment was put on.
 const Dressing* final_dressing(const Scene& scene);
-bool all_clean(const std::vector<WornGarment>& garments);
 /// All garments are draped over the full-sized body, and nothing crosses what moves on: them, or their stand-ins. Cloth
 /// may still hold parts of the body back, such as fingers in a long sleeve: they may come free on the path to another pose.
 bool all_put_on(const Scene& scene);

@@ -74,6 +74,9 @@ struct WornGarment {
 /// What a garment is made of, among others of perhaps other fabrics.
 GARMENTFIT_API Material material_of(const ClothOptions& options, const WornGarment& worn);
 
+/// By their certificates.
+GARMENTFIT_API bool all_clean(const std::vector<WornGarment>& garments);
+
 /// A body in a pose, and the garments on it.
 struct DressedBody {
     Pose pose = {};  ///< takes the body from the pose of its input into this one

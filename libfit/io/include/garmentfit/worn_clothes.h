@@ -29,12 +29,12 @@ struct StrippedBody {
     std::vector<std::string> warnings;  ///< of what cannot be left out, in whole sentences
 };
 
-/// Leaves out scenery, which no joint moves and which lies away from what joints move (a desk, a floor, a stand), or which is
-/// flat where the file has no joints, and clothes if `wears` says so: parts that are named as clothes (by material, mesh or node) and have skin under them,
-/// which is where each bone that a part hangs on runs inside the skin that is left. Vertices stay, so that weights and
-/// files still fit. Clothes that have no skin under them stay, with a warning; so do all where no part is named as
-/// clothes, or where joints are unknown, so that nothing tells where skin has to be. Nothing without scenery where
-/// clothes are kept.
+/// Leaves out scenery, which no joint moves and which lies away from what joints move (a desk, a floor, a stand), or
+/// which is flat where the file has no joints, and clothes if `wears` says so: parts that are named as clothes (by
+/// material, mesh or node) and have skin under them, which is where each bone that a part hangs on runs inside the skin
+/// that is left. Vertices stay, so that weights and files still fit. Clothes that have no skin under them stay, with a
+/// warning; so do all where no part is named as clothes, or where joints are unknown, so that nothing tells where skin
+/// has to be. Nothing without scenery where clothes are kept.
 GARMENTFIT_API std::optional<StrippedBody> find_body(const MeshFile& avatar, Wears wears);
 
 /// Of a dressed figure that is given as a garment the body would be cloth, too, and no pose would be found for it.
