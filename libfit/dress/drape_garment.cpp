@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "cloth_motion.h"
 #include "coarse_body.h"
@@ -56,9 +57,9 @@ DrapeStart make_start(PreparedCloth cloth, GrowingBody inside, double scale)
     return { std::move(cloth), std::move(inside), scale };
 }
 
-/// Sleeves and legs are retracted where that leaves the body free of the cloth, else they stay as given.
-/// @throws InvalidInput where cloth and bones cross
-DrapeStart choose_start(const Wearer& wearer, const GarmentMesh& garment)
+/// Sleeves and legs are retracted where that leaves the body free of the cloth, else they stay as given. None where cloth
+/// and bones cross.
+std::optional<DrapeStart> find_start(const Wearer& wearer, const GarmentMesh& garment)
 {
     const PreparedCloth given = prepare_cloth(garment, garment.positions);
     if (const SleeveRetraction retraction(wearer.joints, garment); retraction.is_any())
@@ -72,7 +73,30 @@ DrapeStart choose_start(const Wearer& wearer, const GarmentMesh& garment)
     const TriangleMesh cloth { garment.positions, garment.triangles };
     if (const auto scale = find_initial_scale(inside, cloth))
         return make_start(given, std::move(inside), *scale);
-    refuse(inside, cloth, wearer.rig.weights);
+    return {};
+}
+
+/// As near as can be to where the pose has a bare body: bones that are fitted to the outside of thick cloth may pass
+/// through a collar's or a hem's inner sheet, by millimetres.
+/// @param bare  the wearer's; ends where the start is
+/// @throws InvalidInput where cloth and bones cross there, too
+DrapeStart choose_start(Wearer& wearer, DressedBody& bare, const GarmentMesh& garment)
+{
+    if (auto start = find_start(wearer, garment))
+        return *std::move(start);
+    const Pose pose = bare.pose;
+    if (bare.garments.empty() && bare.body.rows() == 0)
+        for (int i = 1; i <= k_start_shifts; ++i)
+            for (const Vec3& way : { Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ() })
+                for (const double sign : { 1, -1 }) {
+                    bare.pose.root_translation = pose.root_translation + sign * i * k_start_shift * way;
+                    wearer.joints = pose_skeleton(wearer.rig.skeleton, bare.pose);
+                    if (auto start = find_start(wearer, garment))
+                        return *std::move(start);
+                }
+    bare.pose = pose;
+    wearer.joints = pose_skeleton(wearer.rig.skeleton, pose);
+    refuse(make_growing_body(wearer, garment, nullptr), { garment.positions, garment.triangles }, wearer.rig.weights);
 }
 
 // ---- growing the body ----------------------------------------------------------------------------------------------
@@ -130,13 +154,24 @@ void relax_if_tight(ClothMotion& motion, const MotionStep& step, const Grading& 
         motion.restore(before);  // what it lacks is told from where it went first
 }
 
+/// Where the garment is too small for a body that grows on.
+std::vector<TooTight> list_tight_parts(const ClothMotion& motion, const GrowingBody& inside, const Tightness& tightness,
+                                       const Wearer& wearer)
+{
+    const PerPart growth = growth_left(motion.cloth(), inside.body_of(motion.obstacle()),
+                                       inside.body_of(inside.full.positions), wearer.rig.weights, wearer.joints);
+    return tightness.list_tight_parts(motion.cloth(), k_named_stretch_share, growth);
+}
+
 struct Growth {
     double scale;  ///< 1, or less where the cloth would stretch too far, or the deadline passed
     bool out_of_time;
+    std::vector<TooTight> too_tight = {};  ///< where that ends the growth
 };
 
 /// Lets the body grow inside the garment.
-Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading, int steps, const Progress& progress)
+Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading, int steps, const Wearer& wearer,
+                 const Progress& progress)
 {
     constexpr double k_just_below = 1 - 1e-3;  // unit: the last step ends at 1, which would say that the garment fits
     const GrowingBody& inside = start.inside;
@@ -153,7 +188,8 @@ Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading,
         if (i == steps)  // below full size it has more of the way before it
             relax_if_tight(motion, step, grading);
         if (!grading.enlarge_if_tight(motion))
-            return { scale < 1 ? scale : k_just_below, false };
+            if (auto too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer); !too_tight.empty())
+                return { i < steps ? scale : k_just_below, false, std::move(too_tight) };
         reached = scale;
     }
     const Positions bridged = inside.at(1);
@@ -162,15 +198,6 @@ Growth grow_body(ClothMotion& motion, const DrapeStart& start, Grading& grading,
     motion.advect_obstacle(inside.withdrawn);
     motion.advect_obstacle(inside.full.positions);
     return { 1, false };
-}
-
-/// Where the garment is too small, on a body that ceased to grow.
-std::vector<TooTight> list_tight_parts(const ClothMotion& motion, const GrowingBody& inside, const Tightness& tightness,
-                                       const Wearer& wearer)
-{
-    const PerPart growth = growth_left(motion.cloth(), inside.body_of(motion.obstacle()),
-                                       inside.body_of(inside.full.positions), wearer.rig.weights, wearer.joints);
-    return tightness.list_tight_parts(motion.cloth(), k_named_stretch_share, growth);
 }
 
 /// How the new garment is made.
@@ -213,9 +240,10 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
     require_wearable_size(rig, given);
     const OpenedGarment opened = open_ends(given);
     const GarmentMesh& garment = opened.garment;
-    const Wearer wearer { rig, body, dressed, HandStretch(rig, body.surface.positions),
-                          pose_skeleton(rig.skeleton, dressed.pose) };
-    DrapeStart start = choose_start(wearer, garment);
+    DressedBody before = dressed;
+    Wearer wearer { rig, body, before, HandStretch(rig, body.surface.positions),
+                    pose_skeleton(rig.skeleton, dressed.pose) };
+    DrapeStart start = choose_start(wearer, before, garment);
     const GrowingBody& inside = start.inside;
 
     const Edges edges = edges_of(garment.triangles);
@@ -233,7 +261,7 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
         grading.enlarge(motion, options.size);
 
     DrapeResult result;
-    const Growth growth = grow_body(motion, start, grading, options.growing_steps, progress.part(0, 0.7));
+    Growth growth = grow_body(motion, start, grading, options.growing_steps, wearer, progress.part(0, 0.7));
     result.scale_reached = growth.scale;
     result.out_of_time = growth.out_of_time;
     if (result.scale_reached == 1) {
@@ -242,8 +270,7 @@ DrapeResult drape_on(const Rig& rig, const BodyMesh& body, const DressedBody& dr
         result.speed = settled.speed;
         result.out_of_time = settled.out_of_time;
     } else {
-        if (!result.out_of_time)
-            result.too_tight = list_tight_parts(motion, inside, grading.tightness(), wearer);
+        result.too_tight = std::move(growth.too_tight);
         motion.advect_obstacle(inside.shrink(inside.withdrawn, growth.scale));  // no bridges on what is handed out
         motion.advect_obstacle(inside.shrink(inside.full.positions, growth.scale));
     }

@@ -93,7 +93,8 @@ std::vector<TooTight> Tightness::list_tight_parts(const Positions& positions, do
     std::vector<TooTight> result;
     for (const PartStretch& part : measure_parts(positions))
         if (part.mean > share * allowed_at(part.part))
-            result.push_back(missing_girth(part, part.mean, growth[part.part]));
+            if (const TooTight tight = missing_girth(part, part.mean, growth[part.part]); tight.missing_girth > 0)
+                result.push_back(tight);
     return sort_worst_first(result);
 }
 

@@ -34,7 +34,8 @@ public:
     /// share of what is allowed there; 0 where it goes round none.
     double needed_size(const Positions& positions, double share) const;
 
-    /// Lists the parts stretched beyond a share of what is allowed, worst first, on a body below its full size.
+    /// Lists the parts stretched beyond a share of what is allowed, worst first, on a body below its full size. Without
+    /// those that lack no girth, as something is caught there and draws the cloth further than the full body would.
     /// @param growth  by how much its girth under the cloth still has to grow, from growth_left
     std::vector<TooTight> list_tight_parts(const Positions& positions, double share, const PerPart& growth) const;
 

@@ -26,6 +26,10 @@ namespace garmentfit {
 inline constexpr std::array<double, 3> k_initial_body_scales { 0.01, 0.003, 0.001 };
 /// Rounds in which corners of the body are drawn to joints; each takes a search for crossings. guess
 inline constexpr int k_most_tucks = 20;
+/// m; by how much further in each round, and in how many, a bare body is tried beside where the fit has it, where its
+/// bones cross the cloth there. guess, on one sweater, whose collar is turned in
+inline constexpr double k_start_shift = 0.01;
+inline constexpr int k_start_shifts = 3;
 /// m; the longest move of a vertex in one step while the body grows. Fitted: guess, on the house pairs.
 inline constexpr double k_growing_move = 1e-2;
 /// Steps that cloth gets to slide at full size before it is called too small for a body. Fitted: one skirt needs 9; of a

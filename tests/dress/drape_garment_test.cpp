@@ -261,6 +261,27 @@ GarmentMesh trousers_with_patch(const Skeleton& skeleton, double distance)
     return result;
 }
 
+TEST(DrapeGarment, MovesABareBodyALittleWhereItsBonesLieAcrossTheCloth)
+{
+    const Dressing d = person();
+    GarmentMesh garment = trousers(0.02);
+    double front = -1;  // of the left leg
+    for (const auto& p : garment.positions.rowwise())
+        if (p.x() > 0.08 && std::abs(p.y() - 0.6) < 0.05)
+            front = std::max(front, p.z());
+    const double beyond = 0.004;
+    garment.positions.col(2).array() -= front + beyond - d.rig.skeleton.tail(lfemur).z();
+    const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
+    EXPECT_TRUE(result.certified);
+    const double moved = result.pose.root_translation.norm();
+    EXPECT_GT(moved, beyond);
+    EXPECT_LT(moved, 0.031);
+    EXPECT_TRUE(recover_pose(d.rig, d.body, result, Pose()).certified);
+
+    const DressedBody held { {}, d.body.surface.positions, {} };  // has to stay where it is
+    EXPECT_THROW(drape_garment(d.rig, d.body, held, garment, short_settling()), InvalidInput);
+}
+
 TEST(DrapeGarment, StartsThinnerWhereClothIsVeryNearToABone)
 {
     const Dressing d = person();
@@ -268,7 +289,8 @@ TEST(DrapeGarment, StartsThinnerWhereClothIsVeryNearToABone)
     const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
     EXPECT_TRUE(result.certified);
     EXPECT_EQ(result.scale_reached, 1);
-    EXPECT_THROW(drape_garment(d.rig, d.body, {}, trousers_with_patch(d.rig.skeleton, 0), short_settling()),
+    const DressedBody held { {}, d.body.surface.positions, {} };  // has to stay where it is
+    EXPECT_THROW(drape_garment(d.rig, d.body, held, trousers_with_patch(d.rig.skeleton, 0), short_settling()),
                  InvalidInput);
 }
 

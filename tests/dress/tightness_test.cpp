@@ -59,6 +59,23 @@ TEST(Tightness, NamesThePartAndTheGirthThatItLacks)
     EXPECT_NEAR(tightness.needed_size(worn, 0), 1, 1e-9);
 }
 
+TEST(Tightness, NamesNoPartThatLacksNoGirth)
+{
+    const Skeleton skeleton = fixtures::person_skeleton({});
+    const Positions rest = tube(skeleton, lfemur, 0.08), worn = tube(skeleton, lfemur, 0.1);
+    const Edges edges = edges_of(tube_triangles());
+    const Tightness tightness(rest, edges, fixtures::on_bone(lfemur, rest.rows()), skeleton, 0.15);
+    PerPart growth {};
+    for (double& share : growth)
+        share = -0.1;
+    const auto tight = tightness.list_tight_parts(worn, 1, growth);
+    ASSERT_EQ(tight.size(), 1u);
+    EXPECT_NEAR(tight[0].missing_girth, 2 * M_PI * 0.01, 1e-6);
+    for (double& share : growth)
+        share = -0.25;  // what it is drawn out by is thinner in the full body
+    EXPECT_TRUE(tightness.list_tight_parts(worn, 1, growth).empty());
+}
+
 TEST(Tightness, CountsACaughtEdgeAsHalfStretched)
 {
     const Skeleton skeleton = fixtures::person_skeleton({});

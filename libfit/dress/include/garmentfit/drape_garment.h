@@ -108,7 +108,8 @@ struct DrapeResult : DressedBody {
 /// Puts one more garment on a body.
 /// @param dressed  the body in the pose of the new garment (FitResult::pose), and the garments that it wears already;
 ///                 these move with the body. A body that wears nothing: `{ fit.pose }`. Another layer: the
-///                 DrapeResult of the layer below.
+///                 DrapeResult of the layer below. A bare body whose bones lie across the cloth in the pose is moved by
+///                 up to 3 cm, of a body of human size, if it fits there.
 /// @throws InvalidInput when bones and garment cross, naming bone and place, and as require_wearable_size does.
 ///         Cancelled.
 GARMENTFIT_API DrapeResult drape_garment(const Rig& rig, const BodyMesh& body, const DressedBody& dressed,
