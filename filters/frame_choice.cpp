@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "garment_scale.h"
 #include "garmentfit/body_place.h"
+#include "garmentfit/closed_ends.h"
 #include "garmentfit/error.h"
 #include "garmentfit/filters/schema.h"
 #include "garmentfit/garment_size.h"
@@ -73,6 +75,17 @@ void set_height(FrameGuess& guess, const Positions& positions, const Triangles& 
     guess.frame.metres_per_unit = height / units;
     guess.unit_confidence = 1;
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
+}
+
+/// The faces of its cloth: a necklace or a label that lies far away would make it larger. What is no garment is left
+/// alone.
+Triangles cloth_of(const Positions& positions, const Triangles& triangles)
+{
+    try {
+        return without_specks(make_garment(positions, triangles));
+    } catch (const InvalidInput&) {
+        return triangles;
+    }
 }
 
 /// Factor that makes a garment of any size as large as a shirt or a pair of trousers: openings are found among those of
@@ -164,10 +177,28 @@ std::string unit_text(const Frame& frame)
     return std::string(name_of_unit(frame.metres_per_unit).value_or("no unit"));
 }
 
+/// Whether its measures are of people who are not far smaller than the body. A small garment may come to lie in the
+/// body's trunk or round a limb by chance. What is no garment, or has no measures, may be of any size.
+bool is_of_size(const Positions& metres, const Triangles& triangles, const std::optional<double>& stature)
+{
+    std::vector<double> heights;
+    try {
+        for (const WearerHeight& wearer : wearer_heights_of_any_size(metres, triangles))
+            heights.push_back(wearer.height);
+    } catch (const InvalidInput&) {
+        return true;
+    }
+    if (!stature || heights.empty())
+        return true;
+    const auto median = heights.begin() + std::ptrdiff_t(heights.size() / 2);
+    std::nth_element(heights.begin(), median, heights.end());
+    return *median > k_least_in_place * *stature;
+}
+
 /// The body's frame, or one of its axes and another unit, in which the garment lies round the body. Inches and feet are
 /// too near to others: in them a garment elsewhere may come to lie at a limb.
 std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& triangles, const Frame& body,
-                                   const TriangleMesh& skin)
+                                   const TriangleMesh& skin, const std::optional<double>& stature)
 {
     const auto lies_in = [&](const Frame& frame) {
         return lies_on_body({ frame.to_metres(positions), triangles }, skin);
@@ -177,19 +208,21 @@ std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& 
     for (const double metres_per_unit : { 1.0, 0.1, 0.01, 0.001 }) {
         Frame frame = body;
         frame.metres_per_unit = metres_per_unit;
-        if (metres_per_unit != body.metres_per_unit && lies_in(frame))
+        if (metres_per_unit != body.metres_per_unit && lies_in(frame)
+            && is_of_size(frame.to_metres(positions), triangles, stature))
             return frame;
     }
     return {};
 }
 
 std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& triangles, const Frame& body,
-                                   const GarmentChoice& choice, const TriangleMesh& skin)
+                                   const GarmentChoice& choice, const TriangleMesh& skin,
+                                   const std::optional<double>& stature)
 {
     if (choice.as_placed)
         return body;
     const bool is_free = choice.unit == "auto" && choice.up == "auto" && choice.scale == 1;
-    return is_free ? frame_on_body(positions, triangles, body, skin) : std::nullopt;
+    return is_free ? frame_on_body(positions, triangles, body, skin, stature) : std::nullopt;
 }
 
 }  // namespace
@@ -221,17 +254,18 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
 {
     const GarmentSizes sizes { choice.scale };
     describe(sizes, CheckRanges());
-    FrameGuess guess = guess_garment_frame(positions, triangles, in_named_unit(body));
-    const std::optional<Frame> on_body = frame_on_body(positions, triangles, body, choice, skin);
+    const Triangles cloth = cloth_of(positions, triangles);
+    FrameGuess guess = guess_garment_frame(positions, cloth, in_named_unit(body));
+    const std::optional<Frame> on_body = frame_on_body(positions, cloth, body, choice, skin, stature);
     if (on_body)
         guess = { *on_body, 1, 1,
                   "the garment lies on the body in its file, in the same axes, and in "
                       + (on_body->metres_per_unit == body.metres_per_unit ? "the same unit" : unit_text(*on_body)) };
     else if (choice.up == "auto")
-        choose_up(guess, positions, triangles, body);
+        choose_up(guess, positions, cloth, body);
     guess = apply_choice(guess, choice);
     if (stature && choice.unit == "auto" && choice.scale == 1 && !on_body)
-        scale_to_body(guess, positions, triangles, body, *stature);
+        scale_to_body(guess, positions, cloth, body, *stature);
     guess.frame.metres_per_unit *= choice.scale;
     if (choice.scale != 1)
         guess.why += ", scaled by " + rounded_text(choice.scale, 3) + " as given";

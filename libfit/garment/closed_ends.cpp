@@ -14,9 +14,11 @@
 #include "lids_and_fillings.h"
 #include "nearest.h"
 #include "thick_cloth.h"
+#include "topology.h"
 #include "tuning.h"
 #include "used_vertices.h"
 #include "warps.h"
+#include "weld.h"
 
 namespace garmentfit {
 namespace {
@@ -255,6 +257,18 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     result.closed_ends += ends.count;
     result.outside = std::move(ends.hollows.outside);
     return result;
+}
+
+Triangles without_specks(const GarmentMesh& garment)
+{
+    const Weld weld(garment);
+    const TriangleMesh mesh { weld.gather(garment.positions),
+                              garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }) };
+    const int faces = int(mesh.triangles.rows());
+    const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
+    std::vector<char> is_kept(std::size_t(faces), 1);
+    leave_out(find_specks(mesh, patches_of(topology, faces)), is_kept);
+    return garment.triangles(marked(is_kept), Eigen::all);
 }
 
 }  // namespace garmentfit

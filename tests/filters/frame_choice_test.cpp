@@ -112,6 +112,34 @@ TEST(FrameChoice, OfAGarmentThatLiesRoundTheBodyIsThatOfTheBody)
               0.01);
 }
 
+// In decimetres a tube of 3 units lies round a shin; nobody of the body's size wears a garment as narrow.
+TEST(FrameChoice, OfASmallGarmentThatLiesRoundALimbByChanceIsAnother)
+{
+    const Person person = capsule_person({ .arm_angle = 45 });
+    TriangleMesh tube
+        = garment_round(person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 0.15 && p.y() < 0.45 && p.x() > 0; });
+    tube.positions *= 10;
+    const FrameGuess guess = garment_frame(tube.positions, tube.triangles, {}, {}, 1.7, person.mesh);
+    EXPECT_EQ(guess.why.find("lies on the body"), std::string::npos) << guess.why;
+    EXPECT_NE(guess.frame.metres_per_unit, 0.1) << guess.why;
+}
+
+// A pendant that a program left at the origin, 3 m below the shirt, made it 3.6 m tall.
+TEST(FrameChoice, OfAGarmentWithASpeckFarFromItIsThatOfTheGarment)
+{
+    const Person person = capsule_person({ .arm_angle = 45 });
+    TriangleMesh shirt = garment_round(person.skeleton, 0.03, [](const Vec3& p) { return p.y() > 0.9; });
+    TriangleMesh speck
+        = polygonise([](const Vec3& p) { return p.norm() - 0.02; }, Vec3::Constant(-0.03), Vec3::Constant(0.03), 0.01);
+    shirt.positions.col(1).array() += 3;
+    const TriangleMesh both = joined(shirt, speck);
+    const auto guess = [&](const TriangleMesh& mesh) {
+        return garment_frame(mesh.positions, mesh.triangles, {}, {}, 1.7, person.mesh).frame;
+    };
+    EXPECT_EQ(guess(both).metres_per_unit, guess(shirt).metres_per_unit);
+    EXPECT_EQ(guess(both).up, guess(shirt).up);
+}
+
 TEST(FrameChoice, TurnsTheFrontOfAGarmentWithItsAxes)
 {
     const Frame up_is_z { 1, Vec3::UnitZ() };

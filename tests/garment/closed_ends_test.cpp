@@ -355,6 +355,9 @@ TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
         const OpenedGarment result = opened(fixtures::joined(open, placed));
         EXPECT_EQ(result.left_out.specks, specks);
         EXPECT_EQ(result.left_out.faces, specks * speck.triangles.rows());
+        const TriangleMesh both = fixtures::joined(open, placed);
+        EXPECT_EQ(without_specks(make_garment(both.positions, both.triangles)).rows(),
+                  both.triangles.rows() - specks * speck.triangles.rows());
     }
 }
 
