@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "parallel.h"
 #include "surface_measures.h"
 #include "tuning.h"
+#include "used_vertices.h"
 
 namespace garmentfit {
 namespace {
@@ -152,22 +154,40 @@ std::vector<int> drop_small_parts(const std::vector<int>& faces, const std::vect
     return result;
 }
 
-}  // namespace
-
-std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<int>& opposite,
-                             double thickness)
+/// What all relations between two smooth regions say together, by area: where sheets of coarse cloth pass through each
+/// other, single faces have the wrong one close behind them, with more certainty than creases have.
+std::vector<Relation> add_up(const std::vector<Relation>& relations, const std::vector<Vec3>& areas)
 {
-    const std::vector<Vec3> areas = area_vectors(cloth);
-    std::vector<Relation> relations = relate_to_neighbours(faces, opposite, areas);
-    const std::vector<Relation> backs = relate_to_backs(cloth, faces, areas, thickness);
-    relations.insert(relations.end(), backs.begin(), backs.end());
+    DisjointSets regions { int(areas.size()) };
+    std::vector<Relation> result;
+    for (const Relation& relation : relations)
+        if (!relation.apart && relation.uncertainty < k_smooth_region) {
+            regions.join(relation.a, relation.b);
+            result.push_back(relation);
+            result.back().uncertainty = -std::numeric_limits<double>::infinity();
+        }
+    std::map<std::pair<int, int>, double> votes;  // m^2, for one sheet
+    for (const Relation& relation : relations) {
+        const int a = regions.root(relation.a), b = regions.root(relation.b);
+        const double weight
+            = std::min(areas[relation.a].norm(), areas[relation.b].norm()) * (1 - relation.uncertainty / 2);
+        if (a != b)
+            votes[{ std::min(a, b), std::max(a, b) }] += relation.apart ? -weight : weight;
+    }
+    for (const auto& [pair, vote] : votes)
+        result.push_back({ -std::abs(vote), pair.first, pair.second, vote < 0 });
+    return result;
+}
+
+/// The outer one of two sheets encloses a positive volume. The inner one is oriented towards the body, so its volume is
+/// negative.
+std::vector<int> outer_of(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<Vec3>& areas,
+                          std::vector<Relation> relations)
+{
     std::sort(relations.begin(), relations.end());
     Sheets sheets(areas.size());
     for (const Relation& relation : relations)
         sheets.add(relation);
-
-    // The outer sheet encloses a positive volume. The inner one is oriented towards the body, so its volume is
-    // negative.
     std::map<int, double> volumes;  // by root: three times the volume of the root's side minus that of the other side
     const Vec3 origin = middle(cloth, faces[0]);
     for (const int f : faces) {
@@ -178,6 +198,51 @@ std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& 
     for (const int f : faces)
         if (const auto [root, side] = sheets.root(f); (volumes[root] > 0) == (side == 0))
             outer.push_back(f);
+    return outer;
+}
+
+double area_of(const std::vector<int>& faces, const std::vector<Vec3>& areas)
+{
+    double sum = 0;
+    for (const int f : faces)
+        sum += areas[f].norm();
+    return sum;
+}
+
+/// m, of the outline of some faces.
+double outline_of(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<int>& opposite)
+{
+    std::vector<char> is_among(std::size_t(cloth.triangles.rows()), 0);
+    for (const int f : faces)
+        is_among[f] = 1;
+    double length = 0;
+    for (const int f : faces)
+        for (int k = 0; k < 3; ++k)
+            if (const int other = opposite[3 * f + k]; other < 0 || !is_among[other / 3])
+                length += (cloth.positions.row(cloth.triangles(f, (k + 1) % 3))
+                           - cloth.positions.row(cloth.triangles(f, k)))
+                              .norm();
+    return length;
+}
+
+}  // namespace
+
+std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<int>& opposite,
+                             double thickness)
+{
+    const std::vector<Vec3> areas = area_vectors(cloth);
+    std::vector<Relation> relations = relate_to_neighbours(faces, opposite, areas);
+    const std::vector<Relation> backs = relate_to_backs(cloth, faces, areas, thickness);
+    relations.insert(relations.end(), backs.begin(), backs.end());
+    std::vector<int> outer = outer_of(cloth, faces, areas, relations);
+    const double outline = outline_of(cloth, outer, opposite);
+    if (outline > k_longest_borders
+            * diagonal(cloth.positions(used_vertices(cloth.triangles(faces, Eigen::all)), Eigen::all))) {
+        std::vector<int> voted = outer_of(cloth, faces, areas, add_up(relations, areas));
+        const double share = area_of(voted, areas) / area_of(faces, areas);
+        if (std::abs(share - 0.5) < k_half_of_sheets && outline_of(cloth, voted, opposite) < outline)
+            outer = std::move(voted);
+    }
     return drop_small_parts(outer, opposite, areas);
 }
 

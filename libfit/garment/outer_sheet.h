@@ -12,7 +12,8 @@ namespace garmentfit {
 
 /// The faces that belong to the outer sheet. A face belongs to the same sheet as its neighbours, and to the other sheet
 /// than the face close behind it. These relations are taken in order of their reliability, and relations that
-/// contradict earlier ones are ignored: where folds intersect within the thickness, or along a rim.
+/// contradict earlier ones are ignored: where folds intersect within the thickness, or along a rim. Where that leaves
+/// tatters, all relations between two smooth regions are added up.
 /// @param faces  of `cloth`, oriented outwards: away from the space between the sheets
 /// @param opposite  for each half-edge 3 f + k the other half-edge; -1 for none
 /// @param thickness  m, between the sheets

@@ -223,6 +223,9 @@ inline constexpr double k_longest_sheet_borders = 4;
 /// fitted: guess, on the garments. Thicknesses: the other sheet is closer than this. Along a rim the next cloth is
 /// farther away.
 inline constexpr double k_backing = 3;
+/// fitted: guess, on a coarse hoodie of a shop, whose sheets pass through each other. 1 - cosine between neighbours in a
+/// smooth region, 45 degrees; how far the share of one of two sheets in the area of both is from a half.
+inline constexpr double k_smooth_region = 0.3, k_half_of_sheets = 0.2;
 /// fitted: guess, on the garments. Share of the sheet's area: a smaller connected part is a strip of a rim or a fold.
 inline constexpr double k_small_part = 0.05;
 /// fitted: guess, on the garments. Cosine between two faces: below it the face behind is not the other sheet.

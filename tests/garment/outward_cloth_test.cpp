@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "cloth_patches.h"
 #include "fixtures.h"
 #include "plain_reading.h"
 #include "surface_measures.h"
+#include "topology.h"
 
 namespace {
 
@@ -37,6 +39,22 @@ TriangleMesh thick_tube(double radius, double height, double thickness)
             mesh.positions.row(here) << r * std::sin(angle), y, r * std::cos(angle);
             mesh.triangles.row(2 * here) << here, next, above;
             mesh.triangles.row(2 * here + 1) << next, beside, above;
+        }
+    return mesh;
+}
+
+/// Pleats, whose inner sheet is turned by a fifth of one, so that the sheets pass through each other at every crease.
+TriangleMesh pleated_tube()
+{
+    TriangleMesh mesh = thick_tube(0.2, 0.6, 0.008);
+    constexpr int rings = 2 * k_rows;
+    for (int i = 0; i < rings; ++i)
+        for (int k = 0; k < k_around; ++k) {
+            const bool outer = i < k_rows;
+            const double r = 0.2 + (k % 2 ? 0.02 : -0.02) + (outer ? 0.5 : -0.5) * 0.004,
+                         angle = 2 * std::numbers::pi * (k + (outer ? 0 : 0.2)) / k_around;
+            mesh.positions(i * k_around + k, 0) = r * std::sin(angle);
+            mesh.positions(i * k_around + k, 2) = r * std::cos(angle);
         }
     return mesh;
 }
@@ -138,6 +156,14 @@ TEST(OutwardCloth, OfThickClothTheOuterSheetRemains)
             inner += area_vector(cloth.positions, cloth.triangles, f).norm();
     }
     EXPECT_LT(inner, 0.05 * area(cloth));
+}
+
+TEST(OutwardCloth, OfCoarseClothWhoseSheetsPassThroughEachOtherOneRemains)
+{
+    const TriangleMesh skirt = pleated_tube(), cloth = outward_cloth(garment_of(skirt));
+    EXPECT_NEAR(double(cloth.triangles.rows()), 0.5 * double(skirt.triangles.rows()), 2 * k_around);  // the rims
+    const double rim = border_length(cloth.positions, MeshTopology(cloth.triangles, int(cloth.positions.rows())));
+    EXPECT_LT(rim, 2 * 1.5 * k_around * 0.05);  // m, twice round its pleats: a side of them is 0.045 long
 }
 
 }  // namespace
