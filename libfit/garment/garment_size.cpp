@@ -59,6 +59,8 @@ std::vector<WearerHeight> wearer_heights(const GarmentMesh& garment)
     const Extents extents = level_extents(used);
     add(heights, extents.depth, usual_extents(measures).depth);
     add(heights, extents.width, usual_extents(measures).width);
+    if (measures.sleeve_length > 0)
+        heights.push_back({ measures.sleeve_length / k_longest_sleeves.size, k_longest_sleeves.spread, true });
     if (measures.leg > 0 && measures.shoulders == 0)
         heights.push_back({ (used.col(1).maxCoeff() - used.col(1).minCoeff()) / k_longest_trousers.size,
                             k_longest_trousers.spread, true });

@@ -326,6 +326,9 @@ inline constexpr UsualExtents k_usual_with_legs { { 0.29, 0.13 }, { 0.47, 0.1 } 
 /// Share of the stature that the longest trousers have, from waist to hem. fitted: guess; of the two catalogues'
 /// trousers the longest have 0.6
 inline constexpr Usual k_longest_trousers { 0.62, 0.05 };
+/// Likewise the longest sleeves, along the cloth, to where they leave the trunk. fitted: guess; of 54 clothes of a
+/// catalogue for people of 1.6 to 1.85 m the longest are 0.61 m long, two jumpsuits' apart with 0.66 and 0.69
+inline constexpr Usual k_longest_sleeves { 0.36, 0.05 };
 
 // ---- upright or not (type_guess.cpp) ------------------------------------------------------------------------------
 // fitted: guesses, on the garments.

@@ -543,6 +543,7 @@ GarmentMeasures measures_of(const std::vector<Opening>& openings)
                 across.y() = 0;
                 measures.shoulders = across.norm();
                 measures.sleeve = std::max(piece.sleeves[0].tube_girth, piece.sleeves[1].tube_girth);
+                measures.sleeve_length = std::min(piece.sleeves[0].tube_length, piece.sleeves[1].tube_length);
             }
             measures.neck = piece.others.back().girth;
         }

@@ -38,6 +38,7 @@ GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Ve
 struct GarmentMeasures {
     double shoulders = 0;  ///< from sleeve to sleeve, where they meet the trunk, or from armhole to armhole
     double sleeve = 0;  ///< girth of the wider sleeve; not of an armhole
+    double sleeve_length = 0;  ///< of the shorter sleeve
     double neck = 0;  ///< girth of the highest opening above sleeves
     double trunk = 0;  ///< girth, the narrowest of the tube that ends at the hem; or of the waist, above legs
     double leg = 0;  ///< girth of the wider leg

@@ -151,18 +151,22 @@ TEST(GarmentScale, SlimTrousersAreNoLongerThanTheLegs)
     EXPECT_NEAR(length_of(all), length_of(girths), 0.03);
 }
 
-TEST(GarmentScale, OnlyTrousersLimitTheirLength)
+TEST(GarmentScale, TrousersAndSleevesLimitTheirLength)
 {
     const Skeleton s = person_skeleton(k_person);
     const TriangleMesh trousers
         = garment_round(s, 0.03, [](const Vec3& p) { return p.y() > 0.15 && p.y() < 1.0 && std::abs(p.x()) < 0.3; });
+    const TriangleMesh skirt
+        = garment_round(s, 0.03, [](const Vec3& p) { return p.y() > 0.92 && p.y() < 1.1 && std::abs(p.x()) < 0.3; });
     const auto limits = [](const TriangleMesh& mesh) {
-        const auto wearers = wearer_heights(make_garment(mesh.positions, mesh.triangles));
-        return std::count_if(wearers.begin(), wearers.end(),
-                             [](const WearerHeight& wearer) { return wearer.is_least; });
+        auto wearers = wearer_heights(make_garment(mesh.positions, mesh.triangles));
+        std::erase_if(wearers, [](const WearerHeight& wearer) { return !wearer.is_least; });
+        return wearers;
     };
-    EXPECT_EQ(limits(trousers), 1);
-    EXPECT_EQ(limits(shirt()), 0);
+    EXPECT_EQ(limits(skirt).size(), 0u);
+    EXPECT_EQ(limits(trousers).size(), 1u);
+    ASSERT_EQ(limits(shirt()).size(), 1u);
+    EXPECT_LT(limits(shirt())[0].height, body_stature()) << "its sleeves are no longer than arms";
 }
 
 // It may be longer than a child is tall, who is not its wearer.

@@ -18,7 +18,7 @@ struct WearerHeight {
 };
 
 /// By each of its shoulders, sleeves, trunk and legs that is found, by its width and depth, which need no opening, and by
-/// the length of trousers, which do not reach below the feet.
+/// the length of trousers and of sleeves, which do not reach below the feet and beyond the hands.
 /// The garment is upright. O(n log n).
 GARMENTFIT_API std::vector<WearerHeight> wearer_heights(const GarmentMesh& garment);
 
