@@ -2,7 +2,11 @@
 #include "skin_transfer.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include <flann/flann.hpp>
 
@@ -144,6 +148,57 @@ void for_each_edge(const Triangles& triangles, Visit&& visit)
             visit(triangles(f, k), triangles(f, (k + 1) % 3));
 }
 
+/// Vertices at one place get the number of one of them.
+std::vector<int> first_at_place(const Positions& positions)
+{
+    std::vector<int> order(positions.rows()), first(positions.rows());
+    std::iota(order.begin(), order.end(), 0);
+    const auto place = [&](int v) { return std::tuple(positions(v, 0), positions(v, 1), positions(v, 2)); };
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return std::pair(place(a), a) < std::pair(place(b), b); });
+    for (std::size_t i = 0; i < order.size(); ++i)
+        first[order[i]] = i > 0 && place(order[i]) == place(order[i - 1]) ? first[order[i - 1]] : order[i];
+    return first;
+}
+
+/// For each vertex one that stands for it and those at its place that are one with it, as files with hard edges have a
+/// vertex for each corner of a face. Where more than two triangles meet at an edge, shells touch, and stay apart.
+std::vector<int> sewn_vertices(const TriangleMesh& surface)
+{
+    const std::vector<int> first = first_at_place(surface.positions);
+    DisjointSets sewn(int(first.size()));
+    std::vector<std::array<int, 4>> sides;  // two places, two vertices
+    for_each_edge(surface.triangles, [&](int a, int b) {
+        if (first[a] > first[b])
+            std::swap(a, b);
+        sides.push_back({ first[a], first[b], a, b });
+    });
+    std::sort(sides.begin(), sides.end());
+    const auto is_at = [&](std::size_t i, const std::array<int, 4>& side) {
+        return i < sides.size() && sides[i][0] == side[0] && sides[i][1] == side[1];
+    };
+    for (std::size_t i = 0; i < sides.size();) {
+        std::size_t next = i + 1;
+        while (is_at(next, sides[i]))
+            ++next;
+        if (next - i == 2)
+            for (const int end : { 2, 3 })
+                sewn.join(sides[i][end], sides[i + 1][end]);
+        i = next;
+    }
+    std::vector<int> result(first.size());
+    for (int v = 0; v < int(first.size()); ++v)
+        result[v] = sewn.root(v);
+    return result;
+}
+
+Triangles with_corners(Triangles triangles, const std::vector<int>& vertices)
+{
+    for (int& corner : triangles.reshaped())
+        corner = vertices[corner];
+    return triangles;
+}
+
 /// Vertices outside the largest part of their surface, after cuts along edges where bones far apart meet.
 std::vector<bool> find_separated(const Triangles& triangles, const std::vector<int>& bone_of_vertex)
 {
@@ -218,9 +273,11 @@ SkinWeights transfer_skin_weights(const TriangleMesh& from, const Eigen::MatrixX
 
     Eigen::MatrixXd transferred = BlendedWeights(points, weights).at(queries);
     const std::vector<int> bone_of_point = main_bones(weights);
-    for (const StrayPatch& patch : stray_patches(to.surface.triangles, main_bones(transferred)))
+    const std::vector<int> sewn = sewn_vertices({ places, to.surface.triangles });
+    for (const StrayPatch& patch : stray_patches(with_corners(to.surface.triangles, sewn), main_bones(transferred)))
         transferred(patch.vertices, Eigen::all)
             = weights_on(patch.near_bones, bone_of_point, points, weights).at(queries(patch.vertices, Eigen::all));
+    transferred = Eigen::MatrixXd(transferred(sewn, Eigen::all));
     return strongest_four(std::move(transferred));
 }
 

@@ -45,6 +45,51 @@ TEST(SkinTransfer, SkinThatTouchesOtherSkinGetsTheBoneOfItsNeighbours)
     }
 }
 
+/// A vertex for each corner of each triangle.
+TriangleMesh with_hard_edges(const TriangleMesh& mesh)
+{
+    TriangleMesh hard { Positions(3 * mesh.triangles.rows(), 3), Triangles(mesh.triangles.rows(), 3) };
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            hard.triangles(f, k) = int(3 * f) + k;
+            hard.positions.row(3 * f + k) = mesh.positions.row(mesh.triangles(f, k));
+        }
+    return hard;
+}
+
+TEST(SkinTransfer, HardEdgesAreNoCutsInTheSkin)
+{
+    const TwoSheets from(lradius, rradius);
+    const TriangleMesh skin = skin_with_bump(0, 0.028);
+    const SkinWeights transferred
+        = transfer_skin_weights(from.mesh, from.weights, { with_hard_edges(skin), skin, true });
+    for (Eigen::Index v = 0; v < transferred.bones.rows(); ++v)
+        EXPECT_EQ(transferred.bones(v, 0), lradius) << v;
+}
+
+/// A prism with an edge from 0 to +z, that is as wide at x as x is from there.
+TriangleMesh wedge(double x)
+{
+    TriangleMesh mesh { Positions(6, 3), Triangles(8, 3) };
+    mesh.positions << 0, 0, 0, 0, 0, 1, x, -0.5, 0, x, 0.5, 0, x, 0.5, 1, x, -0.5, 1;
+    mesh.triangles << 0, 3, 2, 1, 5, 4, 0, 2, 5, 0, 5, 1, 0, 1, 4, 0, 4, 3, 2, 3, 4, 2, 4, 5;
+    return mesh;
+}
+
+TEST(SkinTransfer, ShellsThatTouchAtAnEdgeKeepTheirOwnBones)
+{
+    const TriangleMesh shells = joined(wedge(-1), wedge(1));
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(12, bone_count);
+    weights.topRows(6).col(rradius).setOnes();
+    weights.bottomRows(6).col(lradius).setOnes();
+    const TriangleMesh hard = with_hard_edges(shells);
+    const SkinWeights transferred = transfer_skin_weights(shells, weights, { hard, shells, true });
+    for (Eigen::Index v = 0; v < transferred.bones.rows(); ++v)
+        if (const double x = hard.positions(v, 0); x != 0) {
+            EXPECT_EQ(transferred.bones(v, 0), x < 0 ? rradius : lradius) << v;
+        }
+}
+
 TEST(SkinTransfer, SkinThatTouchesTheNextBoneGetsIt)
 {
     const SkinWeights transferred = transfer_to(skin_with_bump(0, 0.028), TwoSheets(lradius, lhumerus));
