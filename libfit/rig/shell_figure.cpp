@@ -159,9 +159,10 @@ int curve_beside(const Part& trunk, const Part& part)
     const int side = off.x() > 0 ? 0 : 1;
     if (std::abs(off.x()) > k_beside_trunk * half_width)
         return off.y() > -k_arm_below_trunk * half_height ? side : 2 + side;
-    if (off.y() > half_height)
+    const double least_out = k_out_of_trunk * part.width(1);
+    if (part.box.max().y() - trunk.box.max().y() > least_out)
         return k_head_curve;
-    if (off.y() < -half_height && std::abs(off.x()) > k_leg_off_middle * half_width)
+    if (trunk.box.min().y() - part.box.min().y() > least_out && std::abs(off.x()) > k_leg_off_middle * half_width)
         return 2 + side;
     return k_trunk_curve;
 }

@@ -323,6 +323,9 @@ inline constexpr double k_nested_share = 0.6, k_shell_padding = 0.005;
 /// Of half the trunk: how far out an arm's middle lies at least, how far below the trunk's it lies at most, and how far
 /// from the middle a leg's lies at least.
 inline constexpr double k_beside_trunk = 0.9, k_arm_below_trunk = 2, k_leg_off_middle = 0.15;
+/// Share of its height by which a head lies above the trunk at least, and a leg below it: both may be sunk into it.
+/// fitted: guess, on a stranger's giant whose head is sunk in by 0.55
+inline constexpr double k_out_of_trunk = 0.35;
 /// Share of a limb's extent at its end that says where the end is, and how far pelvis and neck lie in the trunk.
 inline constexpr double k_end_of_part = 0.1, k_pelvis_in_trunk = 0.08;
 /// Share of a limb before and beyond elbow or knee in which both bones move its shells.

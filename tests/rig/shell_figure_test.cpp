@@ -43,6 +43,7 @@ enum class Arms { down, forwards, out };
 struct Blocks {
     Arms arms = Arms::down;
     double gap = 0;  ///< between parts
+    double sunk = 0;  ///< the head into the chest, and as far forwards
     bool split = true, head = true, has_pack = false, has_hat = false;
 };
 
@@ -52,7 +53,7 @@ TriangleMesh figure_of_blocks(const Blocks& b)
     TriangleMesh mesh = block({ 0, 18, 0 }, { 8, 12, 4 }, b.split);
     const auto add = [&](const Vec3& middle, const Vec3& size) { mesh = joined(mesh, block(middle, size, b.split)); };
     if (b.head)
-        add({ 0, 28 + b.gap, 0 }, { 8, 8, 8 });
+        add({ 0, 28 + b.gap - b.sunk, b.sunk }, { 8, 8, 8 });
     for (const double s : { 1, -1 }) {
         add({ s * (2 + b.gap / 2), 6 - b.gap, 0 }, { 4, 12, 4 });
         const double x = s * (6 + b.gap);
@@ -92,6 +93,14 @@ TEST(ShellFigure, BlocksAreHeadTrunkArmsAndLegsHoweverTheyTouch)
         EXPECT_LT((figure->joints.legs[1].root - k_unit * Vec3(-2, 12, 0)).norm(), k_unit);
         EXPECT_LT((figure->joints.legs[1].end - k_unit * Vec3(-2, 1, 0)).norm(), k_unit);
     }
+}
+
+TEST(ShellFigure, AHeadMayBeSunkIntoTheChest)
+{
+    const std::optional<ShellFigure> figure = shell_figure(figure_of_blocks({ .sunk = 5 }));
+    ASSERT_TRUE(figure);
+    EXPECT_LT(figure->cost, 3);
+    EXPECT_NEAR(figure->joints.crown.y(), 27 * k_unit, 1e-9);
 }
 
 TEST(ShellFigure, OneShellIsNone)
