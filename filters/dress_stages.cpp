@@ -306,20 +306,6 @@ Parameters for_rough_cloth(Parameters p)
 
 void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress);
 
-std::string mirror_of_part(const std::string& part)
-{
-    for (const auto& [side, other] : { std::pair<std::string, std::string>("left ", "right "), { "right ", "left " } })
-        if (part.compare(0, side.size(), side) == 0)
-            return other + part.substr(side.size());
-    return part;
-}
-
-double factor_of(const Widening& widening, const std::string& part)
-{
-    const auto found = widening.find(part);
-    return found == widening.end() ? 1 : found->second;
-}
-
 /// By which a garment has to be larger round a part for which it is too small, with what its fabric may give.
 double lacking_factor(const Dressing& end, const TooTight& part)
 {
@@ -394,10 +380,8 @@ bool widen_too_small(Scene& scene, double most, double share)
         return false;
     std::vector<Widening> widenings(scene.garments.size());
     for (const TooTight& part : end->too_tight) {
-        Widening& widening = widenings[std::size_t(part.garment)];
         const double factor = std::pow(std::max(1.0, lacking_factor(*end, part)), share);
-        for (const std::string& side : { part.part, mirror_of_part(part.part) })
-            widening[side] = std::max(factor_of(widening, side), factor);
+        widen_both_sides(widenings[std::size_t(part.garment)], part.part, factor);
     }
     for (std::size_t i = 0; i < widenings.size(); ++i)
         for (const auto& [part, factor] : widenings[i])

@@ -13,8 +13,7 @@ namespace {
 double factor_at(const Widening& widening, int bone)
 {
     const int part = part_of(bone);
-    const auto found = part < 0 ? widening.end() : widening.find(part_name(part));
-    return found == widening.end() ? 1 : found->second;
+    return part < 0 ? 1 : factor_of(widening, part_name(part));
 }
 
 Eigen::Matrix3d stretch_of(const Vec3& axis, double across, double along)
@@ -68,6 +67,20 @@ GarmentMesh widen_garment(const Rig& rig, const BodyMesh& body, const Pose& pose
         result.positions.row(v) = to;
     }
     return result;
+}
+
+double factor_of(const Widening& widening, const std::string& part)
+{
+    const auto found = widening.find(part);
+    return found == widening.end() ? 1 : found->second;
+}
+
+void widen_both_sides(Widening& widening, const std::string& part, double factor)
+{
+    for (int bone = 0; bone < bone_count; ++bone)
+        if (const int one = part_of(bone); one >= 0 && part == part_name(one))
+            for (const int side : { one, part_of(mirror_of(bone)) })
+                widening[part_name(side)] = std::max(factor_of(widening, part_name(side)), factor);
 }
 
 double largest_factor(const Widening& widening)

@@ -83,5 +83,14 @@ TEST(WidenGarment, NothingChangesWhereNothingIsWider)
     EXPECT_LT((same.positions - d.trousers.positions).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST(Widening, IsAlikeOnBothSides)
+{
+    Widening widening { { "right calf", 1.4 } };
+    widen_both_sides(widening, "left calf", 1.2);
+    widen_both_sides(widening, "waist", 1.1);
+    EXPECT_EQ(widening, (Widening { { "left calf", 1.2 }, { "right calf", 1.4 }, { "waist", 1.1 } }));
+    EXPECT_EQ(factor_of(widening, "neck"), 1);
+}
+
 }  // namespace
 }  // namespace garmentfit

@@ -18,6 +18,12 @@ namespace garmentfit {
 /// Factor of girth round each part of the body, by the names of TooTight; parts that are not listed stay as they are.
 using Widening = std::map<std::string, double>;
 
+/// 1 for a part that is not listed.
+GARMENTFIT_API double factor_of(const Widening& widening, const std::string& part);
+
+/// Wider round these parts, too: on both sides alike, and by the larger factor where a part is listed already.
+GARMENTFIT_API void widen_both_sides(Widening& widening, const std::string& part, double factor);
+
 /// @param pose  of the body in which the garment lies round it (FitResult::pose)
 /// @pre Factors are positive.
 GARMENTFIT_API GarmentMesh widen_garment(const Rig& rig, const BodyMesh& body, const Pose& pose,
