@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 #include <flann/flann.hpp>
@@ -17,6 +15,7 @@
 #include "skin_weights.h"
 #include "surface_measures.h"
 #include "tuning.h"
+#include "weld.h"
 
 namespace garmentfit {
 namespace {
@@ -148,30 +147,17 @@ void for_each_edge(const Triangles& triangles, Visit&& visit)
             visit(triangles(f, k), triangles(f, (k + 1) % 3));
 }
 
-/// Vertices at one place get the number of one of them.
-std::vector<int> first_at_place(const Positions& positions)
-{
-    std::vector<int> order(positions.rows()), first(positions.rows());
-    std::iota(order.begin(), order.end(), 0);
-    const auto place = [&](int v) { return std::tuple(positions(v, 0), positions(v, 1), positions(v, 2)); };
-    std::sort(order.begin(), order.end(),
-              [&](int a, int b) { return std::pair(place(a), a) < std::pair(place(b), b); });
-    for (std::size_t i = 0; i < order.size(); ++i)
-        first[order[i]] = i > 0 && place(order[i]) == place(order[i - 1]) ? first[order[i - 1]] : order[i];
-    return first;
-}
-
 /// For each vertex one that stands for it and those at its place that are one with it, as files with hard edges have a
 /// vertex for each corner of a face. Where more than two triangles meet at an edge, shells touch, and stay apart.
 std::vector<int> sewn_vertices(const TriangleMesh& surface)
 {
-    const std::vector<int> first = first_at_place(surface.positions);
-    DisjointSets sewn(int(first.size()));
+    const Weld weld(GarmentMesh { surface.positions, surface.triangles });
+    DisjointSets sewn(weld.given());
     std::vector<std::array<int, 4>> sides;  // two places, two vertices
     for_each_edge(surface.triangles, [&](int a, int b) {
-        if (first[a] > first[b])
+        if (weld.cloth_vertex(a) > weld.cloth_vertex(b))
             std::swap(a, b);
-        sides.push_back({ first[a], first[b], a, b });
+        sides.push_back({ weld.cloth_vertex(a), weld.cloth_vertex(b), a, b });
     });
     std::sort(sides.begin(), sides.end());
     const auto is_at = [&](std::size_t i, const std::array<int, 4>& side) {
@@ -186,8 +172,8 @@ std::vector<int> sewn_vertices(const TriangleMesh& surface)
                 sewn.join(sides[i][end], sides[i + 1][end]);
         i = next;
     }
-    std::vector<int> result(first.size());
-    for (int v = 0; v < int(first.size()); ++v)
+    std::vector<int> result(std::size_t(weld.given()));
+    for (int v = 0; v < weld.given(); ++v)
         result[v] = sewn.root(v);
     return result;
 }
