@@ -151,6 +151,46 @@ void join_nested(std::vector<Part>& parts, double padding)
     }
 }
 
+/// Whether one part is about where the mirror image of the other is, and as large.
+bool are_twins(const Part& one, const Part& other, double middle, double size)
+{
+    Vec3 mirrored = other.box.center();
+    mirrored.x() = 2 * middle - mirrored.x();
+    const Eigen::Array3d sizes = padded(one.box, k_shell_padding * size).sizes(),
+                         others = padded(other.box, k_shell_padding * size).sizes();
+    return (one.box.center() - mirrored).norm() < k_twin_distance * size
+        && (sizes / others).log().abs().maxCoeff() < k_twin_size;
+}
+
+/// Which parts have a twin on the other side of a middle, or lie across it.
+std::vector<bool> find_matched(const std::vector<Part>& parts, double middle, double size)
+{
+    std::vector<bool> matched;
+    for (const Part& part : parts)
+        matched.push_back((part.box.min().x() < middle && part.box.max().x() > middle)
+                          || std::any_of(parts.begin(), parts.end(), [&](const Part& other) {
+                                 return &other != &part && are_twins(part, other, middle, size);
+                             }));
+    return matched;
+}
+
+/// Takes out what has no twin on the other side, such as a weapon in a hand. The middle is that of the part about which
+/// most have one.
+std::vector<Part> take_held(std::vector<Part>& parts, double size)
+{
+    std::vector<bool> best;
+    for (const Part& part : parts) {
+        const std::vector<bool> matched = find_matched(parts, part.box.center().x(), size);
+        if (std::count(matched.begin(), matched.end(), true) > std::count(best.begin(), best.end(), true))
+            best = matched;
+    }
+    const std::vector<Part> all = std::exchange(parts, {});
+    std::vector<Part> held;
+    for (std::size_t p = 0; p < all.size(); ++p)
+        (best[p] ? parts : held).push_back(all[p]);
+    return held;
+}
+
 /// Which curve a part belongs to beside this trunk: arms 0, 1 and legs 2, 3, the first of each at +x.
 int curve_beside(const Part& trunk, const Part& part)
 {
@@ -288,7 +328,9 @@ void place_spine(const Eigen::AlignedBox3d& trunk, const Places& head, BodyJoint
     joints.upper_spine = joints.pelvis + (joints.neck_base - joints.pelvis) * 2 / 3;
 }
 
-std::optional<ShellFigure> figure_about(const TriangleMesh& surface, const std::vector<Part>& parts, std::size_t trunk)
+/// @param held  what hangs on the figure and does not matter to it
+std::optional<ShellFigure> figure_about(const TriangleMesh& surface, const std::vector<Part>& parts, std::size_t trunk,
+                                        const std::vector<Part>& held)
 {
     std::vector<int> curves;
     double rest = 0, all = 0;
@@ -333,26 +375,42 @@ std::optional<ShellFigure> figure_about(const TriangleMesh& surface, const std::
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const int v : parts[p].vertices)
             figure.curve_of_vertex[std::size_t(v)] = curves[p];
+    for (const Part& part : held)
+        for (const int v : part.vertices)
+            figure.curve_of_vertex[std::size_t(v)] = curve_beside(parts[trunk], part);
     return figure;
+}
+
+/// @param best  the likeliest so far, or none
+void look_for_trunk(const TriangleMesh& surface, std::vector<Part> parts, const std::vector<Part>& held, double size,
+                    std::optional<ShellFigure>& best)
+{
+    join_nested(parts, k_shell_padding * size);
+    if (parts.size() > k_most_parts)
+        return;
+    for (std::size_t trunk = 0; trunk < parts.size(); ++trunk)
+        if (std::optional<ShellFigure> figure = figure_about(surface, parts, trunk, held)) {
+            figure->cost += held.empty() ? 0 : k_held_cost;
+            if (figure->cost < (best ? best->cost : k_most_figure_cost))
+                best = std::move(figure);
+        }
 }
 
 }  // namespace
 
 std::optional<ShellFigure> shell_figure(const TriangleMesh& surface)
 {
-    std::vector<Part> parts = shells_of(surface);
-    if (parts.size() > k_most_shells)
+    std::vector<Part> shells = shells_of(surface);
+    if (shells.empty() || shells.size() > k_most_shells)
         return {};
     Eigen::AlignedBox3d box;
-    for (const Part& part : parts)
-        box.extend(part.box);
-    join_nested(parts, k_shell_padding * box.diagonal().norm());
+    for (const Part& shell : shells)
+        box.extend(shell.box);
+    const double size = box.diagonal().norm();
     std::optional<ShellFigure> best;
-    if (parts.size() <= k_most_parts)
-        for (std::size_t trunk = 0; trunk < parts.size(); ++trunk)
-            if (std::optional<ShellFigure> figure = figure_about(surface, parts, trunk);
-                figure && figure->cost < (best ? best->cost : k_most_figure_cost))
-                best = std::move(figure);
+    look_for_trunk(surface, shells, {}, size, best);
+    if (const std::vector<Part> held = take_held(shells, size); !held.empty())
+        look_for_trunk(surface, std::move(shells), held, size, best);
     return best;
 }
 

@@ -323,6 +323,10 @@ inline constexpr double k_nested_share = 0.6, k_shell_padding = 0.005;
 /// Of half the trunk: how far out an arm's middle lies at least, how far below the trunk's it lies at most, and how far
 /// from the middle a leg's lies at least.
 inline constexpr double k_beside_trunk = 0.9, k_arm_below_trunk = 2, k_leg_off_middle = 0.15;
+/// Share of the diagonal by which a part may lie off the mirror image of its twin, the largest logarithm of the ratio
+/// of their sides, and the cost of a figure with parts that have no twin and do not matter to it. fitted: guesses, on
+/// one stranger's archer, whose bow hides forearm and hand
+inline constexpr double k_twin_distance = 0.03, k_twin_size = 0.2, k_held_cost = 2;
 /// Share of its height by which a head lies above the trunk at least, and a leg below it: both may be sunk into it.
 /// fitted: guess, on a stranger's giant whose head is sunk in by 0.55
 inline constexpr double k_out_of_trunk = 0.35;

@@ -44,7 +44,7 @@ struct Blocks {
     Arms arms = Arms::down;
     double gap = 0;  ///< between parts
     double sunk = 0;  ///< the head into the chest, and as far forwards
-    bool split = true, head = true, has_pack = false, has_hat = false;
+    bool split = true, head = true, has_pack = false, has_hat = false, has_bow = false;
 };
 
 /// 32 units tall.
@@ -66,6 +66,8 @@ TriangleMesh figure_of_blocks(const Blocks& b)
     }
     if (b.has_pack)
         add({ 0, 18, -4 }, { 6, 8, 3 });
+    if (b.has_bow)  // about the lower half of an arm
+        add({ 6, 13, 0 }, { 3, 6, 30 });
     if (b.has_hat) {
         add({ 0, 28, 0 }, { 9, 9, 9 });
         add({ 0, 33, 0 }, { 12, 1, 12 });
@@ -101,6 +103,17 @@ TEST(ShellFigure, AHeadMayBeSunkIntoTheChest)
     ASSERT_TRUE(figure);
     EXPECT_LT(figure->cost, 3);
     EXPECT_NEAR(figure->joints.crown.y(), 27 * k_unit, 1e-9);
+}
+
+TEST(ShellFigure, WhatIsHeldInOneHandIsNoArm)
+{
+    const std::optional<ShellFigure> figure = shell_figure(figure_of_blocks({ .gap = 0.5, .has_bow = true }));
+    ASSERT_TRUE(figure);
+    EXPECT_LT(figure->cost, 5);
+    for (const LimbJoints& arm : figure->joints.arms) {
+        EXPECT_NEAR(arm.tip.y(), 12 * k_unit, 0.1 * k_unit);
+        EXPECT_NEAR(arm.tip.z(), 0, 0.1 * k_unit);
+    }
 }
 
 TEST(ShellFigure, OneShellIsNone)
