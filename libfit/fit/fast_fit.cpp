@@ -11,7 +11,6 @@
 
 #include "best_start.h"
 #include "coordinate_ascent.h"
-#include "crossing_tree.h"
 #include "garmentfit/error.h"
 #include "garmentfit/garment_type.h"
 #include "garmentfit/number_text.h"
@@ -175,26 +174,11 @@ std::vector<Bone> unlike_bones(const FitEnergy& energy, const Posture& posture)
     return unlike;
 }
 
-// The posture, moved clear of the inner sheets where it can be: folded collars and linings are no outward cloth, but the
-// body is to grow among them.
-// @param cloth  all of the garment's, as it was given
-Posture clear_of_inner_sheets(const Attempt& attempt, const BoneMetric& metric, const TriangleMesh& cloth,
-                              const Posture& posture)
-{
-    const CrossingTree all(rotate(cloth, attempt.garment().turn));
-    const FitEnergy thick(attempt.rig(), attempt.limits(), metric, attempt.cues(), k_bone_thickness, &all);
-    if (!find_crossing(thick, posture))
-        return posture;
-    const Posture moved = refine_posture(thick, posture);
-    return find_crossing(thick, moved) ? posture : moved;
-}
-
 // The pose of a hypothesis. @throws InvalidInput when no body fits in like that; SolverFailure when bones pass through
 // cloth in the end
 // @param moves  whether bones that pass through cloth are looked for another place
 // @param inside  the bones that are taken to be covered
-FitResult finish(const Hypothesis& hypothesis, const TriangleMesh& cloth, const FitOptions& options, bool moves,
-                 const std::vector<Bone>& inside)
+FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool moves, const std::vector<Bone>& inside)
 {
     const Attempt& attempt = *hypothesis.attempt;
     const Posture& start = hypothesis.wearing.posture;
@@ -206,7 +190,7 @@ FitResult finish(const Hypothesis& hypothesis, const TriangleMesh& cloth, const 
     if (const std::vector<Bone> unlike = unlike_bones(energy, fitted); !keeps_input && !unlike.empty()) {
         std::vector<Bone> alike = inside;
         std::erase_if(alike, [&](Bone b) { return std::find(unlike.begin(), unlike.end(), b) != unlike.end(); });
-        return finish(hypothesis, cloth, options, moves, alike);
+        return finish(hypothesis, options, moves, alike);
     }
     // The ascent may end with a bone that all but touches the cloth: no body can grow from there.
     if (find_crossing(thick, fitted))
@@ -214,7 +198,6 @@ FitResult finish(const Hypothesis& hypothesis, const TriangleMesh& cloth, const 
     if (moves && find_crossing(thick, fitted))
         fitted = move_clear(thick, fitted);
     require_clear(thick, fitted);
-    fitted = clear_of_inner_sheets(attempt, metric, cloth, fitted);
 
     FitResult result;
     result.type = attempt.coverage().type;
@@ -234,17 +217,17 @@ FitResult finish(const Hypothesis& hypothesis, const TriangleMesh& cloth, const 
 }
 
 // The type may name bones that are not inside, such as the forearm of a short sleeve: they are not covered.
-FitResult finish(const Hypothesis& hypothesis, const TriangleMesh& cloth, const FitOptions& options, bool moves)
+FitResult finish(const Hypothesis& hypothesis, const FitOptions& options, bool moves)
 {
     if (!hypothesis.is_possible())
         throw refusal_of(hypothesis, options);
     const std::vector<Bone> inside
         = bones_inside(hypothesis.attempt->energy(), hypothesis.wearing.posture, k_partly_inside);
-    return finish(hypothesis, cloth, options, moves, inside.empty() ? hypothesis.attempt->coverage().bones : inside);
+    return finish(hypothesis, options, moves, inside.empty() ? hypothesis.attempt->coverage().bones : inside);
 }
 
 // The most probable hypothesis in which a body fits, FitOptions::skipped of those left out.
-FitResult choose(const std::vector<Hypothesis>& all, const TriangleMesh& cloth, const FitOptions& options, bool moves)
+FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options, bool moves)
 {
     std::vector<Rejected> rejected;
     std::exception_ptr first;
@@ -262,7 +245,7 @@ FitResult choose(const std::vector<Hypothesis>& all, const TriangleMesh& cloth, 
             if (std::any_of(done.begin(), done.end(),
                             [&](const Hypothesis* other) { return is_same_way(*other, hypothesis); }))
                 continue;
-            FitResult result = finish(hypothesis, cloth, options, moves);
+            FitResult result = finish(hypothesis, options, moves);
             if (int(done.size()) < options.skipped) {
                 done.push_back(&hypothesis);
                 continue;
@@ -284,10 +267,9 @@ FitResult choose(const std::vector<Hypothesis>& all, const TriangleMesh& cloth, 
 // user or the openings say: a wrong type may be why they pass through it.
 FitResult choose(const std::vector<Hypothesis>& all, const GarmentMesh& garment, const FitOptions& options)
 {
-    const TriangleMesh cloth { garment.positions, garment.triangles };
     std::exception_ptr refusal;
     try {
-        return choose(all, cloth, options, false);
+        return choose(all, options, false);
     } catch (const SolverFailure&) {
         if (options.skipped > 0)  // there is one way already
             throw;
@@ -299,7 +281,7 @@ FitResult choose(const std::vector<Hypothesis>& all, const GarmentMesh& garment,
             return hypothesis.attempt->coverage().type != guessed;
         });
     try {
-        return choose(likely, cloth, options, true);
+        return choose(likely, options, true);
     } catch (const InvalidInput&) {
         std::rethrow_exception(refusal);
     } catch (const SolverFailure&) {

@@ -66,11 +66,11 @@ private:
 }  // namespace
 
 FitEnergy::FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues,
-                     double bone_thickness, const CrossingTree* more_cloth) :
+                     double bone_thickness) :
     rig_(rig),
     limits_(limits), metric_(metric), weights_(metric.weights()),
     coverage_points_(spread_points(metric.cloth(), k_coverage_cells)), cues_(cues),
-    hangs_from_shoulders_(metric.covers(lclavicle)), bone_thickness_(bone_thickness), more_cloth_(more_cloth)
+    hangs_from_shoulders_(metric.covers(lclavicle)), bone_thickness_(bone_thickness)
 {
     const Skeleton& rest = rig.skeleton;
     const double trunk = rest.length(lowerback) + rest.length(upperback) + rest.length(thorax);
@@ -235,15 +235,13 @@ double FitEnergy::value(const Posture& posture, const EnergyTerms& near) const
 // A thick bone is tested along its axis and along four lines beside it.
 bool FitEnergy::passes_through_cloth(const Vec3& from, const Vec3& to) const
 {
-    const auto crosses = [&](const Vec3& a, const Vec3& b) {
-        return metric_.cloth().crosses(a, b) || (more_cloth_ && more_cloth_->is_met(a, b));
-    };
-    if (crosses(from, to))
+    const ClearanceField& cloth = metric_.cloth();
+    if (cloth.crosses(from, to))
         return true;
     if (bone_thickness_ <= 0 || from == to)
         return false;
     const Vec3 across = bone_thickness_ * (to - from).unitOrthogonal(), other = (to - from).normalized().cross(across);
-    const auto passes_beside = [&](const Vec3& offset) { return crosses(from + offset, to + offset); };
+    const auto passes_beside = [&](const Vec3& offset) { return cloth.crosses(from + offset, to + offset); };
     return passes_beside(across) || passes_beside(-across) || passes_beside(other) || passes_beside(-other);
 }
 

@@ -30,11 +30,10 @@ class FitEnergy {
 public:
     static constexpr double k_any = -std::numeric_limits<double>::infinity();  // unit: a bound that everything exceeds
 
-    /// Keeps references: rig, limits, metric and more_cloth have to live as long.
+    /// Keeps references: rig, limits and metric have to live as long.
     /// @param bone_thickness  m; a bone that passes cloth this closely counts as passing through it
-    /// @param more_cloth  which bones may not pass through either, and which is not measured: inner sheets
     FitEnergy(const Rig& rig, const JointLimits& limits, const BoneMetric& metric, const GarmentCues& cues,
-              double bone_thickness = 0, const CrossingTree* more_cloth = nullptr);
+              double bone_thickness = 0);
 
     EnergyTerms evaluate(const Posture& posture) const;
     /// Without the cost of crossings, m.
@@ -109,7 +108,6 @@ private:
     GarmentCues cues_;
     bool hangs_from_shoulders_;
     double bone_thickness_;  // m
-    const CrossingTree* more_cloth_;  // may be none
     double lowest_root_, highest_root_;  // m, y: beyond the cloth the root gains nothing, or it would move on for ever
 };
 

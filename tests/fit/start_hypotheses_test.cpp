@@ -11,7 +11,6 @@
 
 #include "best_start.h"
 #include "coordinate_ascent.h"
-#include "crossing_tree.h"
 #include "fixtures.h"
 #include "garmentfit/mesh.h"
 #include "limb_search.h"
@@ -119,23 +118,6 @@ TEST_F(Shirt, OtherPosturesAreAscendedToo)
     const std::vector<Posture> alone = ascend_starts(energy, {}, { input });
     ASSERT_EQ(alone.size(), 1u);
     EXPECT_GT(energy.total(alone[0]), energy.total(input));
-}
-
-// The neck runs a millimetre in front of a sheet that is no outward cloth, as in a folded collar.
-TEST_F(Shirt, BonesKeepClearOfClothThatIsNotMeasured)
-{
-    const Posture before = refine_posture(
-        energy, ascend_starts(energy, find_rough_starts(energy, facing_hypotheses(energy)), {}).front());
-    const Skeleton joints = place_bones(rig.skeleton, before).joints;
-    const Vec3 head = joints.head(lowerneck), tail = joints.tail(lowerneck);
-    Positions corners(3, 3);
-    corners << -0.05, -0.05, 0, 0.05, -0.05, 0, 0, 0.05, 0;
-    corners.rowwise() += (0.5 * (head + tail) - Vec3(0, 0, 0.001)).transpose();
-    const CrossingTree inner({ corners, Triangles { { 0, 1, 2 } } });
-    const FitEnergy thick { rig, limits, metric, cues_of(openings), 0.002, &inner };
-    EXPECT_FALSE(energy.passes_through_cloth(head, tail));
-    ASSERT_TRUE(thick.passes_through_cloth(head, tail));
-    EXPECT_EQ(thick.bones_through_cloth(refine_posture(thick, before)), 0);
 }
 
 TEST_F(Shirt, FarFromTheClothAPostureGainsNothingByHeight)
