@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "garment_scale.h"
 #include "garmentfit/body_place.h"
@@ -177,22 +176,15 @@ std::string unit_text(const Frame& frame)
     return std::string(name_of_unit(frame.metres_per_unit).value_or("no unit"));
 }
 
-/// Whether its measures are of people who are not far smaller than the body. A small garment may come to lie in the
-/// body's trunk or round a limb by chance. What is no garment, or has no measures, may be of any size.
-bool is_of_size(const Positions& metres, const Triangles& triangles, const std::optional<double>& stature)
+/// Whether it is, by its measures: a small garment may come to lie in the body's trunk or round a limb by chance. What is
+/// no garment, or has no measures, may be of any size.
+bool is_dolls(const Positions& metres, const Triangles& triangles, const std::optional<double>& stature)
 {
-    std::vector<double> heights;
     try {
-        for (const WearerHeight& wearer : wearer_heights_of_any_size(metres, triangles))
-            heights.push_back(wearer.height);
+        return stature && is_dolls_garment(wearer_heights_of_any_size(metres, triangles), *stature);
     } catch (const InvalidInput&) {
-        return true;
+        return false;
     }
-    if (!stature || heights.empty())
-        return true;
-    const auto median = heights.begin() + std::ptrdiff_t(heights.size() / 2);
-    std::nth_element(heights.begin(), median, heights.end());
-    return *median > k_least_in_place * *stature;
 }
 
 /// The body's frame, or one of its axes and another unit, in which the garment lies round the body. Inches and feet are
@@ -201,15 +193,15 @@ std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& 
                                    const TriangleMesh& skin, const std::optional<double>& stature)
 {
     const auto lies_in = [&](const Frame& frame) {
-        return lies_on_body({ frame.to_metres(positions), triangles }, skin);
+        const Positions metres = frame.to_metres(positions);
+        return lies_on_body({ metres, triangles }, skin) && !is_dolls(metres, triangles, stature);
     };
     if (lies_in(body))
         return body;
     for (const double metres_per_unit : { 1.0, 0.1, 0.01, 0.001 }) {
         Frame frame = body;
         frame.metres_per_unit = metres_per_unit;
-        if (metres_per_unit != body.metres_per_unit && lies_in(frame)
-            && is_of_size(frame.to_metres(positions), triangles, stature))
+        if (metres_per_unit != body.metres_per_unit && lies_in(frame))
             return frame;
     }
     return {};

@@ -55,6 +55,9 @@ public:
         return sum;
     }
 
+    /// With its size multiplied by a factor.
+    bool is_dolls(double factor) const { return is_dolls_garment(wearers_, height_ / factor); }
+
     /// Logarithms of factors between which any measure fits, one k_step apart.
     std::vector<double> log_factors() const
     {
@@ -118,8 +121,8 @@ std::vector<Hypothesis> in_units(const Wearer& wearer, double prior, double metr
     std::vector<Hypothesis> hypotheses;
     for (const UsualUnit& unit : k_usual_units) {
         const double factor = metres_per(unit.name) / metres_per_unit;
-        hypotheses.push_back(
-            { factor, prior * usualness(unit, body_unit) / all * wearer.likelihood_of_others(std::log(factor)) });
+        const double likelihood = wearer.is_dolls(factor) ? 0 : wearer.likelihood_of_others(std::log(factor));
+        hypotheses.push_back({ factor, prior * usualness(unit, body_unit) / all * likelihood });
     }
     return hypotheses;
 }
@@ -179,6 +182,19 @@ bool is_normalised(const Positions& positions, const Triangles& triangles)
 {
     const double longest = extents_of(positions, triangles).maxCoeff();
     return std::abs(longest - 1) < k_normalised || std::abs(longest / 2 - 1) < k_normalised;
+}
+
+bool is_dolls_garment(const std::vector<WearerHeight>& wearers, double stature)
+{
+    std::vector<double> heights;
+    for (const WearerHeight& wearer : wearers)
+        if (!wearer.is_least)
+            heights.push_back(wearer.height);
+    if (heights.empty())
+        return false;
+    const auto median = heights.begin() + std::ptrdiff_t(heights.size() / 2);
+    std::nth_element(heights.begin(), median, heights.end());
+    return *median <= k_least_wearer * stature;
 }
 
 ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, double height, double metres_per_unit,

@@ -82,10 +82,10 @@ inline constexpr double k_longest_share = 0.86, k_shortest_share = 0.1, k_length
 /// ample, a garment without a hood may be made for people of 2 m
 inline constexpr double k_tallest_wearer = 1.9;
 
-/// Of the body's stature: how tall the people are, by the median of its measures, whom a garment fits that lies round the
-/// body in a unit other than the body's; of a smaller one that is chance. fitted: guess, on a jacket without a unit that
-/// lay in a man's chest in decimetres (0.41), and as units differ by 2.5 and more
-inline constexpr double k_least_in_place = 0.5;
+/// Of the body's stature: how tall the people are whom a garment fits, by the median of its measures; where a smaller one
+/// lies round the body, that is chance, and a unit in which it is smaller is not its own. fitted: guess, that of the fit's
+/// refusals, on a jacket without a unit that lay in a man's chest in decimetres (0.41)
+inline constexpr double k_least_wearer = 0.45;
 
 // The size of a garment (garment_scale.h), in natural logarithms. fitted: guesses, on one half of 125 garments of a
 // catalogue, in their units and multiplied by factors of 0.1 to 1000, judged on the other half.

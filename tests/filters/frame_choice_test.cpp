@@ -119,9 +119,11 @@ TEST(FrameChoice, OfASmallGarmentThatLiesRoundALimbByChanceIsAnother)
     TriangleMesh tube
         = garment_round(person.skeleton, 0.02, [](const Vec3& p) { return p.y() > 0.15 && p.y() < 0.45 && p.x() > 0; });
     tube.positions *= 10;
-    const FrameGuess guess = garment_frame(tube.positions, tube.triangles, {}, {}, 1.7, person.mesh);
-    EXPECT_EQ(guess.why.find("lies on the body"), std::string::npos) << guess.why;
-    EXPECT_NE(guess.frame.metres_per_unit, 0.1) << guess.why;
+    for (const double body_unit : { 1.0, 0.1 }) {
+        const FrameGuess guess = garment_frame(tube.positions, tube.triangles, { body_unit }, {}, 1.7, person.mesh);
+        EXPECT_EQ(guess.why.find("lies on the body"), std::string::npos) << guess.why;
+        EXPECT_NE(guess.frame.metres_per_unit, 0.1) << guess.why;
+    }
 }
 
 // A pendant that a program left at the origin, 3 m below the shirt, made it 3.6 m tall.

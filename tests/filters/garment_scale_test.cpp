@@ -151,6 +151,17 @@ TEST(GarmentScale, SlimTrousersAreNoLongerThanTheLegs)
     EXPECT_NEAR(length_of(all), length_of(girths), 0.03);
 }
 
+// A stout T-shirt of two units, whose measures disagree, kept decimetres on a body in decimetres, and was refused.
+TEST(GarmentScale, AUnitInWhichAGarmentIsADollsIsNotItsOwn)
+{
+    const double height = 1.6;
+    const std::vector<WearerHeight> wearers {
+        { 0.38, 0.14 }, { 1.08, 0.19 }, { 0.69, 0.18 }, { 0.74, 0.19 }, { 0.46, 0.37 }
+    };
+    EXPECT_GT(guess_scale(wearers, 0.25, height, 0.1, 0.1).factor, 1.5);
+    EXPECT_EQ(guess_scale(wearers, 0.25, 0.9, 0.1, 0.1).factor, 1) << "a child's";
+}
+
 TEST(GarmentScale, TrousersAndSleevesLimitTheirLength)
 {
     const Skeleton s = person_skeleton(k_person);
