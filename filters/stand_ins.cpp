@@ -96,14 +96,15 @@ bool follow_all(const Leading& leading, std::vector<WornGarment>& garments, cons
                 const Progress& progress)
 {
     const auto& [scene, led, order, is_on_the_way] = leading;
+    const bool roughly = is_on_the_way;  // Clang 14 cannot capture it as it is
     const Triangles& triangles = scene.body->surface.triangles;
     Company company(body, triangles, garments);
     for (const std::size_t i : order)
         if (has_stand_in(led.garments[i])) {
             const WornGarment& leader = garments[i];
             garments[i] = garment_after(scene.garments[i], leader, [&](const GarmentMesh& rest) {
-                return is_on_the_way ? follow_roughly(leader.rest, leader.positions, rest)
-                                     : follow(leader.rest, leader.positions, rest, company.around(i), progress);
+                return roughly ? follow_roughly(leader.rest, leader.positions, rest)
+                               : follow(leader.rest, leader.positions, rest, company.around(i), progress);
             });
             company.replace(i, garments[i]);
         }
