@@ -150,6 +150,9 @@ void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameter
     run_changed(give_up_stand_ins, stages, scene, parameters, progress);
     run_changed(find_linings, stages, scene, parameters, progress,
                 is_too_small(scene) ? Outcome::done : Outcome::too_small);
+    for (const double size : k_looser_sizes)
+        run_changed([&](Scene& other) { return loosen(other, size); }, stages, scene, parameters, progress,
+                    Outcome::done);
 }
 
 void run_larger(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)

@@ -40,4 +40,9 @@ void take_as_given(GarmentInput& garment);
 /// there are any, and all may be enlarged so far
 bool enlarge_too_small(Scene& scene, const Parameters& parameters);
 
+/// Enlarges the garments whose size is a guess, as their files have no unit, where cloth holds parts of the body back.
+/// @param size  DrapeOptions::size
+/// @return whether there are any
+bool loosen(Scene& scene, double size);
+
 }  // namespace garmentfit

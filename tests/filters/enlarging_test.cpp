@@ -45,6 +45,24 @@ TEST(Enlarging, AGarmentThatIsTooSmallInTheEndIsEnlargedWhereThatIsAllowed)
     EXPECT_FALSE(enlarge_too_small(fits, parameters));
 }
 
+TEST(Enlarging, AGarmentWithoutAUnitThatHoldsTheBodyBackIsLoosened)
+{
+    Scene scene = tight_scene(1, 0);
+    scene.recovered->too_tight.clear();
+    scene.recovered->held_back = { { "left thigh", 0.01 } };
+    ASSERT_EQ(outcome_of(*final_dressing(scene)), Outcome::not_certified);
+    EXPECT_FALSE(loosen(scene, 1.05)) << "its size is no guess";
+    scene.garments[0].has_unit = false;
+    EXPECT_TRUE(loosen(scene, 1.05));
+    EXPECT_EQ(scene.garments[0].size, 1.05);
+    EXPECT_FALSE(loosen(scene, 1.05)) << "it is as large already";
+    scene.recovered->held_back.clear();
+    EXPECT_FALSE(loosen(scene, 1.1)) << "the cloth crosses itself, say";
+    scene.recovered->held_back = { { "left thigh", 0.01 } };
+    scene.recovered->certified = true;
+    EXPECT_FALSE(loosen(scene, 1.1));
+}
+
 TEST(Enlarging, AGarmentIsMadeWiderAndFittedAnewBeforeItIsEnlarged)
 {
     const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 20 });
