@@ -76,12 +76,12 @@ void set_height(FrameGuess& guess, const Positions& positions, const Triangles& 
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
 }
 
-/// The faces of its cloth: a necklace or a label that lies far away would make it larger. What is no garment is left
+/// The faces of its cloth: a necklace or a label that lies far away, or a backdrop, would make it larger. What is no garment is left
 /// alone.
 Triangles cloth_of(const Positions& positions, const Triangles& triangles)
 {
     try {
-        return without_specks(make_garment(positions, triangles));
+        return without_scenery(make_garment(positions, triangles));
     } catch (const InvalidInput&) {
         return triangles;
     }

@@ -101,6 +101,7 @@ void warn_of_left_out(std::vector<std::string>& warnings, const std::string& nam
     add(left_out.solids, "solid", "", left_out.lids > 0 ? "" : " inside");
     add(left_out.lids, "lid", " and ", " inside");
     add(left_out.specks, "speck", ", and ", " far from the cloth");
+    add(left_out.backdrops, "backdrop", ", and ", " beside it");
     if (left_out.garments > 0)
         warnings.push_back(
             name + " has " + count_text(left_out.garments, "other garment")

@@ -159,15 +159,15 @@ GarmentMesh drop_repeated(const GarmentMesh& garment)
     return with_triangles(garment, garment.positions, marked(is_kept));
 }
 
-/// @param others  faces of each other garment
-OpenedGarment leave_out_garments(GarmentMesh garment, const Parts& others)
+/// Without some pieces, which are counted.
+OpenedGarment leave_out_pieces(GarmentMesh garment, const Parts& pieces, int LeftOut::*count)
 {
     std::vector<char> is_kept(std::size_t(garment.triangles.rows()), 1);
-    leave_out(others, is_kept);
+    leave_out(pieces, is_kept);
     OpenedGarment result;
     result.garment = with_triangles(garment, std::move(garment.positions), marked(is_kept));
     Gatherer gatherer(result.garment.positions, result.garment.triangles);
-    result.left_out.garments = gatherer.gather(garment.triangles, others, result.left_out.faces);
+    result.left_out.*count = gatherer.gather(garment.triangles, pieces, result.left_out.faces);
     return result;
 }
 
@@ -177,17 +177,21 @@ struct WithoutCaps {
     std::vector<Triangles> caps;
 };
 
-/// Without caps, lids, fillings and specks.
+/// Without caps, lids, fillings and specks, and without backdrops and garments beside it.
 WithoutCaps leave_out_caps(const GarmentMesh& garment)
 {
     Caps caps(garment);
-    if (const Parts others = find_garments_beside(caps.mesh(), caps.patches()); !others.empty()) {
-        const OpenedGarment alone = leave_out_garments(garment, others);
+    const auto alone_without = [&](const Parts& pieces, int LeftOut::*count) {
+        const OpenedGarment alone = leave_out_pieces(garment, pieces, count);
         WithoutCaps result = leave_out_caps(alone.garment);
-        result.opened.left_out.garments += alone.left_out.garments;
+        result.opened.left_out.*count += alone.left_out.*count;
         result.opened.left_out.faces += alone.left_out.faces;
         return result;
-    }
+    };
+    if (const Parts backdrops = find_backdrops(caps.mesh(), caps.patches()); !backdrops.empty())
+        return alone_without(backdrops, &LeftOut::backdrops);
+    if (const Parts others = find_garments_beside(caps.mesh(), caps.patches()); !others.empty())
+        return alone_without(others, &LeftOut::garments);
     const Findings found = find_what_is_no_cloth(caps, garment);
     OpenedGarment result { with_triangles(garment, garment.positions, found.kept),
                            int(found.caps.size() + found.lids.size()),
@@ -259,15 +263,18 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     return result;
 }
 
-Triangles without_specks(const GarmentMesh& garment)
+Triangles without_scenery(const GarmentMesh& garment)
 {
     const Weld weld(garment);
     const TriangleMesh mesh { weld.gather(garment.positions),
                               garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }) };
     const int faces = int(mesh.triangles.rows());
     const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
+    Parts patches = patches_of(topology, faces);
     std::vector<char> is_kept(std::size_t(faces), 1);
-    leave_out(find_specks(mesh, patches_of(topology, faces)), is_kept);
+    leave_out(find_backdrops(mesh, patches), is_kept);
+    std::erase_if(patches, [&](const std::vector<int>& patch) { return !is_kept[patch[0]]; });
+    leave_out(find_specks(mesh, patches), is_kept);
     return garment.triangles(marked(is_kept), Eigen::all);
 }
 

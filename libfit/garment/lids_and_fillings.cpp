@@ -17,6 +17,7 @@
 #include "panel.h"
 #include "surface_measures.h"
 #include "tuning.h"
+#include "used_vertices.h"
 
 namespace garmentfit {
 namespace {
@@ -209,7 +210,10 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
 
 std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
 {
-    const double whole = diagonal(mesh.positions);
+    Eigen::AlignedBox3d all;
+    for (const std::vector<int>& patch : patches)
+        all.extend(box_of(mesh, patch));
+    const double whole = all.isEmpty() ? 0 : all.diagonal().norm();
     std::vector<std::vector<int>> small;
     std::vector<int> large;
     for (const std::vector<int>& patch : patches)
@@ -227,6 +231,24 @@ std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::v
         return gap < std::max(length, k_speck_gap * whole);
     });
     return small;
+}
+
+std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
+{
+    std::vector<std::vector<int>> backdrops;
+    Eigen::AlignedBox3d others;
+    for (const std::vector<int>& patch : patches) {
+        const Vec3 squares
+            = squared_extents(mesh.positions(used_vertices(mesh.triangles(patch, Eigen::all)), Eigen::all));
+        if (squares[0] <= k_flat_backdrop * k_flat_backdrop * squares[2])
+            backdrops.push_back(patch);
+        else
+            others.extend(box_of(mesh, patch));
+    }
+    std::erase_if(backdrops, [&](const std::vector<int>& patch) {
+        return others.isEmpty() || box_of(mesh, patch).diagonal().norm() < k_backdrop_size * others.diagonal().norm();
+    });
+    return backdrops;
 }
 
 std::vector<std::vector<int>> find_lids(const TriangleMesh& mesh, const MeshTopology& topology,

@@ -3,7 +3,7 @@
 
 // Pieces in a garment's mesh that are no cloth. Shops' viewers look into a garment from outside, so its inside is
 // hidden there: by a solid in the shape of a trunk, or by lids that lie loosely in the openings. Specks are left over
-// from modelling, far from all cloth.
+// from modelling, far from all cloth; backdrops from taking a picture.
 
 #include <vector>
 
@@ -28,6 +28,9 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
 /// Small patches that are farther from the garment's large ones than they are long. Nothing holds them, and a body may be
 /// where they are.
 std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
+
+/// Flat patches that are larger than all others together, floors among them.
+std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
 
 /// Lids: flat patches, sheets or slabs, whose rims lie at steep cloth, and whose middles are far from any. Those of many
 /// triangles from rim to rim may be as crumpled as the cuff that they close.

@@ -262,11 +262,9 @@ Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i
     }
     json["closed_ends"] = closed_ends(scene, i);
     const LeftOut left_out = left_out_of(scene, i);
-    json["left_out"] = { { "garments", left_out.garments },
-                         { "solids", left_out.solids },
-                         { "lids", left_out.lids },
-                         { "specks", left_out.specks },
-                         { "faces", left_out.faces } };
+    json["left_out"]
+        = { { "garments", left_out.garments }, { "solids", left_out.solids },       { "lids", left_out.lids },
+            { "specks", left_out.specks },     { "backdrops", left_out.backdrops }, { "faces", left_out.faces } };
     const GarmentFile& file = session.garments[i];
     json["guesses"] = guess_of(file.frame);
     json["guesses"]["scale"] = file.frame.scale;

@@ -94,13 +94,13 @@ TEST(Warnings, SayWhatWasLeftOutOfAGarment)
     Scene scene = worn_scene();
     scene.garments.resize(2);
     scene.draped->garments[0].left_out = { .solids = 1, .faces = 208 };
-    scene.draped->garments[1].left_out = { .solids = 2, .lids = 1, .specks = 1, .faces = 301 };
+    scene.draped->garments[1].left_out = { .solids = 2, .lids = 1, .specks = 1, .backdrops = 2, .faces = 301 };
     EXPECT_EQ(
         warnings_of(scene),
         (Lines { "skirt has 1 solid inside (208 faces); taken for no cloth, left out, and drawn into one point of "
                  "the cloth",
-                 "coat has 2 solids and 1 lid inside, and 1 speck far from the cloth (301 faces); taken for no "
-                 "cloth, left out, and drawn into one point of the cloth" }));
+                 "coat has 2 solids and 1 lid inside, and 1 speck far from the cloth, and 2 backdrops beside "
+                 "it (301 faces); taken for no cloth, left out, and drawn into one point of the cloth" }));
 }
 
 TEST(Warnings, SayThatAnotherGarmentStandsBesideIt)

@@ -356,9 +356,26 @@ TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
         EXPECT_EQ(result.left_out.specks, specks);
         EXPECT_EQ(result.left_out.faces, specks * speck.triangles.rows());
         const TriangleMesh both = fixtures::joined(open, placed);
-        EXPECT_EQ(without_specks(make_garment(both.positions, both.triangles)).rows(),
+        EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(),
                   both.triangles.rows() - specks * speck.triangles.rows());
     }
+}
+
+TEST(ClosedEnds, BackdropsAreLeftOut)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none);
+    TriangleMesh flat = fixtures::sheet(2, 1, [](double, double) { return 0; });
+    flat.positions.rowwise() -= Eigen::RowVector3d(flat.positions.colwise().mean()) + Eigen::RowVector3d(0, 0.3, 0);
+    for (const auto& [size, backdrops] : { std::pair(3.0, 1), std::pair(0.5, 0) }) {
+        TriangleMesh scaled = flat;
+        scaled.positions *= size;
+        const TriangleMesh both = fixtures::joined(open, scaled);
+        const OpenedGarment result = opened(both);
+        EXPECT_EQ(result.left_out.backdrops, backdrops) << size;
+        EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(),
+                  both.triangles.rows() - backdrops * flat.triangles.rows());
+    }
+    EXPECT_EQ(opened(flat).left_out.backdrops, 0) << "nothing is left of it";
 }
 
 /// The cloth stays where it is; the vertices behind it lie in one of its own.

@@ -15,6 +15,7 @@ struct LeftOut {
     int solids = 0;  ///< that fill it
     int lids = 0;  ///< that lie loosely in its openings
     int specks = 0;  ///< small pieces far from all cloth
+    int backdrops = 0;  ///< flat pieces that are larger than it, floors among them
     int faces = 0;  ///< of all of them
 };
 
@@ -39,7 +40,7 @@ struct OpenedGarment {
 /// seconds of a wrap, once for a garment that was asked for lately.
 GARMENTFIT_API OpenedGarment open_ends(const GarmentMesh& garment);
 
-/// The faces without specks, in their order: what a garment's size and place are judged by. Cost O(n log n).
-GARMENTFIT_API Triangles without_specks(const GarmentMesh& garment);
+/// The faces without specks and backdrops, in their order: what a garment's size and place are judged by. Cost O(n log n).
+GARMENTFIT_API Triangles without_scenery(const GarmentMesh& garment);
 
 }  // namespace garmentfit
