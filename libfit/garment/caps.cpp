@@ -181,7 +181,9 @@ void Caps::mark_closed_faces()
     is_closed_.assign(std::size_t(faces_.rows()), is_closed());
     std::vector<char> is_at_opening(std::size_t(faces_.rows()), 0);
     for (const std::vector<int>& loop : topology_.border_loops()) {
-        const int side = topology_.sides_at(topology_.edge_between(loop[0], loop[1 % loop.size()]))[0];
+        if (loop.size() < 2)  // a single edge between faces that are turned round: it leads to no other one
+            continue;
+        const int side = topology_.sides_at(topology_.edge_between(loop[0], loop[1]))[0];
         is_at_opening[side / 3] = girth_of(positions_, loop) > smallest_girth_;
     }
     double whole = 0;  // m^2

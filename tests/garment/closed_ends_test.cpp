@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "topology.h"
 #include "used_vertices.h"
 
 namespace garmentfit {
@@ -359,6 +360,18 @@ TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
         EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(),
                   both.triangles.rows() - specks * speck.triangles.rows());
     }
+}
+
+// The border goes to and fro at its edge.
+TEST(ClosedEnds, AFaceAtTheRimMayBeTurnedRound)
+{
+    TriangleMesh open = tube(Cap::none, Cap::none);
+    const MeshTopology topology(open.triangles, int(open.positions.rows()));
+    open.triangles.row(topology.sides_at(topology.border_edges()[0])[0] / 3).reverseInPlace();
+    const MeshTopology turned(open.triangles, int(open.positions.rows()));
+    const auto loops = turned.border_loops();
+    ASSERT_TRUE(std::any_of(loops.begin(), loops.end(), [](const auto& loop) { return loop.size() == 1; }));
+    EXPECT_EQ(opened(open).garment.triangles, open.triangles);
 }
 
 TEST(ClosedEnds, BackdropsAreLeftOut)
