@@ -76,8 +76,8 @@ void set_height(FrameGuess& guess, const Positions& positions, const Triangles& 
     guess.why = "the body is " + rounded_text(units, 3) + " units tall, " + rounded_text(height, 3) + " m as given";
 }
 
-/// The faces of its cloth: a necklace or a label that lies far away, or a backdrop, would make it larger. What is no garment is left
-/// alone.
+/// The faces of its cloth: a necklace or a label that lies far away, or a backdrop, would make it larger. What is no
+/// garment is left alone.
 Triangles cloth_of(const Positions& positions, const Triangles& triangles)
 {
     try {
@@ -176,8 +176,8 @@ std::string unit_text(const Frame& frame)
     return std::string(name_of_unit(frame.metres_per_unit).value_or("no unit"));
 }
 
-/// Whether it is, by its measures: a small garment may come to lie in the body's trunk or round a limb by chance. What is
-/// no garment, or has no measures, may be of any size.
+/// Whether it is, by its measures: a small garment may come to lie in the body's trunk or round a limb by chance. What
+/// is no garment, or has no measures, may be of any size.
 bool is_dolls(const Positions& metres, const Triangles& triangles, const std::optional<double>& stature)
 {
     try {

@@ -26,8 +26,8 @@ bool is_normalised(const Positions& positions, const Triangles& triangles);
 /// @param log_stature  natural logarithm of their stature over the body's
 double density_of_others(double log_stature);
 
-/// Whether a garment, by the median of its measures, is for people so much smaller than somebody of a stature, m, that the
-/// fit refuses it, and names its unit as the reason. Not where it has no measures.
+/// Whether a garment, by the median of its measures, is for people so much smaller than somebody of a stature, m, that
+/// the fit refuses it, and names its unit as the reason. Not where it has no measures.
 bool is_dolls_garment(const std::vector<WearerHeight>& wearers, double stature);
 
 /// @param wearers  of the garment in the unit guessed (wearer_heights)

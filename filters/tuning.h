@@ -82,9 +82,9 @@ inline constexpr double k_longest_share = 0.86, k_shortest_share = 0.1, k_length
 /// ample, a garment without a hood may be made for people of 2 m
 inline constexpr double k_tallest_wearer = 1.9;
 
-/// Of the body's stature: how tall the people are whom a garment fits, by the median of its measures; where a smaller one
-/// lies round the body, that is chance, and a unit in which it is smaller is not its own. fitted: guess, that of the fit's
-/// refusals, on a jacket without a unit that lay in a man's chest in decimetres (0.41)
+/// Of the body's stature: how tall the people are whom a garment fits, by the median of its measures; where a smaller
+/// one lies round the body, that is chance, and a unit in which it is smaller is not its own. fitted: guess, that of
+/// the fit's refusals, on a jacket without a unit that lay in a man's chest in decimetres (0.41)
 inline constexpr double k_least_wearer = 0.45;
 
 // The size of a garment (garment_scale.h), in natural logarithms. fitted: guesses, on one half of 125 garments of a
@@ -97,8 +97,8 @@ inline constexpr double k_dependence = 2;
 /// Of people for whom clothes are made, against the body that wears them; share of clothes of children and other people
 /// of another size, and their mean and spread.
 inline constexpr double k_wearer_spread = 0.12, k_children = 0.15, k_child_size = -0.1, k_child_spread = 0.35;
-/// Spread of how much larger clothes are made than for the tallest people, as a style. fitted: guess, on two clothes of a
-/// web shop that kept their metres at twice the size.
+/// Spread of how much larger clothes are made than for the tallest people, as a style. fitted: guess, on two clothes
+/// of a web shop that kept their metres at twice the size.
 inline constexpr double k_oversize = 0.1;
 /// Probability that a file has no unit, and its density then: the same in fourteen units, a factor of a million.
 inline constexpr double k_without_unit = 0.2, k_without_unit_density = 0.07;
@@ -106,12 +106,12 @@ inline constexpr double k_without_unit = 0.2, k_without_unit_density = 0.07;
 /// more often sides of files without a unit are as near than those of others. fitted: guess; of 65 clothes of web shops
 /// four are that near, whose size no unit explains, and of 152 garments with a unit none is.
 inline constexpr double k_normalised = 0.002, k_normalised_odds = 60;
-/// Share by which a garment that was scaled to the body, because no unit explains its size, is made larger at most where
-/// it is too small then: shoulders and sleeves say how tall its wearer is, not how stout. fitted: guess; five of 34
-/// clothes of web shops needed .08 to .17.
+/// Share by which a garment that was scaled to the body, because no unit explains its size, is made larger at most
+/// where it is too small then: shoulders and sleeves say how tall its wearer is, not how stout. fitted: guess; five of
+/// 34 clothes of web shops needed .08 to .17.
 inline constexpr double k_enlarged_without_unit = 0.2;
-/// Sizes in which such a garment is tried, from the first, where it holds parts of the body back. fitted: guess; a sweater
-/// and a dress of web shops held a forearm and a thigh back by 9 and 15 mm.
+/// Sizes in which such a garment is tried, from the first, where it holds parts of the body back. fitted: guess; a
+/// sweater and a dress of web shops held a forearm and a thigh back by 15 and 9 mm.
 inline constexpr std::array<double, 2> k_looser_sizes { 1.05, 1.1 };
 /// Share of what its fabric gives by which a garment that is enlarged is stretched then. derived: as
 /// k_enlarged_stretch_share of the room dress
@@ -122,12 +122,12 @@ inline constexpr double k_size_of_girth = 0.5;
 /// Share, of the logarithm, by which a garment is made wider that does not end well with the widening tried before.
 /// fitted: guess
 inline constexpr double k_smaller_share = 0.5;
-/// Strain, the 95th percentile, that fine cloth may have beyond that of the stand-in that it follows; with more, it moves
-/// as it is. fitted: guess; fine clothes of web shops that follow well have .01 to .03, a jumpsuit that is a child's too
-/// long .25.
+/// Strain, the 95th percentile, that fine cloth may have beyond that of the stand-in that it follows; with more, it
+/// moves as it is. fitted: guess; fine clothes of web shops that follow well have .01 to .03, a jumpsuit that is a
+/// child's too long .25.
 inline constexpr double k_follower_strain = 0.1;
-/// Time steps that a garment hangs for where it followed a rough stand-in, before it seeks a rest of its own; and the share
-/// of the time that leading it takes, for the progress bar. fitted: guesses
+/// Time steps that a garment hangs for where it followed a rough stand-in, before it seeks a rest of its own; and the
+/// share of the time that leading it takes, for the progress bar. fitted: guesses
 inline constexpr int k_own_settling_steps = 8;
 inline constexpr double k_progress_of_leading = 0.4;
 /// How usual the units are in mesh files, and by how much more the body's own.

@@ -57,8 +57,8 @@ DrapeStart make_start(PreparedCloth cloth, GrowingBody inside, double scale)
     return { std::move(cloth), std::move(inside), scale };
 }
 
-/// Sleeves and legs are retracted where that leaves the body free of the cloth, else they stay as given. None where cloth
-/// and bones cross.
+/// Sleeves and legs are retracted where that leaves the body free of the cloth, else they stay as given. None where
+/// cloth and bones cross.
 std::optional<DrapeStart> find_start(const Wearer& wearer, const GarmentMesh& garment)
 {
     const PreparedCloth given = prepare_cloth(garment, garment.positions);

@@ -30,9 +30,9 @@ inline constexpr double k_widest_hole = 0.2;
 /// fitted: likewise, or below this width as a share of the length. The openings have 0.36; a slit between pleats and
 /// two of pockets have 0.14, 0.12 and 0.11.
 inline constexpr double k_slit_roundness = 0.25;
-/// fitted: guess, on the slit between a shirt with a collar and one that is modelled in its neck, .46 diagonals round, with
-/// .16. Of 553 openings of 150 garments those as short have .28 or more, where no tube leads to them. Girth in diagonals,
-/// area over that of a circle of the same girth.
+/// fitted: guess, on the slit between a shirt with a collar and one that is modelled in its neck, .46 diagonals round,
+/// with .16. Of 553 openings of 150 garments those as short have .28 or more, where no tube leads to them. Girth in
+/// diagonals, area over that of a circle of the same girth.
 inline constexpr double k_longest_slit = 0.6, k_bent_slit_roundness = 0.22;
 /// fitted: likewise, on the openings above. Slices of the tube, below which there is none: cuffs that narrow have 11,
 /// the holes 1 to 5, for the cloth around them widens.
@@ -119,8 +119,8 @@ inline constexpr double k_hollow_reach = 0.05;
 /// between its lapels, a crotch up to 1.2.
 inline constexpr double k_hollow_length = 1.3;
 /// Share of the places of a floor behind which the solid is shorter: behind a waist the crotch is near, beside it the
-/// legs go on. With .5 in its place 251 of those 308 ends are found and 53 false ones, of the 300 others 230 and 85; with
-/// .8 of the 308 281 and 80.
+/// legs go on. With .5 in its place 251 of those 308 ends are found and 53 false ones, of the 300 others 230 and 85;
+/// with .8 of the 308 281 and 80.
 inline constexpr double k_hollow_chord = 0.65;
 /// Smallest spread of a hollow over its largest, and its area over that of a disc as wide as the solid behind it. A
 /// tenth of the ends have less, and half of what is none.
@@ -128,16 +128,16 @@ inline constexpr double k_hollow_roundness = 0.35, k_hollow_share = 0.2;
 /// Hollows that fill most of the solid's cross-section close shorter tubes, too. fitted: guess, on solids made from
 /// pictures: a T-shirt's short sleeves, 1.24 long, have .58 and .75, its folds up to .26 and pits between pockets .35.
 inline constexpr double k_filled_share = 0.5, k_filled_length = 1;
-/// Share of a hollow that is its floor. fitted: guess, likewise: ends have .3 to .9, folds beside sleeves .02 to .15; but
-/// deep hollows that fill the cross-section have less.
+/// Share of a hollow that is its floor. fitted: guess, likewise: ends have .3 to .9, folds beside sleeves .02 to .15;
+/// but deep hollows that fill the cross-section have less.
 inline constexpr double k_hollow_bottom = 0.15;
 /// Share of the cross-section below which a hollow beside all ends of a garment is a fold. fitted: guess, likewise,
 /// between .25 and a neck's .33.
 inline constexpr double k_narrow_share = 0.3;
-/// Flat ends without a hollow. fitted: guesses, on a T-shirt made from a picture. Cosines: between the mean direction and
-/// the surface where such an end is looked for, between its axis and its faces, and those behind its edge; how near to
-/// the outline these are, and the share of it where they are; share of the cross-section, least (.38 and .39 at cuffs) and
-/// most (1.79 at the hem): the rims of hollows are thin, and much longer.
+/// Flat ends without a hollow. fitted: guesses, on a T-shirt made from a picture. Cosines: between the mean direction
+/// and the surface where such an end is looked for, between its axis and its faces, and those behind its edge; how
+/// near to the outline these are, and the share of it where they are; share of the cross-section, least (.38 and .39
+/// at cuffs) and most (1.79 at the hem): the rims of hollows are thin, and much longer.
 inline constexpr double k_flush_flat = 0.95, k_flush_facing = 0.8, k_flush_steep = 0.35, k_flush_edge = 0.03,
                         k_flush_outline = 0.9, k_flush_least = 0.3, k_flush_most = 2.2;
 /// rad: directions tried behind a floor that is not level. Depth at which the width is measured.
@@ -175,8 +175,8 @@ inline constexpr double k_lid_roundness = 0.3, k_lid_depth = 0.3, k_lid_cover = 
 /// in half widths. Share of the cloth near the rim, by its area, that is as steep as at a cap: a neck has 0.67.
 inline constexpr double k_lid_reach = 0.15, k_lid_outline = 0.9, k_lid_middle = 0.5, k_lid_steep = 0.5;
 /// fitted: guess, on one file of two shirts, 0.09 diagonals apart, one of which is 0.8 as large. A garment that stands
-/// beside another: gap as a share of the diagonal round both, least size as a share of the other's diagonal, and how much
-/// of the lower one's height they share.
+/// beside another: gap as a share of the diagonal round both, least size as a share of the other's diagonal, and how
+/// much of the lower one's height they share.
 inline constexpr double k_beside_gap = 0.02, k_beside_size = 0.5, k_beside_overlap = 0.5;
 /// fitted: guess, on two crumpled cuffs of a web shop, 0.3 and 0.45. Largest depth of a lid of many triangles from rim
 /// to rim.
@@ -202,13 +202,13 @@ inline constexpr double k_longest_slits = 1.75;
 /// fitted: of 152 garments of the house, the catalogue and the wild data, which are no such ones, trousers of 17 pieces
 /// have 9.5 diagonals of border, and the next one 5.8; four clothes of web shops have 11 to 25. Diagonals.
 inline constexpr double k_longest_borders = 10;
-/// fitted: guess, on one shirt of a web shop, whose cuffs have .2 and .3. Distance of two borders that lie in each other,
-/// and length of the tubes that lead to them, in radii of the shorter one. Of 88 other clothes of shops that are not in
-/// parts, the nearest two without a tube are .9 apart.
+/// fitted: guess, on one shirt of a web shop, whose cuffs have .2 and .3. Distance of two borders that lie in each
+/// other, and length of the tubes that lead to them, in radii of the shorter one. Of 88 other clothes of shops that
+/// are not in parts, the nearest two without a tube are .9 apart.
 inline constexpr double k_doubled_rims = 0.5, k_doubled_tube = 0.7;
-/// fitted: guess, on two clothes of shops whose sheets are not joined at the hem, .02 and .14 apart; of 190 garments the
-/// nearest two others that face each other are .5 apart, with unlike girths, and of those without thickness 1.2. Distance
-/// of two borders at one place in radii, and cosine between one's facing and the opposite of the other's.
+/// fitted: guess, on two clothes of shops whose sheets are not joined at the hem, .02 and .14 apart; of 190 garments
+/// the nearest two others that face each other are .5 apart, with unlike girths, and of those without thickness 1.2.
+/// Distance of two borders at one place in radii, and cosine between one's facing and the opposite of the other's.
 inline constexpr double k_opposed_rims = 0.25, k_opposed_facing = 0.9;
 /// fitted: guess, on seven clothes of web shops: with a sixtieth, trousers are sealed at their hems. Shares of the
 /// diagonal: the wrap spans what is narrower than about twice the first, and keeps the second off the cloth.
@@ -226,8 +226,8 @@ inline constexpr double k_longest_sheet_borders = 4;
 /// fitted: guess, on the garments. Thicknesses: the other sheet is closer than this. Along a rim the next cloth is
 /// farther away.
 inline constexpr double k_backing = 3;
-/// fitted: guess, on a coarse hoodie of a shop, whose sheets pass through each other. 1 - cosine between neighbours in a
-/// smooth region, 45 degrees; how far the share of one of two sheets in the area of both is from a half.
+/// fitted: guess, on a coarse hoodie of a shop, whose sheets pass through each other. 1 - cosine between neighbours in
+/// a smooth region, 45 degrees; how far the share of one of two sheets in the area of both is from a half.
 inline constexpr double k_smooth_region = 0.3, k_half_of_sheets = 0.2;
 /// fitted: guess, on the garments. Share of the sheet's area: a smaller connected part is a strip of a rim or a fold.
 inline constexpr double k_small_part = 0.05;
@@ -292,8 +292,8 @@ inline constexpr double k_armhole_normal = 0.15;
 inline constexpr double k_armhole_length = 0.25;
 /// Length in girths: a sleeve to the elbow has 0.5, to the wrist 1.4.
 inline constexpr double k_long_sleeve = 0.9;
-/// Length in girths of sleeves that leave the forearm bare, whatever the type. fitted: guess, between a blouse of a shop
-/// with short sleeves (0.47 girths) and a jacket of the catalogue with sleeves of half an arm (0.61 girths).
+/// Length in girths of sleeves that leave the forearm bare, whatever the type. fitted: guess, between a blouse of a
+/// shop with short sleeves (0.47 girths) and a jacket of the catalogue with sleeves of half an arm (0.61 girths).
 inline constexpr double k_short_sleeve = 0.55;
 /// Relative distance from a limit at which the confidence of a decision is 1 (a reciprocal).
 inline constexpr double k_confidence_slope = 2;
