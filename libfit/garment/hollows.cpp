@@ -350,18 +350,10 @@ private:
             && area > k_hollow_share * std::numbers::pi / 4 * tube.width * tube.width;
     }
 
-    double area_of(const std::vector<int>& faces) const
-    {
-        double area = 0;  // m^2
-        for (const int f : faces)
-            area += areas_[f].norm();
-        return area;
-    }
-
     /// Share of a disc as wide as the solid behind some faces that they have.
     double share_of(const Tube& tube, const std::vector<int>& faces) const
     {
-        return area_of(faces) / (std::numbers::pi / 4 * tube.width * tube.width);
+        return area(areas_, faces) / (std::numbers::pi / 4 * tube.width * tube.width);
     }
 
     /// Whether some faces are most of the solid's cross-section: folds are a small part of it.
@@ -374,7 +366,7 @@ private:
     /// Whether a hollow ends a long tube, and is no fold with a spot of a floor.
     bool is_clear_end(const Tube& tube, const Part& floor, const std::vector<int>& faces) const
     {
-        return is_long(tube) && floor.area > k_hollow_bottom * area_of(faces);
+        return is_long(tube) && floor.area > k_hollow_bottom * area(areas_, faces);
     }
 
     static bool is_long(const Tube& tube) { return tube.length > k_hollow_length * tube.width; }

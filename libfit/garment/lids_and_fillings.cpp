@@ -238,9 +238,8 @@ std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std
     std::vector<std::vector<int>> backdrops;
     Eigen::AlignedBox3d others;
     for (const std::vector<int>& patch : patches) {
-        const Vec3 squares
-            = squared_extents(mesh.positions(used_vertices(mesh.triangles(patch, Eigen::all)), Eigen::all));
-        if (squares[0] <= k_flat_backdrop * k_flat_backdrop * squares[2])
+        const std::vector<int> used = used_vertices(mesh.triangles(patch, Eigen::all));
+        if (is_flat(mesh.positions(used, Eigen::all), k_flat_backdrop))
             backdrops.push_back(patch);
         else
             others.extend(box_of(mesh, patch));

@@ -201,14 +201,6 @@ std::vector<int> outer_of(const TriangleMesh& cloth, const std::vector<int>& fac
     return outer;
 }
 
-double area_of(const std::vector<int>& faces, const std::vector<Vec3>& areas)
-{
-    double sum = 0;
-    for (const int f : faces)
-        sum += areas[f].norm();
-    return sum;
-}
-
 /// m, of the outline of some faces.
 double outline_of(const TriangleMesh& cloth, const std::vector<int>& faces, const std::vector<int>& opposite)
 {
@@ -239,7 +231,7 @@ std::vector<int> outer_sheet(const TriangleMesh& cloth, const std::vector<int>& 
     if (outline > k_longest_borders
             * diagonal(cloth.positions(used_vertices(cloth.triangles(faces, Eigen::all)), Eigen::all))) {
         std::vector<int> voted = outer_of(cloth, faces, areas, add_up(relations, areas));
-        const double share = area_of(voted, areas) / area_of(faces, areas);
+        const double share = area(areas, voted) / area(areas, faces);
         if (std::abs(share - 0.5) < k_half_of_sheets && outline_of(cloth, voted, opposite) < outline)
             outer = std::move(voted);
     }

@@ -17,11 +17,25 @@ Vec3 squared_extents(const Positions& points)
         .eigenvalues();
 }
 
+bool is_flat(const Positions& points, double share)
+{
+    const Vec3 squares = squared_extents(points);
+    return squares[0] <= share * share * squares[2];
+}
+
 double area(const TriangleMesh& mesh)
 {
     double sum = 0;
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         sum += area_vector(mesh.positions, mesh.triangles, f).norm();
+    return sum;
+}
+
+double area(const std::vector<Vec3>& area_vectors, const std::vector<int>& faces)
+{
+    double sum = 0;
+    for (const int f : faces)
+        sum += area_vectors[f].norm();
     return sum;
 }
 

@@ -72,13 +72,6 @@ private:
     const double far_;  ///< units of the file
 };
 
-/// Whether the corners lie in a plane, however that lies.
-bool is_flat(const Positions& corners)
-{
-    const Vec3 squares = squared_extents(corners);
-    return squares[0] <= k_flat * k_flat * squares[2];
-}
-
 /// Panels beside a body that no joint moves: backdrops, floors and lamps.
 std::vector<char> find_panels(const MeshFile& file, const std::vector<MeshPart>& parts)
 {
@@ -89,7 +82,7 @@ std::vector<char> find_panels(const MeshFile& file, const std::vector<MeshPart>&
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::vector<int> corners = corners_of(triangles, parts[i]);
         const Positions places = positions(corners, Eigen::all);
-        if (!corners.empty() && is_flat(places))
+        if (!corners.empty() && is_flat(places, k_flat))
             widths[i] = diagonal(places);
         else
             others.insert(others.end(), corners.begin(), corners.end());
