@@ -87,7 +87,7 @@ DrapeStart choose_start(Wearer& wearer, DressedBody& bare, const GarmentMesh& ga
     const Pose pose = bare.pose;
     if (bare.garments.empty() && bare.body.rows() == 0)
         for (int i = 1; i <= k_start_shifts; ++i)
-            for (const Vec3& way : { Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ() })
+            for (const Vec3 way : { Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ() })
                 for (const double sign : { 1, -1 }) {
                     bare.pose.root_translation = pose.root_translation + sign * i * k_start_shift * way;
                     wearer.joints = pose_skeleton(wearer.rig.skeleton, bare.pose);

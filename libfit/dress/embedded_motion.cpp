@@ -12,10 +12,10 @@
 #include <Eigen/SVD>
 
 #include "barycentric.h"
-#include "disjoint_sets.h"
 #include "nearest.h"
 #include "parallel.h"
 #include "proximity.h"
+#include "torn_regions.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -90,15 +90,16 @@ public:
                 faces_at_[v].push_back(f);
     }
 
-    LedPlaces apply(const Positions& garment, const MeshTopology& topology) const
+    LedPlaces apply(const TriangleMesh& cloth, const MeshTopology& topology) const
     {
+        const Positions& garment = cloth.positions;
         std::vector<Binding> bindings(garment.rows());
         parallel_for(garment.rows(), [&](Eigen::Index v) { bindings[v] = *sheet_.nearest_triangle(garment.row(v)); });
         const double reach = reach_for(garment, bindings);
         LedPlaces places = move(garment, bindings, reach);
         if (bind_along_the_cloth(garment, topology, places.positions, bindings))
             places = move(garment, bindings, reach);
-        if (bind_as_neighbours(garment, topology, places.positions, bindings))
+        for (int round = 0; round < k_tear_rounds && bind_as_most_around(cloth, topology, places, bindings); ++round)
             places = move(garment, bindings, reach);
         return places;
     }
@@ -240,39 +241,30 @@ private:
         return is_changed;
     }
 
-    /// Where a sleeve hangs beside the trunk, some of its vertices are nearest to the stand-in's trunk and are torn off:
-    /// islands between edges that grow far longer. They go with their neighbours. @return whether there are any
-    static bool bind_as_neighbours(const Positions& rest, const MeshTopology& topology, const Positions& moved,
-                                   std::vector<Binding>& bindings)
+    /// Of a padded trunk, what faces a sleeve that hangs beside it may plainly be nearest to the stand-in's sleeve: where
+    /// cloth is led apart from most of the cloth round it, it goes with that. @return whether that changes any binding
+    bool bind_as_most_around(const TriangleMesh& rest, const MeshTopology& topology, const LedPlaces& led,
+                             std::vector<Binding>& bindings) const
     {
-        const int count = int(rest.rows());
-        DisjointSets pieces(count), whole(count);
-        for (const auto& edge : topology.edges().rowwise()) {
-            pieces.join(edge[0], edge[1]);
-            if (!is_torn(rest, moved, edge[0], edge[1]))
-                whole.join(edge[0], edge[1]);
-        }
-        std::vector<int> size(count, 0), largest(count, -1);  // by the root: of what is whole; and of each piece
-        for (int v = 0; v < count; ++v)
-            ++size[whole.root(v)];
-        for (int v = 0; v < count; ++v)
-            if (int& best = largest[pieces.root(v)]; best < 0 || size[whole.root(v)] > size[best])
-                best = whole.root(v);
-        std::vector<char> is_bound(count);
+        const std::vector<char> is_off = find_torn_off(rest, led, topology);
+        std::vector<char> is_bound(is_off.size());
         std::vector<int> bound;
-        for (int v = 0; v < count; ++v) {
-            is_bound[v] = size[whole.root(v)] > k_largest_island * size[largest[pieces.root(v)]];
-            if (is_bound[v])
+        for (int v = 0; v < int(is_off.size()); ++v)
+            if (is_bound[v] = !is_off[v]; is_bound[v])
                 bound.push_back(v);
-        }
-        const bool has_islands = int(bound.size()) < count;
+        bool is_changed = false;
+        Neighbourhood neighbourhood(rest_.positions, topology_);
         for (std::size_t next = 0; next < bound.size(); ++next)
             for (const int n : topology.neighbours(bound[next]))
                 if (!std::exchange(is_bound[n], 1)) {
-                    bindings[n] = bindings[bound[next]];
+                    const Vec3 place = rest.positions.row(n);
+                    const double reach = (rest.positions.row(bound[next]) - place.transpose()).norm() + edge_;
+                    const Binding beside = nearest_from(place, bindings[bound[next]], reach, neighbourhood);
+                    is_changed |= beside.point != bindings[n].point;
+                    bindings[n] = beside;
                     bound.push_back(n);
                 }
-        return has_islands;
+        return is_changed;
     }
 
     const GarmentMesh& rest_;
@@ -286,12 +278,7 @@ private:
 
 }  // namespace
 
-bool is_torn(const Positions& rest, const Positions& worn, int a, int b)
-{
-    return (worn.row(a) - worn.row(b)).norm() > k_torn * (rest.row(a) - rest.row(b)).norm() + k_torn_gap;
-}
-
-LedPlaces lead_along(const GarmentMesh& stand_in, const Positions& worn, const Positions& garment,
+LedPlaces lead_along(const GarmentMesh& stand_in, const Positions& worn, const TriangleMesh& garment,
                      const MeshTopology& topology)
 {
     return Motion(stand_in, worn).apply(garment, topology);

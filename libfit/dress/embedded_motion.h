@@ -23,12 +23,9 @@ struct LedPlaces {
 
 /// @param stand_in  at rest
 /// @param worn      positions of the stand-in
-/// @param garment   positions at rest
+/// @param garment   at rest
 /// @param topology  of the garment
-LedPlaces lead_along(const GarmentMesh& stand_in, const Positions& worn, const Positions& garment,
+LedPlaces lead_along(const GarmentMesh& stand_in, const Positions& worn, const TriangleMesh& garment,
                      const MeshTopology& topology);
-
-/// Whether an edge between two vertices grows far longer than cloth does.
-bool is_torn(const Positions& rest, const Positions& worn, int a, int b);
 
 }  // namespace garmentfit

@@ -19,6 +19,7 @@
 #include "side_by_side.h"
 #include "spread_ways.h"
 #include "topology.h"
+#include "torn_regions.h"
 #include "tuning.h"
 #include "untangle.h"
 #include "used_vertices.h"
@@ -44,7 +45,7 @@ struct Parts {
     Parts(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment) :
         weld(garment), rest(sewn(weld.gather(garment))), topology(rest.triangles, int(rest.positions.rows())),
         search(rest.triangles, topology.edges()), crossings(self_crossings(rest.positions)),
-        given(rest, topology.edges(), crossings), led(lead_along(stand_in, worn, rest.positions, topology)),
+        given(rest, topology.edges(), crossings), led(lead_along(stand_in, worn, rest, topology)),
         beside(rest.positions, topology, led.positions)
     {
     }
@@ -552,9 +553,10 @@ Positions follow(const GarmentMesh& stand_in, const Positions& worn, const Garme
 Positions follow_roughly(const GarmentMesh& stand_in, const Positions& worn, const GarmentMesh& garment)
 {
     const Weld weld(garment);
-    const GarmentMesh rest = weld.gather(garment);
+    const GarmentMesh sewn = weld.gather(garment);
+    const TriangleMesh rest { sewn.positions, sewn.triangles };
     const MeshTopology topology(rest.triangles, int(rest.positions.rows()));
-    return weld.place(lead_along(stand_in, worn, rest.positions, topology).positions);
+    return weld.place(lead_along(stand_in, worn, rest, topology).positions);
 }
 
 }  // namespace garmentfit

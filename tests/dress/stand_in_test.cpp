@@ -292,6 +292,22 @@ TEST(StandIn, TakesAlongMostOfASleeveThatIsNearerToTheTrunk)
     EXPECT_GT((followed - sagging.positions).col(1).minCoeff(), 0.49);
 }
 
+TEST(StandIn, LeavesBehindWhatBulgesToAnotherLimb)
+{
+    // the padded side of a trunk comes to within 5 mm of a sleeve, 4 cm wide, from where it turns away to the rim
+    const auto at = [](double height) { return [height](double, double) { return height; }; };
+    const TriangleMesh parts = joined(sheet(41, 0.01, at(0)), sheet(41, 0.01, at(0.06)));
+    Positions turned = parts.positions;
+    for (auto row : turned.bottomRows(41 * 41).rowwise())
+        row.y() += std::max(0., row.z());
+    const TriangleMesh padded = sheet(81, 0.005, [](double x, double z) {
+        return 0.055 * std::clamp(3 - std::abs(x) / 0.01, 0., 1.) * std::clamp(1 + (z + 0.05) / 0.02, 0., 1.);
+    });
+    const Positions followed
+        = follow({ parts.positions, parts.triangles }, turned, { padded.positions, padded.triangles }, { k_far_body });
+    EXPECT_LT((followed - padded.positions).col(1).maxCoeff(), 0.02) << "0.08 where it goes with what is nearest";
+}
+
 TEST(StandIn, TakesThePartsAlong)
 {
     const TriangleMesh tube = strip(0.2, 0.6, 0, 6, 80);
