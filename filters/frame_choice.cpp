@@ -50,20 +50,6 @@ FrameGuess apply_choice(FrameGuess guess, const FrameChoice& choice)
     return guess;
 }
 
-/// The frame with its unit replaced by the nearest one that has a name: that of the file, where its body was scaled to
-/// a given height.
-Frame in_named_unit(Frame frame)
-{
-    const auto distance
-        = [&](std::string_view unit) { return std::abs(std::log(metres_per(unit) / frame.metres_per_unit)); };
-    const std::vector<std::string_view>& units = unit_choices();
-    frame.metres_per_unit
-        = metres_per(*std::min_element(units.begin() + 1, units.end(), [&](std::string_view a, std::string_view b) {
-              return distance(a) < distance(b);
-          }));  // the first is "auto"
-    return frame;
-}
-
 /// Scales the body to a height.
 void set_height(FrameGuess& guess, const Positions& positions, const Triangles& triangles, double height)
 {
@@ -156,7 +142,7 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
         return;
     const double length = extents_of(metres, triangles).y();
     const ScaleGuess scale = guess_scale(wearers, length, stature, guess.frame.metres_per_unit,
-                                         in_named_unit(body).metres_per_unit, is_normalised(positions, triangles));
+                                         nearest_unit(body.metres_per_unit), is_normalised(positions, triangles));
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;
     if (scale.factor == 1)
@@ -247,7 +233,7 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
     const GarmentSizes sizes { choice.scale };
     describe(sizes, CheckRanges());
     const Triangles cloth = cloth_of(positions, triangles);
-    FrameGuess guess = guess_garment_frame(positions, cloth, in_named_unit(body));
+    FrameGuess guess = guess_garment_frame(positions, cloth, body);
     const std::optional<Frame> on_body = frame_on_body(positions, cloth, body, choice, skin, stature);
     if (on_body)
         guess = { *on_body, 1, 1,

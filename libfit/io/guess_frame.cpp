@@ -179,6 +179,14 @@ double preference(const Shape& shape, const Vec3& up, const Vec3& other)
         + k_symmetry_weight * (shape.asymmetries[b] - shape.asymmetries[a]);
 }
 
+/// @param unit  m, one with a name @param of_body  m, without a name where its height was given
+std::string beside_unit_of_body(double unit, double of_body)
+{
+    if (unit == of_body)
+        return " like the body";
+    return unit == nearest_unit(of_body) ? ", the unit nearest to the body's" : " unlike the body";
+}
+
 }  // namespace
 
 FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles, const std::optional<Vec3>& up)
@@ -213,12 +221,15 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
 {
     require_named_vertices("garment", positions.rows(), triangles);
     const Samples samples = samples_of(positions, triangles);
+    const double unit_of_body = nearest_unit(body.metres_per_unit);
+    FrameGuess guess { body, 0, 0,
+                       "a flat or empty mesh has no size to judge by: taken for the units and axes of the body" };
+    guess.frame.metres_per_unit = unit_of_body;
     if (!has_size(samples))
-        return { body, 0, 0, "a flat or empty mesh has no size to judge by: taken for the units and axes of the body" };
-    FrameGuess guess { body, 0, 0, {} };
+        return guess;
 
     const double longest = samples.box.sizes().maxCoeff();
-    const double as_body = longest * body.metres_per_unit;
+    const double as_body = longest * unit_of_body;
     if (as_body < k_least_garment || as_body > k_largest_garment) {
         const Ranked unit = rank_units(longest, k_usual_garment, k_garment_spread, k_least_garment, k_largest_garment);
         guess.frame.metres_per_unit = k_known_units[unit.best].metres;
@@ -231,15 +242,14 @@ FrameGuess guess_garment_frame(const Positions& positions, const Triangles& tria
     const Vec3 other = std::abs(body.up.y()) > 0.5 ? Vec3::UnitZ() : Vec3::UnitY();
     const double other_is_better = preference(shape_of(samples), body.up, other);
     // Another unit is evidence for another program, whose axes are others as often as not: the shape decides.
-    const double least = guess.frame.metres_per_unit == body.metres_per_unit ? k_clear_preference : 0;
+    const double least = guess.frame.metres_per_unit == unit_of_body ? k_clear_preference : 0;
     if (other_is_better > least)
         guess.frame.up = other;
     guess.up_confidence = confidence_between(std::abs(other_is_better - least), 0);
     guess.why = "the garment's longest side is " + text_of_length(longest) + " units, "
         + text_of_length(longest * guess.frame.metres_per_unit) + " m in " + unit_name(guess.frame.metres_per_unit)
-        + (guess.frame.metres_per_unit == body.metres_per_unit ? " like the body" : " unlike the body")
-        + ", and it hangs along " + axis_name(guess.frame.up)
-        + (guess.frame.up == body.up ? " like the body" : " unlike the body");
+        + beside_unit_of_body(guess.frame.metres_per_unit, body.metres_per_unit) + ", and it hangs along "
+        + axis_name(guess.frame.up) + (guess.frame.up == body.up ? " like the body" : " unlike the body");
     return guess;
 }
 

@@ -41,6 +41,14 @@ double metres_per(std::string_view unit)
                        "unknown unit '" + std::string(unit) + "'; give m, dm, cm, mm, in or ft");
 }
 
+double nearest_unit(double metres_per_unit)
+{
+    const auto distance = [&](const KnownUnit& known) { return std::abs(std::log(known.metres / metres_per_unit)); };
+    return std::min_element(k_known_units.begin(), k_known_units.end(),
+                            [&](const KnownUnit& a, const KnownUnit& b) { return distance(a) < distance(b); })
+        ->metres;
+}
+
 LengthUnit unit_of(const Frame& frame)
 {
     constexpr double k_rounding = 1e-6;  // unit: a share; a factor in a file has six digits or more

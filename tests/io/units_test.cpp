@@ -184,6 +184,16 @@ TEST(Units, AGarmentFollowsItsBody)
         }
 }
 
+TEST(Units, AGarmentForABodyOfAGivenHeightIsInTheNearestUnit)
+{
+    const TriangleMesh mesh = shirt();
+    Frame body = frame_of("m", "+y");
+    body.metres_per_unit = 0.83;
+    const FrameGuess guess = guess_garment_frame(mesh.positions, mesh.triangles, body);
+    EXPECT_EQ(guess.frame.metres_per_unit, 1);
+    EXPECT_NE(guess.why.find("m in m, the unit nearest to the body's"), std::string::npos) << guess.why;
+}
+
 TEST(Units, AGarmentOfOtherUnitsOrAxesIsNoticed)
 {
     const TriangleMesh mesh = shirt();

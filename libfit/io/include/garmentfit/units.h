@@ -29,6 +29,8 @@ struct Frame {
 
 /// "m", "dm", "cm", "mm", "in", "ft". @throws InvalidInput listing them.
 GARMENTFIT_API double metres_per(std::string_view unit);
+/// The nearest of these by ratio, m: that of a file whose body was scaled to a height.
+GARMENTFIT_API double nearest_unit(double metres_per_unit);
 /// "+x", "-x", ..., also "y" for "+y". @throws InvalidInput.
 GARMENTFIT_API Vec3 axis_of(std::string_view name);
 
@@ -56,7 +58,7 @@ struct FrameGuess {
 /// @param up  an axis, where it is known
 GARMENTFIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles,
                                            const std::optional<Vec3>& up = {});
-/// The same for a garment. It has the frame of the body unless its size or shape contradicts.
+/// The same for a garment. It has the frame of the body, in the nearest unit, unless its size or shape contradicts.
 GARMENTFIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles,
                                               const Frame& body);
 
