@@ -18,17 +18,37 @@ bool is_corner(const Positions& positions, const Triangles& triangles, int trian
         || positions.row(corners[2]) == place;
 }
 
-template <class Corners>
-void refit_tree(BoxTree& tree, const Corners& corners, const Positions& positions)
+// Of each vertex whether it is elsewhere than it was; all where nothing is known of that.
+std::vector<char> find_moved(const Positions& before, const Positions& now)
 {
+    std::vector<char> is_moved(now.rows(), 1);
+    if (before.rows() == now.rows())
+        for (Eigen::Index v = 0; v < now.rows(); ++v)
+            is_moved[v] = before.row(v) != now.row(v);
+    return is_moved;
+}
+
+template <class Corners>
+bool has_moved(const Corners& corners, const std::vector<char>& is_moved)
+{
+    return std::any_of(corners.begin(), corners.end(), [&](int v) { return is_moved[v]; });
+}
+
+template <class Corners>
+void renew_tree(BoxTree& tree, const Corners& corners, const Positions& positions, const std::vector<char>& is_moved)
+{
+    const auto box_of = [&](Eigen::Index i) {
+        Box box;
+        for (const int v : corners.row(i))
+            box.extend(Vec3(positions.row(v)));
+        return box;
+    };
+    if (!tree.empty())
+        return tree.renew([&](int i) { return has_moved(corners.row(i), is_moved); }, box_of);
     std::vector<Box> boxes(corners.rows());
     for (Eigen::Index i = 0; i < corners.rows(); ++i)
-        for (const int v : corners.row(i))
-            boxes[i].extend(Vec3(positions.row(v)));
-    if (tree.empty())
-        tree = BoxTree(boxes);
-    else
-        tree.refit(boxes);
+        boxes[i] = box_of(i);
+    tree = BoxTree(boxes);
 }
 
 // @param is_left_out  (edge, triangle) -> bool
@@ -75,18 +95,22 @@ bool SelfCrossingSearch::cross(const Positions& positions, int edge, int triangl
 
 std::vector<Crossing> SelfCrossingSearch::find(const Positions& positions)
 {
-    refit_tree(edge_tree_, edges_, positions);
-    refit_tree(triangle_tree_, triangles_, positions);
+    const std::vector<char> is_moved = find_moved(positions_, positions);
+    renew_tree(edge_tree_, edges_, positions, is_moved);
+    renew_tree(triangle_tree_, triangles_, positions, is_moved);
+    std::erase_if(crossings_, [&](const Crossing& crossing) {
+        return has_moved(edges_.row(crossing.first), is_moved) || has_moved(triangles_.row(crossing.second), is_moved);
+    });
     std::vector<std::vector<Crossing>> parts(BoxTree::k_parts);
     BoxTree::overlaps(edge_tree_, triangle_tree_, [&](int part, int edge, int triangle) {
         if (cross(positions, edge, triangle))
             parts[part].emplace_back(edge, triangle);
     });
-    std::vector<Crossing> result;
     for (const std::vector<Crossing>& part : parts)
-        result.insert(result.end(), part.begin(), part.end());
-    std::sort(result.begin(), result.end());
-    return result;
+        crossings_.insert(crossings_.end(), part.begin(), part.end());
+    std::sort(crossings_.begin(), crossings_.end());
+    positions_ = positions;
+    return crossings_;
 }
 
 std::vector<Crossing> crossings(const TriangleMesh& a, const TriangleMesh& b)

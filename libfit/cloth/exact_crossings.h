@@ -15,7 +15,8 @@ std::vector<Crossing> find_crossings(const TriangleMesh& a, const Edges& edges_o
 /// The edges of `mesh` through its own triangles, neighbours left out.
 std::vector<Crossing> find_self_crossings(const TriangleMesh& mesh, const Edges& edges, const TriangleTree& tree);
 
-/// find_self_crossings of one mesh again and again, while it moves: its trees are renewed, not built.
+/// find_self_crossings of one mesh again and again, while it moves: its trees are renewed, not built, and only what has
+/// moved is looked at.
 class SelfCrossingSearch {
 public:
     /// Keeps references: both have to live as long.
@@ -28,6 +29,8 @@ private:
     const Triangles& triangles_;
     const Edges& edges_;
     BoxTree edge_tree_, triangle_tree_;
+    Positions positions_;  // last time
+    std::vector<Crossing> crossings_;  // there
 };
 
 }  // namespace garmentfit

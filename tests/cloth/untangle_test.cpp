@@ -46,6 +46,10 @@ TEST(Untangle, FindsTheSameCrossingsWithRenewedTrees)
         found += crossings.size();
     }
     EXPECT_GT(found, 100u);
+    for (const double lift : { 0.02, -0.02, 0. }) {  // of some vertices only
+        cloth.positions.middleRows(cloth.positions.rows() / 3, 50).col(1).array() += lift;
+        EXPECT_EQ(search.find(cloth.positions), find_self_crossings(cloth, edges, TriangleTree(cloth))) << lift;
+    }
 }
 
 TEST(Untangle, CountsWhatTouchesAndLeavesOutWhatHasNoArea)
