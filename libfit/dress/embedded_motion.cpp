@@ -6,6 +6,7 @@
 #include <cmath>
 #include <compare>
 #include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -99,8 +100,8 @@ public:
         LedPlaces places = move(garment, bindings, reach);
         if (bind_along_the_cloth(garment, topology, places.positions, bindings))
             places = move(garment, bindings, reach);
-        for (int round = 0; round < k_tear_rounds && bind_as_most_around(cloth, topology, places, bindings); ++round)
-            places = move(garment, bindings, reach);
+        if (has_tears(garment, places.positions, topology))
+            mend_tears(cloth, topology, reach, bindings, places);
         return places;
     }
 
@@ -127,19 +128,29 @@ private:
 
     LedPlaces move(const Positions& garment, const std::vector<Binding>& bindings, double reach) const
     {
-        constexpr Eigen::Index k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
         LedPlaces places { Positions(garment.rows(), 3), Positions(garment.rows(), 3),
                            std::vector<Eigen::Matrix3d>(garment.rows()) };
-        parallel_for((garment.rows() + k_grain - 1) / k_grain, [&](Eigen::Index piece) {
+        std::vector<int> all(garment.rows());
+        std::iota(all.begin(), all.end(), 0);
+        move(garment, all, bindings, reach, places);
+        return places;
+    }
+
+    /// Renews the places of some vertices.
+    void move(const Positions& garment, const std::vector<int>& vertices, const std::vector<Binding>& bindings,
+              double reach, LedPlaces& places) const
+    {
+        constexpr std::size_t k_grain = 1024;  // unit: of the parallel loop; each piece has its own Neighbourhood
+        parallel_for((vertices.size() + k_grain - 1) / k_grain, [&](std::size_t piece) {
             Neighbourhood neighbourhood(rest_.positions, topology_);
-            for (Eigen::Index v = piece * k_grain; v < std::min((piece + 1) * k_grain, garment.rows()); ++v) {
+            for (std::size_t i = piece * k_grain; i < std::min((piece + 1) * k_grain, vertices.size()); ++i) {
+                const int v = vertices[i];
                 const Led led = move(garment.row(v), bindings[v], reach, neighbourhood);
                 places.feet.row(v) = led.foot;
                 places.positions.row(v) = led.position;
                 places.turns[v] = led.turn;
             }
         });
-        return places;
     }
 
     struct Led {
@@ -212,8 +223,8 @@ private:
         return best;
     }
 
-    /// Where a sleeve hangs on the trunk, some of its vertices are nearest to the stand-in's trunk. Each vertex keeps its
-    /// own binding, or is bound beside a neighbour that is so much surer of its own. @return whether there are any
+    /// Where a sleeve hangs on the trunk, some of its vertices are nearest to the stand-in's trunk. Each vertex keeps
+    /// its own binding, or is bound beside a neighbour that is so much surer of its own. @return whether there are any
     bool bind_along_the_cloth(const Positions& rest, const MeshTopology& topology, const Positions& moved,
                               std::vector<Binding>& bindings) const
     {
@@ -241,30 +252,43 @@ private:
         return is_changed;
     }
 
-    /// Of a padded trunk, what faces a sleeve that hangs beside it may plainly be nearest to the stand-in's sleeve: where
-    /// cloth is led apart from most of the cloth round it, it goes with that. @return whether that changes any binding
-    bool bind_as_most_around(const TriangleMesh& rest, const MeshTopology& topology, const LedPlaces& led,
-                             std::vector<Binding>& bindings) const
+    /// Of a padded trunk, what faces a sleeve that hangs beside it may plainly be nearest to the stand-in's sleeve:
+    /// where cloth is led apart from most of the cloth round it, it goes with that.
+    void mend_tears(const TriangleMesh& cloth, const MeshTopology& topology, double reach,
+                    std::vector<Binding>& bindings, LedPlaces& places) const
     {
-        const std::vector<char> is_off = find_torn_off(rest, led, topology);
+        const PatchedCloth patched(cloth, topology);
+        for (int round = 0; round < k_tear_rounds; ++round) {
+            const std::vector<char> is_off = patched.find_led_apart(places);
+            const std::vector<int> bound = bind_beside(cloth.positions, topology, is_off, bindings);
+            if (bound.empty())
+                return;
+            move(cloth.positions, bound, bindings, reach, places);
+        }
+    }
+
+    /// Binds what is marked beside what is not, from its rim on. @return those that are bound elsewhere than before
+    std::vector<int> bind_beside(const Positions& garment, const MeshTopology& topology,
+                                 const std::vector<char>& is_off, std::vector<Binding>& bindings) const
+    {
         std::vector<char> is_bound(is_off.size());
-        std::vector<int> bound;
+        std::vector<int> next, changed;
         for (int v = 0; v < int(is_off.size()); ++v)
             if (is_bound[v] = !is_off[v]; is_bound[v])
-                bound.push_back(v);
-        bool is_changed = false;
+                next.push_back(v);
         Neighbourhood neighbourhood(rest_.positions, topology_);
-        for (std::size_t next = 0; next < bound.size(); ++next)
-            for (const int n : topology.neighbours(bound[next]))
+        for (std::size_t i = 0; i < next.size(); ++i)
+            for (const int n : topology.neighbours(next[i]))
                 if (!std::exchange(is_bound[n], 1)) {
-                    const Vec3 place = rest.positions.row(n);
-                    const double reach = (rest.positions.row(bound[next]) - place.transpose()).norm() + edge_;
-                    const Binding beside = nearest_from(place, bindings[bound[next]], reach, neighbourhood);
-                    is_changed |= beside.point != bindings[n].point;
+                    const Vec3 place = garment.row(n);
+                    const double reach = (garment.row(next[i]) - place.transpose()).norm() + edge_;
+                    const Binding beside = nearest_from(place, bindings[next[i]], reach, neighbourhood);
+                    if (beside.point != bindings[n].point)
+                        changed.push_back(n);
                     bindings[n] = beside;
-                    bound.push_back(n);
+                    next.push_back(n);
                 }
-        return is_changed;
+        return changed;
     }
 
     const GarmentMesh& rest_;
