@@ -107,6 +107,10 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
         e[legs_arms_evidence + kind] = energy.cues().has_arms;
         e[legs_taper_evidence + kind] = context.taper;
     }
+    if (context.coverage.type == GarmentType::strapless) {
+        e[strapless_evidence] = 1;
+        e[strapless_taper_evidence] = context.taper;
+    }
     e[skirt_reach_evidence] = context.coverage.kind == CoverageKind::skirt ? context.reach : 0;
     e[input_front_evidence] = upright_front.dot(energy.rig().front);
     e[openings_evidence] = std::clamp(level.dot(energy.cues().front), -k_max_opening_evidence, k_max_opening_evidence);
@@ -179,6 +183,8 @@ const std::array<std::string_view, evidence_count>& evidence_names()
         "skirt_taper",
         "dress_taper",
         "jumpsuit_taper",
+        "strapless",
+        "strapless_taper",
         "skirt_reach",
         "type",
         "input_front",

@@ -56,6 +56,8 @@ enum Evidence {
     skirt_taper_evidence,
     dress_taper_evidence,
     jumpsuit_taper_evidence,
+    strapless_evidence,  ///< 1 for tops that leave the shoulders bare
+    strapless_taper_evidence,
     skirt_reach_evidence,  ///< how far it reaches beyond its ends, as sleeves do (reach_of)
     type_evidence,  ///< 1 where it is that of the type guessed by the openings; tops, too
     // The facing

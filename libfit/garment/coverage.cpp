@@ -71,6 +71,13 @@ Coverage coverage_of(CoverageKind kind, const std::vector<Opening>& openings)
     return coverage;
 }
 
+/// A top that begins below the shoulders: of two openings alone, as those of a poncho.
+Coverage strapless_top()
+{
+    return { CoverageKind::top, GarmentType::strapless, bones_covered_by(GarmentType::strapless), false,
+             name_probability(0) };
+}
+
 InvalidInput no_type(const std::vector<Opening>& openings)
 {
     return { ErrorCode::no_opening,
@@ -130,6 +137,8 @@ std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Op
     for (int kind = 0; kind < int(k_coverage_kind_names.size()) && !is_given; ++kind)
         if (allows(given, CoverageKind(kind)) && (coverages.empty() || coverages[0].kind != CoverageKind(kind)))
             coverages.push_back(coverage_of(CoverageKind(kind), openings));
+    if (!is_given && allows(given, CoverageKind::top) && cues_of(openings).is_strapless)
+        coverages.push_back(strapless_top());
     return coverages;
 }
 

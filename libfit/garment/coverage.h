@@ -30,7 +30,8 @@ struct Coverage {
 /// both shins uncovered are shorts.
 GarmentType type_when_worn(GarmentType found, const std::vector<Bone>& covered);
 
-/// One for each kind, the guessed one first; a given type leaves only its own, a coarse word those of its group.
+/// One for each kind, the guessed one first, and last a top with bare shoulders, where none has an opening for arms; a
+/// given type leaves only its own, a coarse word those of its group.
 /// @throws InvalidInput when there are too few openings for a body, and no type is given.
 std::vector<Coverage> possible_coverages(GarmentType given, const std::vector<Opening>& openings);
 

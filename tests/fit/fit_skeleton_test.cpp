@@ -560,6 +560,17 @@ TEST(FitSkeleton, TheGirthAtTheTopTellsSkirtsFromStraplessDresses)
     }
 }
 
+TEST(FitSkeleton, AShortTubeWithANarrowWaistIsAStraplessTop)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    for (const double waist : { 0.11, 0.13 }) {
+        const FitResult top = fit_skeleton(rig, skirt(0.16, waist, 0.17, 0.38));
+        EXPECT_EQ(top.type, GarmentType::strapless) << waist;
+        EXPECT_EQ(std::count(top.covered.begin(), top.covered.end(), lfemur), 0) << waist;
+        EXPECT_EQ(fit_skeleton(rig, skirt(waist, 0.16, 0.17, 0.38)).type, GarmentType::skirt) << waist;
+    }
+}
+
 TEST(FitSkeleton, WithoutClothBetweenTheLegsALongDressIsNoJumpsuit)
 {
     const Rig rig = rig_of({ .arm_angle = 45 });

@@ -99,8 +99,8 @@ TEST(Coverage, ForearmsAreBareInShortSleevesOfWhateverType)
 TEST(Coverage, ACoarseWordLeavesTheKindsOfItsGroup)
 {
     using enum CoverageKind;
-    EXPECT_EQ(kinds_of(GarmentType::automatic, k_tube), (std::vector { skirt, top, legs, dress, jumpsuit }));
-    EXPECT_EQ(kinds_of(GarmentType::top, k_tube), (std::vector { top }));
+    EXPECT_EQ(kinds_of(GarmentType::automatic, k_tube), (std::vector { skirt, top, legs, dress, jumpsuit, top }));
+    EXPECT_EQ(kinds_of(GarmentType::top, k_tube), (std::vector { top, top })) << "with and without shoulders";
     EXPECT_EQ(kinds_of(GarmentType::bottom, k_tube), (std::vector { skirt, legs }));
     EXPECT_EQ(kinds_of(GarmentType::whole, k_tube), (std::vector { dress, jumpsuit }));
 }
@@ -198,6 +198,25 @@ TEST(Coverage, SleevesOfAPosedWearerAreSleeves)
     EXPECT_TRUE(has_arms(posed({ front }, 0.45))) << "an open front is neck and hem";
     const Vec3 across = cues_of(posed(k_tube, 0.45)).across.normalized();
     EXPECT_GT(std::abs(across.x()), 0.99) << "from shoulder to shoulder, wherever the hands are";
+}
+
+TEST(Coverage, ATubeMayBeATopThatLeavesTheShouldersBare)
+{
+    const auto may_be_strapless = [](GarmentType given, const std::vector<Opening>& openings) {
+        const std::vector<Coverage> coverages = possible_coverages(given, openings);
+        return std::any_of(coverages.begin(), coverages.end(), [](const Coverage& coverage) {
+            return coverage.type == GarmentType::strapless && coverage.kind == CoverageKind::top
+                && std::count(coverage.bones.begin(), coverage.bones.end(), lclavicle) == 0;
+        });
+    };
+    EXPECT_TRUE(may_be_strapless(GarmentType::automatic, k_tube));
+    EXPECT_TRUE(may_be_strapless(GarmentType::top, k_tube));
+    EXPECT_FALSE(may_be_strapless(GarmentType::bottom, k_tube));
+    EXPECT_FALSE(may_be_strapless(GarmentType::vest, k_tube));
+    std::vector<Opening> with_arms = k_tube;
+    with_arms.push_back(cuff_at(-0.5, 0.45));
+    with_arms.push_back(cuff_at(0.5, 0.45));
+    EXPECT_FALSE(may_be_strapless(GarmentType::automatic, with_arms));
 }
 
 TEST(Coverage, DressesWithoutOpeningsForArmsLeaveTheShouldersBare)
