@@ -144,12 +144,15 @@ double probability_of(const std::vector<Hypothesis>& all, const Agrees& agrees)
     return std::min(1.0, sum);
 }
 
+auto covers_like(const Coverage& coverage)
+{
+    return [kind = coverage.kind](const Hypothesis& other) { return other.attempt->coverage().kind == kind; };
+}
+
 void add_probabilities(FitResult& result, const Hypothesis& chosen, const std::vector<Hypothesis>& all)
 {
     const Coverage& coverage = chosen.attempt->coverage();
-    result.type_probability
-        = probability_of(all, [&](const Hypothesis& other) { return other.attempt->coverage().kind == coverage.kind; })
-        * coverage.name_probability;
+    result.type_probability = probability_of(all, covers_like(coverage)) * coverage.name_probability;
     result.front_probability = probability_of(
         all, [&](const Hypothesis& other) { return other.wearing.front.dot(chosen.wearing.front) > k_same_direction; });
     result.up_probability
@@ -264,7 +267,8 @@ FitResult choose(const std::vector<Hypothesis>& all, const FitOptions& options, 
 }
 
 // A body whose bones pass through the cloth in all ways of wearing it is moved, but only in garments of the type that the
-// user or the openings say: a wrong type may be why they pass through it.
+// user or the openings say, or of a kind that is more probable than all others: a wrong type may be why they pass
+// through it.
 FitResult choose(const std::vector<Hypothesis>& all, const GarmentMesh& garment, const FitOptions& options)
 {
     std::exception_ptr refusal;
@@ -277,8 +281,9 @@ FitResult choose(const std::vector<Hypothesis>& all, const GarmentMesh& garment,
     }
     std::vector<Hypothesis> likely = all;
     if (options.type == GarmentType::automatic)
-        std::erase_if(likely, [guessed = guess_garment_type(garment).type](const Hypothesis& hypothesis) {
-            return hypothesis.attempt->coverage().type != guessed;
+        std::erase_if(likely, [&, guessed = guess_garment_type(garment).type](const Hypothesis& hypothesis) {
+            const Coverage& coverage = hypothesis.attempt->coverage();
+            return coverage.type != guessed && !(probability_of(all, covers_like(coverage)) > k_likely);
         });
     try {
         return choose(likely, options, true);

@@ -571,6 +571,18 @@ TEST(FitSkeleton, AShortTubeWithANarrowWaistIsAStraplessTop)
     }
 }
 
+// Its length draws the body down until the collarbones lie across the rim at the top; by its openings it is a skirt.
+TEST(FitSkeleton, AStraplessGownDownToTheFloorIsFoundAWay)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    for (const double length : { 1.2, 1.35 }) {
+        const GarmentMesh gown = skirt(0.17, 0.14, 0.35, length);
+        const FitResult result = fit_skeleton(rig, gown);
+        EXPECT_EQ(result.type, GarmentType::dress) << length;
+        expect_clear(pose_skeleton(rig.skeleton, result.pose), gown);
+    }
+}
+
 TEST(FitSkeleton, WithoutClothBetweenTheLegsALongDressIsNoJumpsuit)
 {
     const Rig rig = rig_of({ .arm_angle = 45 });
