@@ -142,12 +142,15 @@ private:
     std::vector<char> is_cloth_;
 };
 
-/// With each triangle once, where exporters wrote some again with the same vertices in the same order.
+/// With each triangle once, where exporters wrote some again in the same order, with the same vertices or others at their
+/// places.
 GarmentMesh drop_repeated(const GarmentMesh& garment)
 {
+    const Weld weld(garment);
     std::vector<std::array<int, 3>> from_least;
     for (const auto& triangle : garment.triangles.rowwise()) {
-        std::array<int, 3>& corners = from_least.emplace_back(std::array { triangle[0], triangle[1], triangle[2] });
+        std::array<int, 3>& corners = from_least.emplace_back();
+        std::transform(triangle.begin(), triangle.end(), corners.begin(), [&](int v) { return weld.cloth_vertex(v); });
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     }
     std::vector<int> order(from_least.size());
@@ -263,8 +266,9 @@ OpenedGarment open_ends(const GarmentMesh& garment)
     return result;
 }
 
-Triangles without_scenery(const GarmentMesh& garment)
+Triangles without_scenery(const GarmentMesh& given)
 {
+    const GarmentMesh garment = drop_repeated(given);
     const Weld weld(garment);
     const TriangleMesh mesh { weld.gather(garment.positions),
                               garment.triangles.unaryExpr([&](int v) { return weld.cloth_vertex(v); }) };
@@ -272,9 +276,10 @@ Triangles without_scenery(const GarmentMesh& garment)
     const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
     Parts patches = patches_of(topology, faces);
     std::vector<char> is_kept(std::size_t(faces), 1);
-    leave_out(find_backdrops(mesh, patches), is_kept);
-    std::erase_if(patches, [&](const std::vector<int>& patch) { return !is_kept[patch[0]]; });
-    leave_out(find_specks(mesh, patches), is_kept);
+    for (const auto find : { find_backdrops, find_specks }) {
+        leave_out(find(mesh, patches), is_kept);
+        std::erase_if(patches, [&](const std::vector<int>& patch) { return !is_kept[patch[0]]; });
+    }
     return garment.triangles(marked(is_kept), Eigen::all);
 }
 

@@ -230,7 +230,10 @@ std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::v
         const double length = box.diagonal().norm(), gap = tree.distance(box.center()) - length / 2;
         return gap < std::max(length, k_speck_gap * whole);
     });
-    return small;
+    double specks = 0;  // m^2
+    for (const std::vector<int>& patch : small)
+        specks += area({ mesh.positions, mesh.triangles(patch, Eigen::all) });
+    return specks < k_speck_share * area(mesh) ? small : std::vector<std::vector<int>> {};
 }
 
 std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)

@@ -133,6 +133,14 @@ TEST(ClosedEnds, TrianglesKeepTheirWarpWhenEndsAreOpened)
         EXPECT_EQ(garment.triangles.row(Eigen::Index(opened.warps(f, 0))), opened.triangles.row(f));
 }
 
+TEST(ClosedEnds, TrianglesThatAFileRepeatsWithVerticesOfTheirOwnCountOnce)
+{
+    const TriangleMesh once = tube(Cap::none, Cap::none), twice = fixtures::joined(once, once);
+    const GarmentMesh garment { twice.positions, twice.triangles };
+    EXPECT_EQ(open_ends(garment).garment.triangles, once.triangles);
+    EXPECT_EQ(without_scenery(garment), once.triangles);
+}
+
 TEST(ClosedEnds, TheOtherSideOfATriangleIsNoRepetition)
 {
     const TriangleMesh once = tube(Cap::none, Cap::none);
@@ -360,6 +368,22 @@ TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
         EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(),
                   both.triangles.rows() - specks * speck.triangles.rows());
     }
+}
+
+// Below a collar in one piece, as of files where no edge has exactly two faces.
+TEST(ClosedEnds, ClothOfSingleFacesIsNoSpecks)
+{
+    TriangleMesh collar = tube(Cap::none, Cap::none), cloth = collar;
+    collar.positions *= 0.5;
+    collar.positions.col(1).array() += 3;
+    cloth.positions = cloth.positions(cloth.triangles.transpose().reshaped(), Eigen::all).eval();
+    for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f) {
+        cloth.triangles.row(f) << int(3 * f), int(3 * f + 1), int(3 * f + 2);
+        cloth.positions.middleRows(3 * f, 3).rowwise() += Eigen::RowVector3d(1e-6 * double(f % 7), 0, 0);
+    }
+    const TriangleMesh both = fixtures::joined(collar, cloth);
+    EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(), both.triangles.rows());
+    EXPECT_EQ(opened(both).left_out.specks, 0);
 }
 
 // The border goes to and fro at its edge.

@@ -40,8 +40,8 @@ struct OpenedGarment {
 /// seconds of a wrap, once for a garment that was asked for lately.
 GARMENTFIT_API OpenedGarment open_ends(const GarmentMesh& garment);
 
-/// The faces without specks and backdrops, in their order: what a garment's size and place are judged by. Cost O(n log
-/// n).
+/// The faces without specks and backdrops, each once, in their order: what a garment's size and place are judged by.
+/// Cost O(n log n).
 GARMENTFIT_API Triangles without_scenery(const GarmentMesh& garment);
 
 }  // namespace garmentfit
