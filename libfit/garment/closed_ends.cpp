@@ -193,6 +193,8 @@ WithoutCaps leave_out_caps(const GarmentMesh& garment)
     };
     if (const Parts backdrops = find_backdrops(caps.mesh(), caps.patches()); !backdrops.empty())
         return alone_without(backdrops, &LeftOut::backdrops);
+    if (const Parts plinths = find_plinths(caps.mesh(), caps.patches()); !plinths.empty())
+        return alone_without(plinths, &LeftOut::backdrops);
     if (const Parts others = find_garments_beside(caps.mesh(), caps.patches()); !others.empty())
         return alone_without(others, &LeftOut::garments);
     const Findings found = find_what_is_no_cloth(caps, garment);
@@ -276,7 +278,7 @@ Triangles without_scenery(const GarmentMesh& given)
     const MeshTopology topology(mesh.triangles, int(mesh.positions.rows()));
     Parts patches = patches_of(topology, faces);
     std::vector<char> is_kept(std::size_t(faces), 1);
-    for (const auto find : { find_backdrops, find_specks }) {
+    for (const auto find : { find_backdrops, find_plinths, find_specks }) {
         leave_out(find(mesh, patches), is_kept);
         std::erase_if(patches, [&](const std::vector<int>& patch) { return !is_kept[patch[0]]; });
     }

@@ -2,6 +2,7 @@
 #include "garments_beside.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include <Eigen/Geometry>
 
@@ -53,15 +54,18 @@ std::vector<Group> joined_along(std::vector<Group> groups, int axis, double gap)
     return result;
 }
 
-/// What stands apart from left to right, or from front to back.
-std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
+/// What stands apart along the first of some axes along which anything does.
+std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches,
+                             std::initializer_list<int> axes)
 {
     std::vector<Group> single;
     for (const std::vector<int>& patch : patches)
         single.push_back(group_of(mesh, patch));
     const double gap = k_beside_gap * diagonal(mesh.positions);
-    std::vector<Group> across = joined_along(single, 0, gap);
-    return across.size() > 1 ? across : joined_along(std::move(single), 2, gap);
+    for (const int axis : axes)
+        if (std::vector<Group> groups = joined_along(single, axis, gap); groups.size() > 1)
+            return groups;
+    return {};
 }
 
 /// Length that two ranges have in common; negative where they are apart.
@@ -77,14 +81,30 @@ bool stands_beside(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& ma
         && overlap(box, main, 1) > k_beside_overlap * std::min(box.sizes().y(), main.sizes().y());
 }
 
-/// Openings for a trunk and two limbs, at least.
-bool is_garment(const TriangleMesh& mesh, const Group& group)
+TriangleMesh outer_sheet_of(const TriangleMesh& mesh, const Group& group)
 {
     const Triangles triangles = mesh.triangles(group.faces, Eigen::all);
     const std::vector<int> used = used_vertices(triangles);
-    const PlainReading plain = read_plainly({ mesh.positions(used, Eigen::all), numbered_among(used, triangles) });
-    return count_openings(plain.outer) >= k_enough_openings;
+    return read_plainly({ mesh.positions(used, Eigen::all), numbered_among(used, triangles) }).outer;
 }
+
+/// Openings for a trunk and two limbs, at least.
+bool is_garment(const TriangleMesh& mesh, const Group& group)
+{
+    return count_openings(outer_sheet_of(mesh, group)) >= k_enough_openings;
+}
+
+/// Whether a body passes through a piece of it, as through a skirt.
+bool has_passage(const TriangleMesh& mesh, const Group& group)
+{
+    const std::vector<Opening> openings = openings_of(outer_sheet_of(mesh, group));
+    return std::any_of(openings.begin(), openings.end(), [&](const Opening& one) {
+        return std::any_of(openings.begin(), openings.end(),
+                           [&](const Opening& other) { return &other != &one && other.piece == one.piece; });
+    });
+}
+
+double length_of(const Group& group) { return group.box.diagonal().norm(); }
 
 }  // namespace
 
@@ -94,7 +114,9 @@ std::vector<std::vector<int>> find_garments_beside(const TriangleMesh& mesh,
     std::vector<std::vector<int>> beside;
     if (patches.size() < 2)
         return beside;
-    std::vector<Group> groups = groups_of(mesh, patches);
+    std::vector<Group> groups = groups_of(mesh, patches, { 0, 2 });  // from left to right, from front to back
+    if (groups.empty())
+        return beside;
     std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.area > b.area; });
     const Group main = std::move(groups.front());
     groups.erase(groups.begin());
@@ -105,6 +127,25 @@ std::vector<std::vector<int>> find_garments_beside(const TriangleMesh& mesh,
         if (is_garment(mesh, group))
             beside.push_back(std::move(group.faces));
     return beside;
+}
+
+std::vector<std::vector<int>> find_plinths(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
+{
+    if (patches.size() < 2)
+        return {};
+    std::vector<Group> groups = groups_of(mesh, patches, { 1, 0, 2 });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& a, const Group& b) { return length_of(a) < length_of(b); });
+    if (groups.size() < 2 || length_of(groups[1]) < k_backdrop_size * length_of(groups[0])
+        || !is_garment(mesh, groups[0]))
+        return {};
+    std::vector<std::vector<int>> plinths;
+    for (std::size_t i = 1; i < groups.size(); ++i) {
+        if (has_passage(mesh, groups[i]))
+            return {};
+        plinths.push_back(std::move(groups[i].faces));
+    }
+    return plinths;
 }
 
 }  // namespace garmentfit

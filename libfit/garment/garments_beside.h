@@ -2,7 +2,7 @@
 #pragma once
 
 // Other garments in the mesh of one: files of shops may show two shirts side by side. A body can be in one of them
-// only.
+// only. And what garments are shown on.
 
 #include <vector>
 
@@ -17,5 +17,9 @@ namespace garmentfit {
 /// @param patches  the faces of each
 std::vector<std::vector<int>> find_garments_beside(const TriangleMesh& mesh,
                                                    const std::vector<std::vector<int>>& patches);
+
+/// The faces of what stands apart from a whole garment, below it, say, is far larger, and lets no body pass: plinths, and
+/// trimmings that an exporter wrote in another scale. None where something else may be worn, too. The cost is the same.
+std::vector<std::vector<int>> find_plinths(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
 
 }  // namespace garmentfit

@@ -183,6 +183,20 @@ TEST(ClosedEnds, AGarmentBesideALargerOneIsLeftOut)
     EXPECT_EQ(gathered, gathered.row(0).replicate(gathered.rows(), 1));
 }
 
+TEST(ClosedEnds, WhatIsFarLargerThanAGarmentAndApartFromItIsLeftOut)
+{
+    const TriangleMesh mine = shorts(Vec3::Zero(), 1);
+    for (const auto& [below, left_out] : { std::pair(Cap::around_centre, 1), std::pair(Cap::none, 0) }) {
+        TriangleMesh plinth = tube(below, Cap::none);  // a bowl, or a skirt
+        plinth.positions *= 3;
+        plinth.positions.col(1).array() -= 3;
+        const TriangleMesh both = fixtures::joined(mine, plinth);
+        EXPECT_EQ(opened(both).left_out.backdrops, left_out);
+        EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(),
+                  both.triangles.rows() - left_out * plinth.triangles.rows());
+    }
+}
+
 TEST(ClosedEnds, WhatIsNoGarmentBesideALargerOneIsKept)
 {
     const TriangleMesh mine = shorts(Vec3::Zero(), 1);

@@ -15,7 +15,7 @@ struct LeftOut {
     int solids = 0;  ///< that fill it
     int lids = 0;  ///< that lie loosely in its openings
     int specks = 0;  ///< small pieces far from all cloth
-    int backdrops = 0;  ///< flat pieces that are larger than it, floors among them
+    int backdrops = 0;  ///< what is larger than it and flat, or apart from it: floors, plinths
     int faces = 0;  ///< of all of them
 };
 
