@@ -2,8 +2,10 @@
 #include "lids_and_fillings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -58,6 +60,30 @@ bool is_solid(const TriangleMesh& mesh, const MeshTopology& topology, const std:
             vertices.insert(mesh.triangles(f, k));
         }
     return 2 * std::ptrdiff_t(vertices.size()) - std::ptrdiff_t(faces.size()) == 4;  // derived: 3 sides a face
+}
+
+/// With patches that have corners in one cell of a grid as one piece: where edges have more than two faces, or each face
+/// has corners of its own, each face is a patch.
+std::vector<std::vector<int>> joined_where_near(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches,
+                                                double cell)
+{
+    DisjointSets same(int(patches.size()));
+    std::map<std::array<double, 3>, int> first;  // patch in each cell
+    for (int p = 0; p < int(patches.size()); ++p)
+        for (const int f : patches[p])
+            for (const int v : mesh.triangles.row(f)) {
+                const Vec3 at = (mesh.positions.row(v) / cell).array().floor();
+                same.join(first.try_emplace({ at.x(), at.y(), at.z() }, p).first->second, p);
+            }
+    std::map<int, std::vector<int>> pieces;  // by root
+    for (int p = 0; p < int(patches.size()); ++p) {
+        std::vector<int>& piece = pieces[same.root(p)];
+        piece.insert(piece.end(), patches[p].begin(), patches[p].end());
+    }
+    std::vector<std::vector<int>> result;
+    for (auto& [root, piece] : pieces)
+        result.push_back(std::move(piece));
+    return result;
 }
 
 // ---- lids ----------------------------------------------------------------------------------------------------------
@@ -214,13 +240,17 @@ std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::v
     for (const std::vector<int>& patch : patches)
         all.extend(box_of(mesh, patch));
     const double whole = all.isEmpty() ? 0 : all.diagonal().norm();
+    const auto is_small
+        = [&](const std::vector<int>& piece) { return box_of(mesh, piece).diagonal().norm() < k_speck_size * whole; };
+    if (std::none_of(patches.begin(), patches.end(), is_small))
+        return {};
     std::vector<std::vector<int>> small;
     std::vector<int> large;
-    for (const std::vector<int>& patch : patches)
-        if (box_of(mesh, patch).diagonal().norm() < k_speck_size * whole)
-            small.push_back(patch);
+    for (std::vector<int>& piece : joined_where_near(mesh, patches, k_speck_gap * whole / 4))
+        if (is_small(piece))
+            small.push_back(std::move(piece));
         else
-            large.insert(large.end(), patch.begin(), patch.end());
+            large.insert(large.end(), piece.begin(), piece.end());
     if (small.empty() || large.empty())
         return {};
     const TriangleMesh cloth { mesh.positions, mesh.triangles(large, Eigen::all) };
@@ -230,10 +260,7 @@ std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::v
         const double length = box.diagonal().norm(), gap = tree.distance(box.center()) - length / 2;
         return gap < std::max(length, k_speck_gap * whole);
     });
-    double specks = 0;  // m^2
-    for (const std::vector<int>& patch : small)
-        specks += area({ mesh.positions, mesh.triangles(patch, Eigen::all) });
-    return specks < k_speck_share * area(mesh) ? small : std::vector<std::vector<int>> {};
+    return small;
 }
 
 std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)

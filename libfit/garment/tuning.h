@@ -164,9 +164,6 @@ inline constexpr double k_filling = 0.05, k_filling_margin = 0.05;
 /// fitted: guess, on a jacket with a speck of 6 mm 11 cm behind its front. Length of the largest speck and its least
 /// distance from cloth, as shares of the diagonal: 4 and 2 cm at a jacket, more than buttons, sequins and badges have.
 inline constexpr double k_speck_size = 0.03, k_speck_gap = 0.02;
-/// Share of the area that all specks have together at most. fitted: guess; of more, the cloth itself is made: a polo shirt
-/// each of whose faces has corners of its own, where only the collar was one piece, was all specks.
-inline constexpr double k_speck_share = 0.05;
 /// fitted: guess, on a T-shirt before a backdrop of four times its size. Least extent of a backdrop by its largest, and
 /// its least diagonal by that of what is none: smaller flat pieces may be prints, labels or lids.
 inline constexpr double k_flat_backdrop = 1e-3, k_backdrop_size = 1.5;
