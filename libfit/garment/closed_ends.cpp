@@ -142,23 +142,23 @@ private:
     std::vector<char> is_cloth_;
 };
 
-/// With each triangle once, where exporters wrote some again in the same order, with the same vertices or others at their
-/// places.
+/// With each triangle once, where exporters wrote some again, with the same vertices or others at their places, or from the
+/// other side for viewers that show one side only.
 GarmentMesh drop_repeated(const GarmentMesh& garment)
 {
     const Weld weld(garment);
-    std::vector<std::array<int, 3>> from_least;
+    std::vector<std::array<int, 3>> sorted;
     for (const auto& triangle : garment.triangles.rowwise()) {
-        std::array<int, 3>& corners = from_least.emplace_back();
+        std::array<int, 3>& corners = sorted.emplace_back();
         std::transform(triangle.begin(), triangle.end(), corners.begin(), [&](int v) { return weld.cloth_vertex(v); });
-        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        std::sort(corners.begin(), corners.end());
     }
-    std::vector<int> order(from_least.size());
+    std::vector<int> order(sorted.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return from_least[a] < from_least[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sorted[a] < sorted[b]; });
     std::vector<char> is_kept(order.size(), 1);
     for (std::size_t i = 1; i < order.size(); ++i)
-        is_kept[order[i]] = from_least[order[i]] != from_least[order[i - 1]];
+        is_kept[order[i]] = sorted[order[i]] != sorted[order[i - 1]];
     return with_triangles(garment, garment.positions, marked(is_kept));
 }
 

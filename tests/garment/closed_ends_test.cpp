@@ -141,13 +141,15 @@ TEST(ClosedEnds, TrianglesThatAFileRepeatsWithVerticesOfTheirOwnCountOnce)
     EXPECT_EQ(without_scenery(garment), once.triangles);
 }
 
-TEST(ClosedEnds, TheOtherSideOfATriangleIsNoRepetition)
+// As cloth of its own it would make the garment twice as stiff.
+TEST(ClosedEnds, TheOtherSideOfATriangleIsARepetition)
 {
     const TriangleMesh once = tube(Cap::none, Cap::none);
     const Eigen::Index n = once.triangles.rows();
     GarmentMesh both_sides { once.positions, Triangles(2 * n, 3) };
     both_sides.triangles << once.triangles, once.triangles(Eigen::all, std::array { 0, 2, 1 });
-    EXPECT_EQ(open_ends(both_sides).garment.triangles.rows(), 2 * n);
+    EXPECT_EQ(open_ends(both_sides).garment.triangles, once.triangles);
+    EXPECT_EQ(without_scenery(both_sides), once.triangles);
 }
 
 TEST(ClosedEnds, PleatsFromWaistToHemAreNone)
@@ -384,11 +386,11 @@ TEST(ClosedEnds, SpecksFarFromTheClothAreLeftOut)
     }
 }
 
-// Below a collar in one piece. No edge of it has exactly two faces.
+// Below a collar in one piece. Each face has corners of its own.
 TEST(ClosedEnds, ClothOfSingleFacesIsNoSpecks)
 {
     const TriangleMesh open = tube(Cap::none, Cap::none);
-    TriangleMesh collar = open, apart = open, both_sides = open;
+    TriangleMesh collar = open, apart = open;
     collar.positions *= 0.5;
     collar.positions.col(1).array() += 3;
     apart.positions = open.positions(open.triangles.transpose().reshaped(), Eigen::all);
@@ -396,13 +398,9 @@ TEST(ClosedEnds, ClothOfSingleFacesIsNoSpecks)
         apart.triangles.row(f) << int(3 * f), int(3 * f + 1), int(3 * f + 2);
         apart.positions.middleRows(3 * f, 3).rowwise() += Eigen::RowVector3d(1e-6 * double(f % 7), 0, 0);
     }
-    both_sides.triangles.conservativeResize(2 * open.triangles.rows(), 3);
-    both_sides.triangles.bottomRows(open.triangles.rows()) = open.triangles.rowwise().reverse();
-    for (const TriangleMesh& cloth : { apart, both_sides }) {
-        const TriangleMesh both = fixtures::joined(collar, cloth);
-        EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(), both.triangles.rows());
-        EXPECT_EQ(opened(both).left_out.specks, 0);
-    }
+    const TriangleMesh both = fixtures::joined(collar, apart);
+    EXPECT_EQ(without_scenery(make_garment(both.positions, both.triangles)).rows(), both.triangles.rows());
+    EXPECT_EQ(opened(both).left_out.specks, 0);
 }
 
 // The border goes to and fro at its edge.
