@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "attempt.h"
 #include "garmentfit/filters/body_scale.h"
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/number_text.h"
+#include "garmentfit/refined_body.h"
 #include "garmentfit/stopwatch.h"
 #include "near_origin.h"
 #include "other_wearings.h"
@@ -240,14 +244,61 @@ void run_on_copy(const std::function<void()>& run, const std::function<void()>& 
     }
 }
 
+/// As dressed on a refined body, with the vertices of the given one. Between poses large triangles may stand across what
+/// lies close to the refined skin: it is certified again.
+void take_back_refined(std::optional<Dressing>& dressing, const TriangleMesh& given)
+{
+    if (!dressing)
+        return;
+    const auto cut = [&](Positions& body) {
+        if (body.rows() > given.positions.rows())
+            body.conservativeResize(given.positions.rows(), 3);
+    };
+    cut(dressing->body);
+    std::vector<Positions> kept;
+    for (const WornGarment& garment : dressing->garments)
+        kept.push_back(garment.positions);
+    certify_as_kept(*dressing, given.triangles, kept);
+    const auto is_unclean = [&](RecoverFrame& frame) {
+        cut(frame.body);
+        Dressing on_the_way = *dressing;
+        on_the_way.body = frame.body;
+        certify_as_kept(on_the_way, given.triangles, frame.garments);
+        return !all_clean(on_the_way.garments);
+    };
+    auto& frames = dressing->frames;
+    frames.erase(std::remove_if(frames.begin(), frames.end(), is_unclean), frames.end());
+}
+
+/// A body of large triangles is dressed on a refined one, where that begins and ends in the input pose.
+void run_on_refined_body(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    if (!filter.has(Stage::drape) || !filter.has(Stage::recover) || !has_large_triangles(*scene.body))
+        return run_stages(filter, scene, parameters, progress);
+    const double share = filter.has(Stage::rig) ? row(Stage::rig).share : 0;
+    if (filter.has(Stage::rig))
+        run_stages_once({ Stage::rig }, scene, parameters, progress.part(0, share));
+    auto [body, rig] = refine_body(*scene.body, *scene.rig);
+    std::swap(*scene.body, body);
+    std::swap(*scene.rig, rig);
+    run_on_copy([&] { run_stages(filter.on_known_rig(), scene, parameters, progress.part(share, 1)); },
+                [&] {
+                    scene.body = std::move(body);
+                    scene.rig = std::move(rig);
+                    for (auto* dressing : { &scene.draped, &scene.recovered })
+                        take_back_refined(*dressing, scene.body->surface);
+                },
+                "");
+}
+
 void run_at_human_size(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress)
 {
     const double factor = factor_to_human_size(*scene.body);
     if (factor == 1)
-        return run_stages(filter, scene, parameters, progress);
+        return run_on_refined_body(filter, scene, parameters, progress);
     Scene copy = scale_scene(scene, factor);
     parameters.rig.joints = scale_joints(parameters.rig.joints, factor);
-    run_on_copy([&] { run_stages(filter, copy, parameters, progress); },
+    run_on_copy([&] { run_on_refined_body(filter, copy, parameters, progress); },
                 [&] { restore_size(scene, copy, factor, filter.outputs); },
                 " (lengths as on a body of human size, that is times " + rounded_text(factor, 6) + ")");
 }

@@ -55,6 +55,13 @@ inline constexpr double k_bound_beside = 1e-3;
 /// Time steps under gravity, once the body goes from the coarse surface to its own skin. Fitted: guess.
 inline constexpr int k_own_skin_steps = 4;
 
+// ---- bodies of few vertices (refined_body.cpp), docs/decisions/0054-refined-bodies.md --------------------------------
+
+/// m; a triangle with a longer edge is large, and a body that is mostly made of such is refined until no edge is longer
+/// than the second. Fitted: guesses, on 36 bodies of strangers; by area, half of a body of MakeHuman's with 1,605
+/// vertices has edges of .09 m and more, and of those that came out torn .13 m.
+inline constexpr double k_large_triangle = 0.105, k_refined_edge = 0.045;
+
 // ---- hands (hand_stretch.cpp) ------------------------------------------------------------------------------------
 
 /// Shares of its bend that are taken back from a hand, tried from the first. Fitted: of half stretches, a jacket with

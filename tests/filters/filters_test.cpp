@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/filters/filters.h"
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -12,6 +14,7 @@
 #include "fixtures.h"
 #include "garmentfit/error.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/refined_body.h"
 #include "garmentfit/rig_body.h"
 
 namespace {
@@ -319,6 +322,62 @@ std::string with_table(std::string page, std::string_view name, const std::strin
         return page + "\nmissing: " + opening;
     const auto from = found + opening.size(), to = page.find(closing, from);
     return page.replace(from, to - from, table);
+}
+
+/// With one vertex for all of a mesh's in each cell of a grid.
+TriangleMesh coarsened(const TriangleMesh& mesh, double cell)
+{
+    std::map<std::array<int, 3>, int> numbers;
+    std::vector<Vec3> sums;
+    std::vector<int> counts, cells;
+    for (const auto& p : mesh.positions.rowwise()) {
+        const Eigen::RowVector3i at = (p / cell).array().floor().cast<int>();
+        const auto [found, is_new] = numbers.try_emplace({ at[0], at[1], at[2] }, int(sums.size()));
+        if (is_new) {
+            sums.push_back(Vec3::Zero());
+            counts.push_back(0);
+        }
+        sums[std::size_t(found->second)] += p.transpose();
+        ++counts[std::size_t(found->second)];
+        cells.push_back(found->second);
+    }
+    TriangleMesh result { Positions(Eigen::Index(sums.size()), 3), Triangles(mesh.triangles.rows(), 3) };
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        result.positions.row(Eigen::Index(i)) = sums[i] / counts[i];
+    Eigen::Index kept = 0;
+    for (const auto& corners : mesh.triangles.rowwise()) {
+        const Eigen::RowVector3i now(cells[std::size_t(corners[0])], cells[std::size_t(corners[1])],
+                                     cells[std::size_t(corners[2])]);
+        if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0])
+            result.triangles.row(kept++) = now;
+    }
+    result.triangles.conservativeResize(kept, 3);
+    return result;
+}
+
+TEST(Filters, DressABodyOfLargeTrianglesOnARefinedOne)
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 60 });
+    const TriangleMesh coarse = coarsened(person.mesh, 0.11);
+    Scene scene;
+    scene.body = make_body(coarse.positions, coarse.triangles);
+    ASSERT_TRUE(has_large_triangles(*scene.body));
+    const TriangleMesh shirt
+        = fixtures::garment_round(fixtures::person_skeleton({ .arm_angle = 20 }), 0.03,
+                                  [](const Vec3& p) { return p.y() > 0.9 && p.y() < 1.47 && std::abs(p.x()) < 0.4; });
+    scene.garments = { { make_garment(shirt.positions, shirt.triangles), GarmentType::tshirt, "shirt.obj" } };
+    Parameters parameters;
+    parameters.recover.quality = Quality::draft;
+    parameters.recover.frames = 3;
+    filter_of("dress").run(scene, parameters);
+    ASSERT_TRUE(scene.recovered);
+    EXPECT_TRUE(scene.recovered->certified);
+    EXPECT_EQ(scene.recovered->body, coarse.positions);
+    EXPECT_EQ(scene.body->surface.positions, coarse.positions);
+    EXPECT_EQ(scene.rig->weights.weights.rows(), coarse.positions.rows());
+    EXPECT_EQ(scene.draped->body.rows(), coarse.positions.rows());
+    ASSERT_FALSE(scene.recovered->frames.empty());
+    EXPECT_EQ(scene.recovered->frames.back().body, coarse.positions);
 }
 
 TEST(Documentation, ParameterTablesAreCurrent)
