@@ -221,7 +221,7 @@ FrameGuess body_frame(const Positions& positions, const Triangles& triangles, co
 {
     const BodySizes sizes { choice.height };
     describe(sizes, CheckRanges());
-    FrameGuess guess = apply_choice(guess_body_frame(positions, triangles, known_up(choice)), choice);
+    FrameGuess guess = apply_choice(guess_body_frame(positions, triangles, known_up(choice), choice.usual_up), choice);
     if (choice.height)
         set_height(guess, positions, triangles, *choice.height);
     return guess;

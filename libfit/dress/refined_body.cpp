@@ -102,8 +102,8 @@ bool has_large_triangles(const BodyMesh& body)
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
         double longest = 0;
         for (int k = 0; k < 3; ++k)
-            longest = std::max(
-                longest, (positions.row(triangles(f, k)) - positions.row(triangles(f, (k + 1) % 3))).norm());
+            longest
+                = std::max(longest, (positions.row(triangles(f, k)) - positions.row(triangles(f, (k + 1) % 3))).norm());
         const double area = area_vector(positions, triangles, f).norm();
         whole += area;
         large += longest > k_large_triangle ? area : 0;

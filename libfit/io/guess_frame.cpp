@@ -122,15 +122,15 @@ Ranked rank(const std::array<double, count>& scores)
     return { order[0], order[1], confidence_between(scores[order[0]], scores[order[1]]) };
 }
 
-Ranked rank_axes(const Samples& samples, const Shape& shape)
+Ranked rank_axes(const Samples& samples, const Shape& shape, const std::optional<Vec3>& usual_up)
 {
     std::array<double, 6> scores;
     for (std::size_t i = 0; i < scores.size(); ++i) {
         const Vec3 up = axis_of(k_axes[i]);
         Eigen::Index axis;
         up.cwiseAbs().maxCoeff(&axis);
-        scores[i]
-            = tallness(shape, static_cast<int>(axis)) + log_likelihood(uprightness(samples, up)) - k_axis_rarity[i];
+        scores[i] = tallness(shape, static_cast<int>(axis)) + log_likelihood(uprightness(samples, up))
+            - k_axis_rarity[i] - (usual_up && up != *usual_up ? k_rarity_against_format : 0);
     }
     return rank(scores);
 }
@@ -189,7 +189,8 @@ std::string beside_unit_of_body(double unit, double of_body)
 
 }  // namespace
 
-FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles, const std::optional<Vec3>& up)
+FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles, const std::optional<Vec3>& up,
+                            const std::optional<Vec3>& usual_up)
 {
     require_named_vertices("body", positions.rows(), triangles);
     const Samples samples = samples_of(positions, triangles);
@@ -200,7 +201,7 @@ FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangl
         guess.frame.up = *up;
         guess.up_confidence = 1;
     } else {
-        const Ranked axis = rank_axes(samples, shape_of(samples));
+        const Ranked axis = rank_axes(samples, shape_of(samples), usual_up);
         guess.frame.up = axis_of(k_axes[axis.best]);
         guess.up_confidence = axis.confidence;
     }

@@ -14,6 +14,9 @@ namespace garmentfit {
 /// fitted: guess, from experience with mesh files; none of 173 bodies of public repositories stands on its head.
 inline constexpr std::array<std::string_view, 6> k_axes { "+y", "+z", "-y", "-z", "+x", "-x" };
 inline constexpr std::array<double, 6> k_axis_rarity { 0, 0.2, 4, 4, 1.5, 1.5 };
+/// The same where the file's format says which axis is up, of every other axis. fitted: guess; exporters are told to keep
+/// other axes now and then.
+inline constexpr double k_rarity_against_format = 3;
 
 struct KnownUnit {
     std::string_view name;

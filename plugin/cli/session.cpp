@@ -65,10 +65,16 @@ void leave_out_others(Session& session, BodyFile& body, Wears wears)
         session.warnings.push_back(body.path.filename().string() + ": " + note);
 }
 
-bool is_skinned(const MeshFile& file)
+bool is_gltf(const MeshFile& file) { return file.format() == "glb" || file.format() == "gltf"; }
+
+/// FBX and COLLADA are read as if they were glTF; their axes are what their programs had.
+std::optional<Vec3> usual_up(const MeshFile& file)
 {
-    return (file.format() == "glb" || file.format() == "gltf") && has_skin(file.path());
+    const bool is_own = file.written_name() == file.path().filename();
+    return is_gltf(file) && is_own ? std::optional<Vec3>(Vec3::UnitY()) : std::nullopt;
 }
+
+bool is_skinned(const MeshFile& file) { return is_gltf(file) && has_skin(file.path()); }
 
 OwnRig read_own_rig(const BodyFile& body)
 {
@@ -222,6 +228,7 @@ void read_body(Session& session, const fs::path& path, const BodyChoice& choice,
     BodyChoice standing = choice;
     if (body.own.rig)
         standing.trunk = body.own.rig->skeleton.tail(thorax) - body.own.rig->skeleton.root;
+    standing.usual_up = usual_up(body.file);
     body.frame = body_frame(body.file.positions(), body.triangles, standing);
     session.body = std::move(body);
     make_scene_body(session);

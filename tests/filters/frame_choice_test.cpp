@@ -38,6 +38,18 @@ TEST(FrameChoice, ABodyStandsAlongTheTrunkOfItsSkeleton)
     EXPECT_EQ(body_frame(mesh.positions, mesh.triangles, choice).frame.up, Vec3::UnitY()) << "the user knows better";
 }
 
+TEST(FrameChoice, TheAxisOfTheFormatIsLikelier)
+{
+    TriangleMesh mesh = person();
+    mesh.positions.col(0) *= 6;  // arms of five times the height
+    EXPECT_EQ(body_frame(mesh.positions, mesh.triangles).frame.up.cwiseAbs(), Vec3::UnitX());
+    BodyChoice choice;
+    choice.usual_up = Vec3::UnitY();
+    EXPECT_EQ(body_frame(mesh.positions, mesh.triangles, choice).frame.up, Vec3::UnitY());
+    const Positions lying = Frame { 1, Vec3::UnitZ() }.to_file(person().positions);
+    EXPECT_EQ(body_frame(lying, mesh.triangles, choice).frame.up, Vec3::UnitZ()) << "the shape may still decide";
+}
+
 TEST(FrameChoice, TheUnitIsThatOfTheLengthAlongAGivenAxis)
 {
     Positions wide = person().positions;  // a figure with arms of more than twice its height

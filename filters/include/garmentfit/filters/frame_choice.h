@@ -23,6 +23,8 @@ struct BodyChoice : FrameChoice {
     /// From pelvis to neck of the skeleton in its file, in any length: without an axis from the user, the body stands
     /// along the nearest one.
     std::optional<Vec3> trunk = {};
+    /// Which axis the file's format says is up: others are rarer.
+    std::optional<Vec3> usual_up = {};
 };
 
 struct GarmentChoice : FrameChoice {

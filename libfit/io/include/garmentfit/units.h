@@ -56,8 +56,10 @@ struct FrameGuess {
 
 /// Guesses units and up axis of a human body from its size and shape. @throws InvalidInput: index out of range.
 /// @param up  an axis, where it is known
+/// @param usual_up  the axis that the file's format says, where it says one
 GARMENTFIT_API FrameGuess guess_body_frame(const Positions& positions, const Triangles& triangles,
-                                           const std::optional<Vec3>& up = {});
+                                           const std::optional<Vec3>& up = {},
+                                           const std::optional<Vec3>& usual_up = {});
 /// The same for a garment. It has the frame of the body, in the nearest unit, unless its size or shape contradicts.
 GARMENTFIT_API FrameGuess guess_garment_frame(const Positions& positions, const Triangles& triangles,
                                               const Frame& body);
