@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -306,10 +307,32 @@ Parameters for_rough_cloth(Parameters p)
 
 void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress);
 
-/// By which a garment has to be larger round a part for which it is too small, with what its fabric may give.
+/// By which a garment has to be larger, with what its fabric may give.
+double lacking_factor(double enlargement, double fabric_stretch)
+{
+    return (1 + enlargement) / (1 + k_stretch_of_enlarged * fabric_stretch);
+}
+
+/// The same round a part for which it is too small.
 double lacking_factor(const Dressing& end, const TooTight& part)
 {
-    return (1 + part.enlargement) / (1 + k_stretch_of_enlarged * end.fabric_stretches[std::size_t(part.garment)]);
+    return lacking_factor(part.enlargement, end.fabric_stretches[std::size_t(part.garment)]);
+}
+
+/// Parts at which the body, in the pose of the fit, is far wider than a garment can give.
+Widening lacking_girths(const Scene& scene, std::size_t garment, double fabric_stretch, double most)
+{
+    const auto& [skeleton, weights] = std::tie(scene.rig->skeleton, scene.rig->weights);
+    const Pose& pose = scene.fits[garment].pose;
+    const TriangleMesh body { skin(scene.body->surface.positions, weights, bone_transforms(skeleton, pose)),
+                              scene.body->surface.triangles };
+    const GarmentMesh& mesh = scene.garments[garment].mesh;
+    Widening result;
+    for (const Girth& girth : girths(pose_skeleton(skeleton, pose), weights, body, { mesh, mesh.positions }))
+        if (girth.body > (1 + fabric_stretch) * k_far_too_narrow * girth.garment)
+            widen_both_sides(result, girth.place,
+                             std::min(1 + most, lacking_factor(girth.body / girth.garment - 1, fabric_stretch)));
+    return result;
 }
 
 void widen(Scene& scene, std::size_t garment, const Widening& widening)
@@ -391,6 +414,21 @@ bool widen_too_small(Scene& scene, double most, double share)
         if (largest_factor(widenings[i]) > 1)
             widen(scene, i, widenings[i]);
     return true;
+}
+
+bool widen_far_too_narrow(Scene& scene, const Parameters& parameters, double most)
+{
+    const ClothOptions& cloth = parameters.drape.cloth;
+    bool any = false;
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+        const Fabric fabric = scene.garments[i].fabric.value_or(cloth.fabric);
+        const Widening lacking = lacking_girths(scene, i, material_of(cloth, fabric).largest_stretch, most);
+        if (lacking.empty())
+            continue;
+        widen(scene, i, lacking);
+        any = true;
+    }
+    return any;
 }
 
 bool enlarge_too_small(Scene& scene, const Parameters& parameters)

@@ -86,14 +86,21 @@ RunStage& run_of(Stage stage, const std::vector<Stage>& stages)
     return is_on_the_way ? drape_on_the_way_stage : *row(stage).run;
 }
 
+double progress_share(const std::vector<Stage>& stages)
+{
+    double total = 0;
+    for (const Stage stage : stages)
+        total += row(stage).share;
+    return total;
+}
+
 bool ends_here(const Scene& scene, Stage stage) { return stage == Stage::drape && !all_put_on(scene); }
 
 void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters,
                      const Progress& progress)
 {
-    double total = 0, done = 0;
-    for (const Stage stage : stages)
-        total += row(stage).share;
+    const double total = progress_share(stages);
+    double done = 0;
     for (const Stage stage : stages) {
         const Stopwatch watch(scene.seconds[static_cast<int>(stage)]);
         const double next = done + row(stage).share / total;
@@ -166,6 +173,19 @@ void run_larger(const std::vector<Stage>& stages, Scene& scene, const Parameters
                     progress);
 }
 
+/// The same, but garments that are far too narrow are made wider before they are put on.
+void run_stages_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, double most,
+                      const Progress& progress)
+{
+    const auto first = std::find(stages.begin(), stages.end(), Stage::drape);
+    const double share = progress_share({ stages.begin(), first }) / progress_share(stages);
+    run_stages_once({ stages.begin(), first }, scene, parameters, progress.part(0, share));
+    Scene wider = scene;
+    if (widen_far_too_narrow(wider, parameters, most) && fit_again(wider, parameters, progress.part(share, share)))
+        scene = std::move(wider);
+    run_stages_once({ first, stages.end() }, scene, parameters, progress.part(share, 1));
+}
+
 /// @param fits  whether garments may be fitted anew: then they are made wider first, and larger, all of them alike, only
 ///              where that does not do
 void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress,
@@ -175,7 +195,10 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
     Parameters of_girth = parameters;
     if (widens)
         of_girth.drape.cloth.largest_enlargement = 0;
-    run_stages_once(stages, scene, of_girth, progress);
+    if (widens)
+        run_stages_wider(stages, scene, of_girth, parameters.drape.cloth.largest_enlargement, progress);
+    else
+        run_stages_once(stages, scene, of_girth, progress);
     if (stages.back() < Stage::drape)
         return;
     const Progress again = progress.part(1, 1);

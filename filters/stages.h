@@ -33,7 +33,11 @@ void recover_stage(Scene& scene, const Parameters& parameters, const Progress& p
 /// @return whether there are any, and all may be made wider so far
 bool widen_too_small(Scene& scene, double most, double share);
 
-/// Takes widen_too_small back. What was made of wider garments stays.
+/// Makes fitted garments wider before they are put on, at parts round which a tape says that their fabric gives far too
+/// little. @param most  share by which girths grow at most @return whether there are any
+bool widen_far_too_narrow(Scene& scene, const Parameters& parameters, double most);
+
+/// Takes widen_too_small and widen_far_too_narrow back. What was made of wider garments stays.
 void take_as_given(GarmentInput& garment);
 
 /// Enlarges the garments that are put on, but found too small in the end, until their fabric allows the rest. @return whether

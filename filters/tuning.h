@@ -116,6 +116,9 @@ inline constexpr std::array<double, 2> k_looser_sizes { 1.05, 1.1 };
 /// Share of what its fabric gives by which a garment that is enlarged is stretched then. derived: as
 /// k_enlarged_stretch_share of the room dress
 inline constexpr double k_stretch_of_enlarged = 0.5;
+/// Times what its fabric gives: a garment that a tape finds narrower than the body by more is made wider before it is put
+/// on, instead of after that failed. fitted: guess
+inline constexpr double k_far_too_narrow = 1.1;
 /// Exponent: how much a garment that is wider by a factor is that of a larger person: less, for people of one stature
 /// differ in girth. fitted: guess: with 1, a T-shirt that is 29 % wider at the shoulders loses to a skirt
 inline constexpr double k_size_of_girth = 0.5;

@@ -99,6 +99,25 @@ Scene fitted_scene()
     return scene;
 }
 
+TEST(Enlarging, AGarmentThatIsFarTooNarrowIsMadeWiderBeforeItIsPutOn)
+{
+    Scene scene = fitted_scene();
+    EXPECT_FALSE(widen_far_too_narrow(scene, {}, 1));
+    const TriangleMesh narrow = fixtures::garment_round(fixtures::person_skeleton({ .arm_angle = 20 }), -0.035,
+                                                        [](const Vec3& p) { return p.y() > 0.4 && p.y() < 1.1; });
+    scene.garments[0].mesh = make_garment(narrow.positions, narrow.triangles);
+    Scene slightly = scene;
+    EXPECT_TRUE(widen_far_too_narrow(slightly, {}, 0.1));
+    EXPECT_NEAR(largest_factor(slightly.garments[0].widening), 1.1, 1e-9) << "no more than is allowed";
+    EXPECT_TRUE(widen_far_too_narrow(scene, {}, 1));
+    EXPECT_GT(factor_of(scene.garments[0].widening, "hips"), 1.2);
+    EXPECT_EQ(factor_of(scene.garments[0].widening, "left upper arm"), 1);
+    const auto depth = [](const Positions& p) { return p.col(2).maxCoeff() - p.col(2).minCoeff(); };
+    EXPECT_GT(depth(scene.garments[0].mesh.positions), 1.05 * depth(narrow.positions));
+    take_as_given(scene.garments[0]);
+    EXPECT_EQ(scene.garments[0].mesh.positions, narrow.positions);
+}
+
 TEST(Enlarging, AWiderGarmentIsFittedForTheSameWayOfWearing)
 {
     Scene scene = fitted_scene();
