@@ -293,25 +293,30 @@ void take_back_refined(std::optional<Dressing>& dressing, const TriangleMesh& gi
     frames.erase(std::remove_if(frames.begin(), frames.end(), is_unclean), frames.end());
 }
 
-/// Dresses the refined body. @return whether what comes of it can be kept
-bool run_refined(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+Outcome end_of(const Scene& scene)
+{
+    const Dressing& end = *final_dressing(scene);
+    return all_clean(end.garments) ? outcome_of(end) : Outcome::not_certified;
+}
+
+/// Dresses the refined body. @return how that ends on the given one; none where it fails
+std::optional<Outcome> run_refined(const Filter& filter, Scene& scene, const Parameters& parameters,
+                                   const Progress& progress)
 {
     RiggedBody given { *scene.body, *scene.rig }, refined = refine_body(given.body, given.rig);
     scene.body = std::move(refined.body);
     scene.rig = std::move(refined.rig);
     if (!succeeds([&] { run_stages(filter, scene, parameters, progress); }))
-        return false;
+        return {};
     scene.body = std::move(given.body);
     scene.rig = std::move(given.rig);
     for (auto* dressing : { &scene.draped, &scene.recovered })
         take_back_refined(*dressing, scene.body->surface);
-    const Dressing& end = *final_dressing(scene);
-    const bool is_known = outcome_of(end) <= Outcome::too_small && all_clean(end.garments);
-    return is_known || progress.is_late();
+    return end_of(scene);
 }
 
 /// A body of large triangles is dressed on a refined one, where that begins and ends in the input pose; where that does
-/// not end well, as it is.
+/// not end well, and it ends no worse as it is, as it is.
 void run_on_refined_body(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
     if (!filter.has(Stage::drape) || !filter.has(Stage::recover) || !has_large_triangles(*scene.body))
@@ -319,11 +324,15 @@ void run_on_refined_body(const Filter& filter, Scene& scene, const Parameters& p
     const double share = filter.has(Stage::rig) ? row(Stage::rig).share : 0;
     if (filter.has(Stage::rig))
         run_stages_once({ Stage::rig }, scene, parameters, progress.part(0, share));
+    const Filter known = filter.on_known_rig();
     Scene refined = scene;
-    if (run_refined(filter.on_known_rig(), refined, parameters, progress.part(share, 1)))
+    const std::optional<Outcome> end = run_refined(known, refined, parameters, progress.part(share, 1));
+    if (!end)
+        return run_stages(known, scene, parameters, progress.part(1, 1));
+    const bool is_better = *end != Outcome::done && !progress.is_late()
+        && succeeds([&] { run_stages(known, scene, parameters, progress.part(1, 1)); }) && end_of(scene) <= *end;
+    if (!is_better)
         scene = std::move(refined);
-    else
-        run_stages(filter.on_known_rig(), scene, parameters, progress.part(1, 1));
 }
 
 void run_at_human_size(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress)
