@@ -137,8 +137,8 @@ bool run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> s
 
 bool is_too_small(const Scene& scene) { return outcome_of(*final_dressing(scene)) == Outcome::too_small; }
 
-/// Fits and puts on again garments that are too small, made wider where they are: wider cloth lies elsewhere. Where that
-/// does not end well, cloth that is less wide may.
+/// Fits and puts on again garments that are too small, made wider where they are: wider cloth lies elsewhere. Where
+/// that does not end well, cloth that is less wide may.
 /// @param most  share by which girths grow at most
 void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, double most,
                const Progress& progress)
@@ -267,8 +267,8 @@ void run_on_copy(const std::function<void()>& run, const std::function<void()>& 
     }
 }
 
-/// As dressed on a refined body, with the vertices of the given one. Between poses large triangles may stand across what
-/// lies close to the refined skin: it is certified again.
+/// As dressed on a refined body, with the vertices of the given one. Between poses large triangles may stand across
+/// what lies close to the refined skin: it is certified again.
 void take_back_refined(std::optional<Dressing>& dressing, const TriangleMesh& given)
 {
     if (!dressing)

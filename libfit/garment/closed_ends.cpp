@@ -142,8 +142,8 @@ private:
     std::vector<char> is_cloth_;
 };
 
-/// With each triangle once, where exporters wrote some again, with the same vertices or others at their places, or from the
-/// other side for viewers that show one side only.
+/// With each triangle once, where exporters wrote some again, with the same vertices or others at their places, or
+/// from the other side for viewers that show one side only.
 GarmentMesh drop_repeated(const GarmentMesh& garment)
 {
     const Weld weld(garment);

@@ -18,8 +18,9 @@ namespace garmentfit {
 std::vector<std::vector<int>> find_garments_beside(const TriangleMesh& mesh,
                                                    const std::vector<std::vector<int>>& patches);
 
-/// The faces of what stands apart from a whole garment, below it, say, is far larger, and lets no body pass: plinths, and
-/// trimmings that an exporter wrote in another scale. None where something else may be worn, too. The cost is the same.
+/// The faces of what stands apart from a whole garment, below it, say, is far larger, and lets no body pass: plinths,
+/// and trimmings that an exporter wrote in another scale. None where something else may be worn, too. The cost is the
+/// same.
 std::vector<std::vector<int>> find_plinths(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
 
 }  // namespace garmentfit

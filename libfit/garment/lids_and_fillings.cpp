@@ -62,8 +62,8 @@ bool is_solid(const TriangleMesh& mesh, const MeshTopology& topology, const std:
     return 2 * std::ptrdiff_t(vertices.size()) - std::ptrdiff_t(faces.size()) == 4;  // derived: 3 sides a face
 }
 
-/// With patches that have corners in one cell of a grid as one piece: where edges have more than two faces, or each face
-/// has corners of its own, each face is a patch.
+/// With patches that have corners in one cell of a grid as one piece: where edges have more than two faces, or each
+/// face has corners of its own, each face is a patch.
 std::vector<std::vector<int>> joined_where_near(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches,
                                                 double cell)
 {

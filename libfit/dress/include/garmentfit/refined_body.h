@@ -22,8 +22,8 @@ struct RiggedBody {
     Rig rig;
 };
 
-/// The same surface with more vertices: first all of the body's, then those halfway between two others, with the mean of
-/// their skin weights.
+/// The same surface with more vertices: first all of the body's, then those halfway between two others, with the mean
+/// of their skin weights.
 GARMENTFIT_API RiggedBody refine_body(const BodyMesh& body, const Rig& rig);
 
 }  // namespace garmentfit
