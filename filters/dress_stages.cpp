@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -322,13 +321,13 @@ double lacking_factor(const Dressing& end, const TooTight& part)
 /// Parts at which the body, in the pose of the fit, is far wider than a garment can give.
 Widening lacking_girths(const Scene& scene, std::size_t garment, double fabric_stretch, double most)
 {
-    const auto& [skeleton, weights] = std::tie(scene.rig->skeleton, scene.rig->weights);
+    const Rig& rig = *scene.rig;
     const Pose& pose = scene.fits[garment].pose;
-    const TriangleMesh body { skin(scene.body->surface.positions, weights, bone_transforms(skeleton, pose)),
-                              scene.body->surface.triangles };
+    const auto& [positions, triangles] = scene.body->surface;
+    const TriangleMesh body { skin(positions, rig.weights, bone_transforms(rig.skeleton, pose)), triangles };
     const GarmentMesh& mesh = scene.garments[garment].mesh;
     Widening result;
-    for (const Girth& girth : girths(pose_skeleton(skeleton, pose), weights, body, { mesh, mesh.positions }))
+    for (const Girth& girth : girths(pose_skeleton(rig.skeleton, pose), rig.weights, body, { mesh, mesh.positions }))
         if (girth.body > (1 + fabric_stretch) * k_far_too_narrow * girth.garment)
             widen_both_sides(result, girth.place,
                              std::min(1 + most, lacking_factor(girth.body / girth.garment - 1, fabric_stretch)));

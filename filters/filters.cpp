@@ -193,12 +193,12 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
 {
     const bool widens = fits && stages.back() >= Stage::drape && parameters.drape.cloth.largest_enlargement > 0;
     Parameters of_girth = parameters;
-    if (widens)
+    if (widens) {
         of_girth.drape.cloth.largest_enlargement = 0;
-    if (widens)
         run_stages_wider(stages, scene, of_girth, parameters.drape.cloth.largest_enlargement, progress);
-    else
-        run_stages_once(stages, scene, of_girth, progress);
+    } else {
+        run_stages_once(stages, scene, parameters, progress);
+    }
     if (stages.back() < Stage::drape)
         return;
     const Progress again = progress.part(1, 1);

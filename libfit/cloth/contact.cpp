@@ -59,12 +59,6 @@ double sum_of(const Margins& margins, ContactReason reason)
     return margins.cloth + (reason == ContactReason::self ? margins.cloth : margins.obstacle);
 }
 
-template <class Vertices>
-bool has_marked(const Vertices& vertices, const std::vector<char>& marks)
-{
-    return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return marks[v]; });
-}
-
 // Vertices of the first primitive.
 int first_size(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
 
@@ -149,15 +143,9 @@ template <class VerticesOf>
 void ContactDetector::renew_tree(BoxTree& tree, std::size_t count, const std::vector<char>& renewed,
                                  const VerticesOf& vertices_of) const
 {
-    const auto box = [&](std::size_t i) { return box_of(vertices_of(i)); };
-    if (tree.empty()) {
-        std::vector<Box> boxes(count);
-        for (std::size_t i = 0; i < count; ++i)
-            boxes[i] = box(i);
-        tree = BoxTree(boxes);
-        return;
-    }
-    tree.renew([&](std::size_t i) { return has_marked(vertices_of(i), renewed); }, box);
+    tree.renew_or_build(
+        count, [&](std::size_t i) { return has_marked(vertices_of(i), renewed); },
+        [&](std::size_t i) { return box_of(vertices_of(i)); });
 }
 
 void ContactDetector::renew_trees(const std::vector<char>& renewed)

@@ -29,12 +29,6 @@ std::vector<char> find_moved(const Positions& before, const Positions& now)
 }
 
 template <class Corners>
-bool has_moved(const Corners& corners, const std::vector<char>& is_moved)
-{
-    return std::any_of(corners.begin(), corners.end(), [&](int v) { return is_moved[v]; });
-}
-
-template <class Corners>
 void renew_tree(BoxTree& tree, const Corners& corners, const Positions& positions, const std::vector<char>& is_moved)
 {
     const auto box_of = [&](Eigen::Index i) {
@@ -43,12 +37,8 @@ void renew_tree(BoxTree& tree, const Corners& corners, const Positions& position
             box.extend(Vec3(positions.row(v)));
         return box;
     };
-    if (!tree.empty())
-        return tree.renew([&](int i) { return has_moved(corners.row(i), is_moved); }, box_of);
-    std::vector<Box> boxes(corners.rows());
-    for (Eigen::Index i = 0; i < corners.rows(); ++i)
-        boxes[i] = box_of(i);
-    tree = BoxTree(boxes);
+    tree.renew_or_build(
+        corners.rows(), [&](int i) { return has_marked(corners.row(i), is_moved); }, box_of);
 }
 
 // @param is_left_out  (edge, triangle) -> bool
@@ -99,7 +89,8 @@ std::vector<Crossing> SelfCrossingSearch::find(const Positions& positions)
     renew_tree(edge_tree_, edges_, positions, is_moved);
     renew_tree(triangle_tree_, triangles_, positions, is_moved);
     std::erase_if(crossings_, [&](const Crossing& crossing) {
-        return has_moved(edges_.row(crossing.first), is_moved) || has_moved(triangles_.row(crossing.second), is_moved);
+        return has_marked(edges_.row(crossing.first), is_moved)
+            || has_marked(triangles_.row(crossing.second), is_moved);
     });
     std::vector<std::vector<Crossing>> parts(BoxTree::k_parts);
     BoxTree::overlaps(edge_tree_, triangle_tree_, [&](int part, int edge, int triangle) {

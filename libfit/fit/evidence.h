@@ -32,6 +32,7 @@ enum Evidence {
     askew_evidence,  ///< rad, angle to the nearest line from opening to opening, at most 0.5 (WayUp::askew)
     upright_evidence,  ///< of the openings, -1 to 1: for this way up, less that for the same upside down
     // The coverage: 1 for its kind, and what the shape says of it; tops have 0 in all of these
+    // but for strapless ones
     legs_evidence,
     skirt_evidence,
     dress_evidence,

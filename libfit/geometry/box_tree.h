@@ -27,6 +27,9 @@ public:
     /// of such primitives alone, with any other.
     template <class IsChanged, class BoxOf>
     void renew(const IsChanged& is_changed, const BoxOf& box_of);
+    /// The same of a tree of `count` primitives, which is built where it is empty.
+    template <class IsChanged, class BoxOf>
+    void renew_or_build(std::size_t count, const IsChanged& is_changed, const BoxOf& box_of);
 
     bool empty() const { return order_.empty(); }
 
@@ -76,6 +79,17 @@ void BoxTree::renew(const IsChanged& is_changed, const BoxOf& box_of)
             boxes_[i] = rounded(box_of(order_[i]));
     }
     renew_nodes();
+}
+
+template <class IsChanged, class BoxOf>
+void BoxTree::renew_or_build(std::size_t count, const IsChanged& is_changed, const BoxOf& box_of)
+{
+    if (!empty())
+        return renew(is_changed, box_of);
+    std::vector<Box> boxes(count);
+    for (std::size_t i = 0; i < count; ++i)
+        boxes[i] = box_of(int(i));
+    *this = BoxTree(boxes);
 }
 
 template <class F>
