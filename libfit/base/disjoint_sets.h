@@ -26,6 +26,21 @@ public:
             v = parent_[v] = parent_[parent_[v]];
         return v;
     }
+    /// The members of each set, ascending; the sets in the order of their first members.
+    std::vector<std::vector<int>> groups()
+    {
+        std::vector<int> number(parent_.size(), -1);  // by root
+        std::vector<std::vector<int>> result;
+        for (int v = 0; v < int(parent_.size()); ++v) {
+            int& group = number[root(v)];
+            if (group < 0) {
+                group = int(result.size());
+                result.emplace_back();
+            }
+            result[group].push_back(v);
+        }
+        return result;
+    }
 
 private:
     std::vector<int> parent_;

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "cloth_patches.h"
@@ -90,17 +89,11 @@ std::vector<std::vector<int>> Caps::find_filled(const std::vector<std::vector<in
         if (is_long || (lengths[side] > k_ear_edge * usual[side / 3] && (is_ear(side) || is_ear(other))))
             joined.join(side / 3, other / 3);
     }
-    std::map<int, std::vector<int>> regions;  // by the root
-    std::set<int> seeded;
-    for (int f = 0; f < int(faces_.rows()); ++f) {
-        regions[joined.root(f)].push_back(f);
-        if (is_seed[f])
-            seeded.insert(joined.root(f));
-    }
     std::vector<std::vector<int>> filled;
-    for (const int root : seeded)
-        if (is_filled(region_with(regions[root])))
-            filled.push_back(regions[root]);
+    for (std::vector<int>& region : joined.groups())
+        if (std::any_of(region.begin(), region.end(), [&](int f) { return is_seed[f]; })
+            && is_filled(region_with(region)))
+            filled.push_back(std::move(region));
     return filled;
 }
 
@@ -211,15 +204,11 @@ void Caps::collect_regions()
         if (const int other = topology_.opposite(side);
             other > side && orientation(side, other) * cosine(side / 3, other / 3) > k_flat_cosine)
             flat.join(side / 3, other / 3);
-    std::vector<int> number(std::size_t(faces_.rows()), -1);
-    for (int f = 0; f < int(faces_.rows()); ++f) {
-        int& region = number[flat.root(f)];
-        if (region < 0) {
-            region = int(regions_.size());
-            regions_.emplace_back();
-        }
-        regions_[region].faces.push_back(f);
-        region_of_.push_back(region);
+    region_of_.resize(std::size_t(faces_.rows()));
+    for (std::vector<int>& faces : flat.groups()) {
+        for (const int f : faces)
+            region_of_[f] = int(regions_.size());
+        regions_.emplace_back().faces = std::move(faces);
     }
     for (Region& region : regions_)
         add_areas(region);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -124,15 +123,14 @@ private:
                         first[f] = i;
                     else
                         same.join(first[f], i);
-        std::map<int, Found> one;  // by root
-        for (int i = 0; i < int(all.size()); ++i) {
-            Found& found = one[same.root(i)];
-            found.share = std::max(found.share, all[i].share);
-            found.hollow.floor = united(found.hollow.floor, all[i].hollow.floor);
-            found.hollow.walls = united(found.hollow.walls, all[i].hollow.walls);
-        }
         std::vector<Found> result;
-        for (auto& [root, found] : one) {
+        for (const std::vector<int>& group : same.groups()) {
+            Found found;
+            for (const int i : group) {
+                found.share = std::max(found.share, all[i].share);
+                found.hollow.floor = united(found.hollow.floor, all[i].hollow.floor);
+                found.hollow.walls = united(found.hollow.walls, all[i].hollow.walls);
+            }
             std::vector<int> walls;
             std::set_difference(found.hollow.walls.begin(), found.hollow.walls.end(), found.hollow.floor.begin(),
                                 found.hollow.floor.end(), std::back_inserter(walls));
@@ -247,17 +245,9 @@ private:
         for (int side = 0; side < 3 * int(is_marked.size()); ++side)
             if (const int other = topology_.opposite(side); other >= 0 && is_marked[side / 3] && is_marked[other / 3])
                 joined.join(side / 3, other / 3);
-        std::map<int, int> number;  // by root
-        std::vector<std::vector<int>> result;
-        for (int f = 0; f < int(is_marked.size()); ++f) {
-            if (!is_marked[f])
-                continue;
-            const auto [place, is_new] = number.emplace(joined.root(f), int(result.size()));
-            if (is_new)
-                result.emplace_back();
-            result[place->second].push_back(f);
-        }
-        return result;
+        std::vector<std::vector<int>> groups = joined.groups();
+        std::erase_if(groups, [&](const std::vector<int>& group) { return !is_marked[group.front()]; });
+        return groups;
     }
 
     /// Somewhere in a floor (next to) no ray goes out; elsewhere it may be open on one side, as a neck is in front.

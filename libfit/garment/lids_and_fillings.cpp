@@ -75,15 +75,13 @@ std::vector<std::vector<int>> joined_where_near(const TriangleMesh& mesh, const 
                 const Vec3 at = (mesh.positions.row(v) / cell).array().floor();
                 same.join(first.try_emplace({ at.x(), at.y(), at.z() }, p).first->second, p);
             }
-    std::map<int, std::vector<int>> pieces;  // by root
-    for (int p = 0; p < int(patches.size()); ++p) {
-        std::vector<int>& piece = pieces[same.root(p)];
-        piece.insert(piece.end(), patches[p].begin(), patches[p].end());
+    std::vector<std::vector<int>> pieces;
+    for (const std::vector<int>& group : same.groups()) {
+        std::vector<int>& piece = pieces.emplace_back();
+        for (const int p : group)
+            piece.insert(piece.end(), patches[p].begin(), patches[p].end());
     }
-    std::vector<std::vector<int>> result;
-    for (auto& [root, piece] : pieces)
-        result.push_back(std::move(piece));
-    return result;
+    return pieces;
 }
 
 // ---- lids ----------------------------------------------------------------------------------------------------------
@@ -174,17 +172,7 @@ std::vector<std::vector<int>> patches_of(const MeshTopology& topology, int faces
     for (int side = 0; side < 3 * faces; ++side)
         if (const int other = topology.opposite(side); other > side)
             joined.join(side / 3, other / 3);
-    std::vector<int> number(std::size_t(faces), -1);
-    std::vector<std::vector<int>> patches;
-    for (int f = 0; f < faces; ++f) {
-        int& patch = number[joined.root(f)];
-        if (patch < 0) {
-            patch = int(patches.size());
-            patches.emplace_back();
-        }
-        patches[patch].push_back(f);
-    }
-    return patches;
+    return joined.groups();
 }
 
 bool is_without_inner_vertices(const MeshTopology& topology, const std::vector<int>& disc)
