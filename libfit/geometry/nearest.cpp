@@ -183,16 +183,8 @@ std::optional<TriangleTree::Nearest> TriangleTree::nearest_triangle(const Vec3& 
 
 std::optional<TriangleTree::Nearest> TriangleTree::nearest_triangle_within(const Vec3& query, double distance) const
 {
-    constexpr double k_just_beyond = 1 + 1e-9;  // unit: CGAL takes what is nearer than a point that it is told of
-    if (tree_->triangles.empty())
-        return {};
-    const Kernel::Point_3 beyond = point(query + Vec3(k_just_beyond * distance, 0, 0));
-    const auto [there, triangle] = tree_->aabb.closest_point_and_primitive(
-        point(query), Aabb::Point_and_primitive_id(beyond, tree_->triangles.cbegin()));
-    const Vec3 nearest(there.x(), there.y(), there.z());
-    if ((nearest - query).norm() > distance)
-        return {};
-    return Nearest { nearest, tree_->index[triangle - tree_->triangles.cbegin()] };
+    const auto nearest = nearest_triangle(query);
+    return nearest && (nearest->point - query).norm() <= distance ? nearest : std::nullopt;
 }
 
 std::optional<TriangleTree::Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& direction) const

@@ -59,7 +59,7 @@ public:
         int triangle;
     };
     std::optional<Nearest> nearest_triangle(const Vec3& query) const;  ///< none for an empty surface
-    /// The same, of what is no further away than a distance, m, which shortens the search.
+    /// The same; none where it is further away than a distance, m.
     std::optional<Nearest> nearest_triangle_within(const Vec3& query, double distance) const;
 
     struct Hit {

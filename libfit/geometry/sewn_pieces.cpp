@@ -508,17 +508,27 @@ double longest_piece_shift(const GarmentMesh& garment, const Positions& position
         return std::max(0.0, there.norm() - foot.distance);
     };
     Feet feet(rest, topology, pieces);
-    double longest = 0;
-    for (std::size_t p = 1; p < pieces.size(); ++p) {
+    // Of a piece's vertices beside larger pieces the one that kept its distance best; some that went no further than
+    // `enough` does, for the piece moved no further than others then.
+    const auto least_shift = [&](std::size_t p, double enough) {
+        constexpr std::size_t k_block = 1024;  // unit: of work between two looks at what is found
+        const std::vector<int>& vertices = pieces[p].vertices;
         double least = INFINITY;
         for (std::size_t q = 0; q < p; ++q)
             if (pieces[p].box.exteriorDistance(pieces[q].box) <= k_beside)
-                for (const Foot& foot : feet.find(pieces[p].vertices, q, k_beside))
-                    if (std::isfinite(foot.distance))
-                        least = std::min(least, further(foot));
-        if (std::isfinite(least))
+                for (std::size_t first = 0; first < vertices.size() && least > enough; first += k_block) {
+                    const auto from = vertices.begin() + std::ptrdiff_t(first),
+                               to = from + std::ptrdiff_t(std::min(k_block, vertices.size() - first));
+                    for (const Foot& foot : feet.find({ from, to }, q, k_beside))
+                        if (std::isfinite(foot.distance))
+                            least = std::min(least, further(foot));
+                }
+        return least;
+    };
+    double longest = 0;
+    for (std::size_t p = 1; p < pieces.size(); ++p)
+        if (const double least = least_shift(p, longest); std::isfinite(least))
             longest = std::max(longest, least);
-    }
     return longest;
 }
 
