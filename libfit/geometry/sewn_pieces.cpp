@@ -272,6 +272,14 @@ bool is_folded_back(const GarmentMesh& rest, const MeshTopology& topology, int v
     return false;
 }
 
+/// Of a border vertex to a point of another border edge of its piece.
+Tie own_tie(const GarmentMesh& rest, const MeshTopology& topology, int vertex, int edge, const Vec3& point)
+{
+    const auto corners = rest.triangles.row(topology.sides_at(edge)[0] / 3);
+    const auto at = [&](int k) { return Vec3(rest.positions.row(corners[k])); };
+    return { vertex, { corners[0], corners[1], corners[2] }, barycentric(point, at(0), at(1), at(2)), true, true };
+}
+
 /// Ties along the seams of a piece with itself, as between front and back where the sleeves join them: borders that are
 /// near to each other and far along the cloth. None where these are few.
 std::vector<Tie> find_own_seams(const GarmentMesh& rest, const MeshTopology& topology, const Piece& piece,
@@ -301,15 +309,58 @@ std::vector<Tie> find_own_seams(const GarmentMesh& rest, const MeshTopology& top
         }
         if (best < 0 || is_folded_back(rest, topology, v, best))
             continue;
-        const auto corners = rest.triangles.row(topology.sides_at(best)[0] / 3);
         const Vec3 foot = nearest_on_segment(at(v), at(topology.edges()(best, 0)), at(topology.edges()(best, 1)));
-        ties.push_back({ v,
-                         { corners[0], corners[1], corners[2] },
-                         barycentric(foot, at(corners[0]), at(corners[1]), at(corners[2])),
-                         true,
-                         true });
+        ties.push_back(own_tie(rest, topology, v, best, foot));
     }
     return ties.size() < k_least_own_seam ? std::vector<Tie>() : ties;
+}
+
+/// The border edges within some steps along the border from one of its vertices.
+std::vector<int> border_edges_around(const MeshTopology& topology, int vertex, int steps)
+{
+    std::vector<int> edges, reached { vertex };
+    std::size_t next = 0;
+    for (int step = 0; step < steps; ++step)
+        for (const std::size_t end = reached.size(); next < end; ++next)
+            for (const int n : topology.neighbours(reached[next])) {
+                const int edge = topology.edge_between(reached[next], n);
+                if (!topology.is_border(edge))
+                    continue;
+                if (std::find(edges.begin(), edges.end(), edge) == edges.end())
+                    edges.push_back(edge);
+                if (std::find(reached.begin(), reached.end(), n) == reached.end())
+                    reached.push_back(n);
+            }
+    return edges;
+}
+
+/// Ties across holes without area, which would gape: one side of a seam has vertices there that the other lacks.
+std::vector<Tie> find_t_junctions(const GarmentMesh& rest, const MeshTopology& topology, const Piece& piece)
+{
+    if (piece.thickness > 0)
+        return {};
+    const auto at = [&](int v) { return Vec3(rest.positions.row(v)); };
+    std::vector<Tie> ties;
+    for (const int v : piece.border) {
+        std::optional<Tie> nearest;
+        double least = INFINITY;
+        for (const int edge : border_edges_around(topology, v, k_t_junction_steps)) {
+            const Vec3 a = at(topology.edges()(edge, 0)), b = at(topology.edges()(edge, 1)),
+                       foot = nearest_on_segment(at(v), a, b);
+            const double distance = (foot - at(v)).norm();
+            if (distance > k_t_junction * (b - a).norm() || distance >= least)
+                continue;
+            const Tie tie = own_tie(rest, topology, v, edge, foot);
+            if (std::find(tie.corners.begin(), tie.corners.end(), v) != tie.corners.end()
+                || is_folded_back(rest, topology, v, edge))
+                continue;
+            least = distance;
+            nearest = tie;
+        }
+        if (nearest)
+            ties.push_back(*nearest);
+    }
+    return ties;
 }
 
 /// Ties between two pieces, on both of their borders, where they are this near; none where they are on less than this
@@ -461,8 +512,10 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
     const std::vector<Piece> pieces = collect_pieces(rest, topology, garments);
     Sewing sewing(pieces.size(), rest.positions.rows());
     EdgesAround around(topology, std::size_t(rest.positions.rows()));
-    for (std::size_t p = 0; p < pieces.size(); ++p)
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
         sewing.add_seam(p, p, find_own_seams(rest, topology, pieces[p], around));
+        sewing.add_seam(p, p, find_t_junctions(rest, topology, pieces[p]));
+    }
     std::vector<char> is_on_border(std::size_t(rest.positions.rows()), 0);
     for (const Piece& piece : pieces)
         for (const int v : piece.border)

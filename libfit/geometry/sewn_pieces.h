@@ -6,7 +6,8 @@
 // Clothes come in pieces that share no vertex: panels with unwelded seams, pockets, flaps, buttons, collars, linings.
 // A piece is sewn to a larger one of the same garment in one of two ways (lengths in tuning.h):
 //
-// Seam  its border lies along the border of the other. Both borders are tied. A piece may have seams with itself.
+// Seam  its border lies along the border of the other. Both borders are tied. A piece may have seams with itself, and
+//       holes without area, where one side of a seam has vertices that the other lacks, are tied across.
 // Held  its border lies on the surface of the other, or its back does: nearly all of a piece that is small, or all of a
 //       larger one much closer. What lies on the other is tied. Patches (discs, such as pockets) are
 //       held by half of their border, and from further away: no limb passes through them, so nothing else holds them.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -121,6 +122,54 @@ TEST(SewnPieces, APieceHasSeamsWithItself)
     EXPECT_EQ(tube.counts.seamed, 0);
     EXPECT_TRUE(sewn(rolled(0.01)).ties.empty());
     EXPECT_TRUE(sewn(rolled(5e-4, true)).ties.empty()) << "sheets that lie on each other have no seam at their hem";
+}
+
+/// Two strips of 10 cm, welded where both have a vertex: the second one has vertices in the middle of the first one's
+/// edges of 2 cm, this far beside them.
+GarmentMesh strips_of_two_spacings(double gap)
+{
+    const int n = 5;
+    std::vector<Vec3> places;
+    std::vector<std::array<int, 3>> faces;
+    for (int i = 0; i <= n; ++i)  // 0 to n: the far border of the first strip, n + 1 to 2 n + 1: the seam
+        places.push_back({ 0.02 * i, 0, -0.02 });
+    for (int i = 0; i <= n; ++i)
+        places.push_back({ 0.02 * i, 0, 0 });
+    for (int i = 0; i <= n; ++i)  // the far border of the second strip, then the middles
+        places.push_back({ 0.02 * i, 0, 0.02 });
+    for (int i = 0; i < n; ++i)
+        places.push_back({ 0.02 * i + 0.01, 0, gap });
+    for (int i = 0; i < n; ++i) {
+        const int low = n + 1 + i, far = 2 * (n + 1) + i, middle = 3 * (n + 1) + i;
+        faces.insert(faces.end(),
+                     { { i, low, i + 1 },
+                       { i + 1, low, low + 1 },
+                       { low, far, middle },
+                       { middle, far, far + 1 },
+                       { middle, far + 1, low + 1 } });
+    }
+    GarmentMesh strips;
+    strips.positions.resize(Eigen::Index(places.size()), 3);
+    for (std::size_t v = 0; v < places.size(); ++v)
+        strips.positions.row(Eigen::Index(v)) = places[v];
+    strips.triangles.resize(Eigen::Index(faces.size()), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        strips.triangles.row(Eigen::Index(f)) << faces[f][0], faces[f][1], faces[f][2];
+    return strips;
+}
+
+TEST(SewnPieces, HolesWithoutAreaAreTiedAcross)
+{
+    const GarmentMesh strips = strips_of_two_spacings(2e-4);
+    const SewnPieces pieces = sewn(strips);
+    EXPECT_EQ(tied_vertices(pieces), (std::set<int> { 18, 19, 20, 21, 22 }));
+    for (const Tie& tie : pieces.ties) {
+        EXPECT_TRUE(tie.is_seam && tie.is_own);
+        EXPECT_LT((point_of(strips.positions, tie) - strips.positions.row(tie.vertex).transpose()).norm(), 2.1e-4);
+    }
+    EXPECT_EQ(pieces.counts.count, 1);
+    EXPECT_EQ(pieces.counts.seamed, 0);
+    EXPECT_TRUE(sewn(strips_of_two_spacings(4e-3)).ties.empty()) << "holes that one can see";
 }
 
 /// How far the ends of ties have moved apart or together.
