@@ -226,14 +226,19 @@ void ContactDetector::detect(const Positions& x, const Positions& displacements,
         std::find(renewed.begin(), renewed.end(), true) != renewed.end())
         search(renewed);
     const bool stands_still = displacements.isZero(0);
-    const Eigen::VectorXd moved = (x - region_.start).rowwise().norm();
+    const Eigen::VectorXd moved = (x - region_.start).rowwise().norm(), moves = displacements.rowwise().norm();
     pairs_ = parallel_collect<ContactPair>(candidates_.size(), [&](std::size_t i) -> std::optional<ContactPair> {
         const Candidate& c = candidates_[i];
-        const double near = (stands_still ? 0 : approach_bound(displacements, c.vertices, first_size(c.kind)))
-            + sum_of(margins, c.reason);
-        if (c.distance - travel_bound(moved, c.kind, c.vertices) > near)
+        const double least = c.distance - travel_bound(moved, c.kind, c.vertices), margin = sum_of(margins, c.reason);
+        if (least > travel_bound(moves, c.kind, c.vertices) + margin)  // most pairs; never less than the bound below
             return {};
-        const ClosestPoints at = closest_points(c.kind, corners_of(x, c.vertices));
+        const double near = (stands_still ? 0 : approach_bound(displacements, c.vertices, first_size(c.kind))) + margin;
+        if (least > near)
+            return {};
+        const Corners corners = corners_of(x, c.vertices);
+        if (are_surely_apart(c.kind, corners, near))
+            return {};
+        const ClosestPoints at = closest_points(c.kind, corners);
         if (at.distance > near)
             return {};
         return ContactPair { c.kind, c.reason, c.vertices, at };
