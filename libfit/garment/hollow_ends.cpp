@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "disjoint_sets.h"
 #include "garment_openings.h"
@@ -16,6 +17,7 @@
 #include "outer_sheet.h"
 #include "parallel.h"
 #include "plain_reading.h"
+#include "shut_neck.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -187,28 +189,10 @@ std::vector<std::vector<int>> faces_on(const std::vector<Hollow>& hollows, const
     return faces;
 }
 
-/// Of a garment through which no body passes.
-HollowEnds search_shut(const GarmentMesh& opened, const PlainReading& plain)
-{
-    GarmentWrap wrap = wrap_parts(plain);
-    const bool was_solid = is_solid(wrap);
-    if (!was_solid) {
-        if (sheets_of(wrap))
-            return {};
-        wrap = wrap_closed(plain);
-    }
-    const auto find = was_solid ? find_solid_ends : find_hollows;
-    const std::vector<Hollow> hollows = find(wrap.surface, outside_of(wrap));
-    if (hollows.size() + !was_solid < k_fewest_openings)
-        return {};
-    return { faces_on(hollows, wrap.surface, opened),
-             was_solid ? without_hollows(wrap.surface, hollows) : TriangleMesh() };
-}
-
 /// Where a hollow is, and where it opens.
 struct Place {
     Vec3 middle = Vec3::Zero(), axis = Vec3::Zero();  // m, unit
-    double area = 0;  // m^2
+    double area = 0, opening = 0;  // m^2, and of a disc that closes it
 };
 
 Place place_of(const Hollow& hollow, const TriangleMesh& surface)
@@ -223,20 +207,97 @@ Place place_of(const Hollow& hollow, const TriangleMesh& surface)
                 += area.norm() * Vec3(surface.positions(surface.triangles.row(f), Eigen::all).colwise().mean());
         }
     place.middle /= place.area;
+    place.opening = place.axis.norm();
     place.axis = place.axis.stableNormalized();
     return place;
 }
 
-/// Whether two hollows are alike, like mirror images, and outermost in the direction from one to the other, as both
-/// cuffs of a shirt are. Folds of a skirt are not.
+/// Whether two hollows are alike, like mirror images.
+bool are_mirrored(const Place& a, const Place& b, const Vec3& across)
+{
+    const Vec3 mirrored = a.axis - 2 * a.axis.dot(across) * across;
+    return std::max(a.area, b.area) < k_pair_areas * std::min(a.area, b.area) && mirrored.dot(b.axis) > k_pair_mirrored;
+}
+
+/// Where the trunk of a top is, by both sleeves and the hem. None if the hollows are not these three.
+std::optional<Trunk> trunk_between(const std::vector<Hollow>& hollows, const TriangleMesh& surface)
+{
+    if (hollows.size() != 3)
+        return {};
+    for (int hem = 0; hem < 3; ++hem) {
+        const Place low = place_of(hollows[hem], surface), left = place_of(hollows[(hem + 1) % 3], surface),
+                    right = place_of(hollows[(hem + 2) % 3], surface);
+        const Vec3 between = (left.middle + right.middle) / 2, across = (right.middle - left.middle).stableNormalized();
+        const double width = (right.middle - left.middle).norm();
+        if (low.area > std::max(left.area, right.area) && are_mirrored(left, right, across)
+            && std::abs((low.middle - between).dot(across)) < k_hem_off_middle * width
+            && (left.axis + right.axis).stableNormalized().dot(low.axis) > k_sleeves_with_hem)
+            return Trunk { low.middle, between, -(low.axis - low.axis.dot(across) * across).stableNormalized(),
+                           across,     width,   low.opening };
+    }
+    return {};
+}
+
+/// The faces of a surface that lie at some faces of the cloth in it.
+std::vector<int> faces_at(const std::vector<int>& part, const TriangleMesh& cloth, const TriangleMesh& surface)
+{
+    std::vector<char> is_part(std::size_t(cloth.triangles.rows()));
+    for (const int f : part)
+        is_part[f] = 1;
+    const TriangleTree tree(cloth);
+    std::vector<int> result;
+    for (int f = 0; f < int(surface.triangles.rows()); ++f) {
+        const Vec3 middle = surface.positions(surface.triangles.row(f), Eigen::all).colwise().mean();
+        if (is_part[tree.nearest_triangle(middle)->triangle])
+            result.push_back(f);
+    }
+    return result;
+}
+
+/// Opens the neck of a top of which only sleeves and hem are hollow.
+void add_shut_neck(std::vector<Hollow>& hollows, std::vector<std::vector<int>>& faces, const TriangleMesh& surface,
+                   const GarmentMesh& opened, const TriangleMesh& cloth)
+{
+    const std::optional<Trunk> trunk = trunk_between(hollows, surface);
+    if (!trunk)
+        return;
+    std::vector<int> neck = find_shut_neck(cloth, *trunk);
+    if (neck.empty())
+        return;
+    hollows.push_back({ faces_at(neck, cloth, surface), {} });
+    const std::vector<std::vector<int>> found = faces_on({ { std::move(neck), {} } }, cloth, opened);
+    faces.insert(faces.end(), found.begin(), found.end());
+}
+
+/// Of a garment through which no body passes.
+HollowEnds search_shut(const GarmentMesh& opened, const PlainReading& plain)
+{
+    GarmentWrap wrap = wrap_parts(plain);
+    const bool was_solid = is_solid(wrap);
+    if (!was_solid) {
+        if (sheets_of(wrap))
+            return {};
+        wrap = wrap_closed(plain);
+    }
+    const auto find = was_solid ? find_solid_ends : find_hollows;
+    std::vector<Hollow> hollows = find(wrap.surface, outside_of(wrap));
+    if (hollows.size() + !was_solid < k_fewest_openings)
+        return {};
+    std::vector<std::vector<int>> faces = faces_on(hollows, wrap.surface, opened);
+    if (!was_solid)
+        return { std::move(faces), {} };
+    add_shut_neck(hollows, faces, wrap.surface, opened, plain.outer);
+    return { std::move(faces), without_hollows(wrap.surface, hollows) };
+}
+
+/// Whether two hollows are a pair, and outermost in the direction from one to the other, as both cuffs of a shirt are.
+/// Folds of a skirt are not.
 bool are_pair(const Place& a, const Place& b, const TriangleMesh& surface)
 {
     const Vec3 across = (b.middle - a.middle).stableNormalized();
-    const Vec3 mirrored = a.axis - 2 * a.axis.dot(across) * across;
     const Eigen::VectorXd along = (surface.positions.rowwise() - a.middle.transpose()) * across;
     const double length = (b.middle - a.middle).norm();
-    return std::max(a.area, b.area) < k_pair_areas * std::min(a.area, b.area) && mirrored.dot(b.axis) > k_pair_mirrored
-        && b.axis.dot(across) > k_pair_outwards
+    return are_mirrored(a, b, across) && b.axis.dot(across) > k_pair_outwards
         && std::max(along.maxCoeff() - length, -along.minCoeff()) < k_pair_beyond * length;
 }
 

@@ -155,6 +155,23 @@ inline constexpr double k_pair_areas = 1.25, k_pair_mirrored = 0.9, k_pair_outwa
 /// shows one. fitted: guess, derived from a round opening's radius of 0.16.
 inline constexpr double k_in_opening = 0.2;
 
+// ---- necks that are filled flush (shut_neck.cpp) ------------------------------------------------------------------
+// fitted: guesses, on a sweater and a T-shirt made from pictures.
+
+/// rad: how far the faces of a patch may look from its axis, from a narrow limit to a wide one; and by how much a patch
+/// that a crease holds grows from one limit to the next. A smooth dome grows by 1.4 and more.
+inline constexpr std::array<double, 6> k_neck_angles { 0.25, 0.4, 0.55, 0.7, 0.85, 1.0 };
+inline constexpr double k_neck_growth = 1.25;
+/// Cosine between the trunk's axis and the neck; how far off the middle it is, as a share of the distance of the
+/// sleeves; how high its place is, as a share of the trunk's height.
+inline constexpr double k_neck_facing = 0.4, k_neck_off_middle = 0.06, k_neck_height = 0.75;
+/// Its least and largest area as shares of the hem's; its smallest spread over its largest; its area over that of an
+/// ellipse of the same spreads.
+inline constexpr double k_neck_least = 0.04, k_neck_most = 0.8, k_neck_roundness = 0.45, k_neck_filled = 0.85;
+/// Sleeves and hem of such a top: how far off the middle of the sleeves the hem is, as a share of their distance; cosine
+/// between the hem's axis and the sleeves', which of trousers' legs and waist is near -1.
+inline constexpr double k_hem_off_middle = 0.1, k_sleeves_with_hem = -0.5;
+
 // ---- lids and fillings (lids_and_fillings.cpp) --------------------------------------------------------------------
 
 /// fitted: guess, on three solids in clothes of web shops (0.13 to 0.5; a padded panel has 0.005), which no garment of

@@ -15,6 +15,8 @@
 #include "hollow_ends.h"
 #include "nearest.h"
 #include "outward_cloth.h"
+#include "shut_neck.h"
+#include "surface_measures.h"
 #include "used_vertices.h"
 
 namespace garmentfit {
@@ -149,6 +151,42 @@ TEST(SolidEnds, AreFlatAsWellAsHollow)
         EXPECT_EQ(count_openings(opened.outside), 4u) << edge;
     }
 }
+
+/// A T-shirt 0.6 m long as a solid with sloping shoulders, whose neck is filled up to a groove round it.
+/// @param groove  m, how wide; without any the shoulders meet in a ridge
+TriangleMesh tshirt_with_filled_neck(double groove)
+{
+    const auto solid = [&](const Vec3& p) {
+        const Vec3 along_sleeves(p.z(), std::abs(p.x()), p.y() - 0.45);
+        const double trunk = std::max(cylinder(p, 0, 0, 0.7, 0.2, 0.12), 0.85 * (p.y() + 0.6 * std::abs(p.x()) - 0.6));
+        const double shirt = std::min(trunk, cylinder(along_sleeves, 0, 0, 0.4, 0.075, 0.075));
+        const double round = std::hypot(p.x(), p.z()) - 0.07;
+        const double above = std::max(round - groove, 0.54 - p.y()), filling = std::max(round, p.y() - 0.56);
+        return groove == 0 ? shirt : std::min(std::max(shirt, -above), filling);
+    };
+    return fixtures::polygonise(solid, Vec3(-0.44, -0.06, -0.18), Vec3(0.44, 0.66, 0.18), 0.01);
+}
+
+std::vector<int> shut_neck_of(const TriangleMesh& tshirt)
+{
+    return find_shut_neck(tshirt, { Vec3(0, 0, 0), Vec3(0, 0.45, 0), Vec3::UnitY(), Vec3::UnitX(), 0.8, 0.075 });
+}
+
+TEST(ShutNeck, IsTheSmoothPatchInACollar)
+{
+    const TriangleMesh tshirt = tshirt_with_filled_neck(0.02);
+    const std::vector<int> neck = shut_neck_of(tshirt);
+    double covered = 0;  // m^2
+    for (const int f : neck) {
+        const Vec3 middle = tshirt.positions(tshirt.triangles.row(f), Eigen::all).colwise().mean();
+        EXPECT_LT(std::hypot(middle.x(), middle.z()), 0.08);
+        EXPECT_GT(middle.y(), 0.53);
+        covered += area_vector(tshirt.positions, tshirt.triangles, f).y();
+    }
+    EXPECT_NEAR(covered, 3.14 * 0.07 * 0.07, 0.15 * 3.14 * 0.07 * 0.07);
+}
+
+TEST(ShutNeck, IsNoneOfShouldersWithoutACollar) { EXPECT_TRUE(shut_neck_of(tshirt_with_filled_neck(0)).empty()); }
 
 TEST(SolidEnds, AreNoneOfACylinder)
 {
