@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -164,6 +165,29 @@ bool spans_opening(const TriangleMesh& mesh, const std::vector<int>& others, con
     return steep > k_lid_steep * all;
 }
 
+/// Whether all else lies on one side of a flat patch, apart from it, and is not much larger along it: the floor below a
+/// garment, or its shadow. Nothing holds it.
+bool is_floor(const TriangleMesh& mesh, const std::vector<int>& patch)
+{
+    const std::vector<int> own = used_vertices(mesh.triangles(patch, Eigen::all)), all = used_vertices(mesh.triangles);
+    const Positions flat = mesh.positions(own, Eigen::all);
+    const Eigen::RowVector3d middle = flat.colwise().mean();
+    const Positions away = flat.rowwise() - middle;
+    const Eigen::Matrix3d axes
+        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(away.transpose() * away).eigenvectors();  // the normal first
+    std::vector<int> rest;
+    std::set_difference(all.begin(), all.end(), own.begin(), own.end(), std::back_inserter(rest));
+    if (rest.empty())
+        return false;
+    const Positions others = (mesh.positions(rest, Eigen::all).rowwise() - middle) * axes, along = away * axes;
+    const auto length = [](const Positions& positions, int axis) {
+        return positions.col(axis).maxCoeff() - positions.col(axis).minCoeff();
+    };
+    const double gap = k_floor_gap * diagonal(others);
+    return (others.col(0).minCoeff() > gap || others.col(0).maxCoeff() < -gap)
+        && length(along, 1) > k_floor_size * length(others, 1) && length(along, 2) > k_floor_size * length(others, 2);
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> patches_of(const MeshTopology& topology, int faces)
@@ -253,18 +277,25 @@ std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::v
 
 std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches)
 {
-    std::vector<std::vector<int>> backdrops;
+    std::vector<std::vector<int>> flat, backdrops;
     Eigen::AlignedBox3d others;
     for (const std::vector<int>& patch : patches) {
         const std::vector<int> used = used_vertices(mesh.triangles(patch, Eigen::all));
         if (is_flat(mesh.positions(used, Eigen::all), k_flat_backdrop))
-            backdrops.push_back(patch);
+            flat.push_back(patch);
         else
             others.extend(box_of(mesh, patch));
     }
-    std::erase_if(backdrops, [&](const std::vector<int>& patch) {
-        return others.isEmpty() || box_of(mesh, patch).diagonal().norm() < k_backdrop_size * others.diagonal().norm();
-    });
+    if (others.isEmpty())
+        return {};
+    std::vector<std::vector<int>> floors;
+    for (const std::vector<int>& patch : flat)
+        if (box_of(mesh, patch).diagonal().norm() >= k_backdrop_size * others.diagonal().norm())
+            backdrops.push_back(patch);
+        else if (is_floor(mesh, patch))
+            floors.push_back(patch);
+    if (backdrops.empty() && floors.size() == 1)  // more are panels that lie round a body
+        return floors;
     return backdrops;
 }
 

@@ -29,7 +29,8 @@ std::vector<std::vector<int>> find_fillings(const TriangleMesh& mesh, const Mesh
 /// where they are.
 std::vector<std::vector<int>> find_specks(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
 
-/// Flat patches that are larger than all others together, floors among them.
+/// Flat patches that are larger than all others together; else one that lies apart from all others, on one side of them:
+/// a floor, or a shadow on it.
 std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std::vector<std::vector<int>>& patches);
 
 /// Lids: flat patches, sheets or slabs, whose rims lie at steep cloth, and whose middles are far from any. Those of many

@@ -184,6 +184,10 @@ inline constexpr double k_speck_size = 0.03, k_speck_gap = 0.02;
 /// fitted: guess, on a T-shirt before a backdrop of four times its size. Least extent of a backdrop by its largest, and
 /// its least diagonal by that of what is none: smaller flat pieces may be prints, labels or lids.
 inline constexpr double k_flat_backdrop = 1e-3, k_backdrop_size = 1.5;
+/// Of smaller ones that lie apart from all else, such as shadows on the floor: least distance, as a share of the diagonal
+/// of all else, and least extents by its along the same axes. fitted: guess, on a woman's top above its shadow (0.05;
+/// 0.6 and 2.6)
+inline constexpr double k_floor_gap = 0.01, k_floor_size = 0.5;
 /// fitted: guess, on six lids of three clothes of web shops. Lengths as shares of the mean of the half extents:
 /// smallest width as a share of the length, largest depth, area as a share of the rectangle around (an ellipse has
 /// 0.79); vertices beyond this share of the half extents are at the rim.

@@ -423,6 +423,8 @@ TEST(ClosedEnds, BackdropsAreLeftOut)
     for (const auto& [size, backdrops] : { std::pair(3.0, 1), std::pair(0.5, 0) }) {
         TriangleMesh scaled = flat;
         scaled.positions *= size;
+        if (backdrops == 0)
+            scaled.positions.col(1).array() += 0.3;  // through the cloth
         const TriangleMesh both = fixtures::joined(open, scaled);
         const OpenedGarment result = opened(both);
         EXPECT_EQ(result.left_out.backdrops, backdrops) << size;
@@ -430,6 +432,27 @@ TEST(ClosedEnds, BackdropsAreLeftOut)
                   both.triangles.rows() - backdrops * flat.triangles.rows());
     }
     EXPECT_EQ(opened(flat).left_out.backdrops, 0) << "nothing is left of it";
+}
+
+TEST(ClosedEnds, AFloorOrAShadowIsLeftOut)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none);
+    TriangleMesh shadow = fixtures::sheet(2, 1, [](double, double) { return 0; });
+    shadow.positions.rowwise() -= Eigen::RowVector3d(shadow.positions.colwise().mean());
+    const double width = open.positions.col(0).maxCoeff() - open.positions.col(0).minCoeff();
+    shadow.positions *= 1.2 * width / shadow.positions.col(2).maxCoeff() / 2;
+    const auto beside = [&](double below) {
+        TriangleMesh moved = shadow;
+        moved.positions.col(1).array() += open.positions.col(1).minCoeff() - below;
+        return moved;
+    };
+    EXPECT_EQ(opened(fixtures::joined(open, beside(0.02))).left_out.backdrops, 1);
+    EXPECT_EQ(opened(fixtures::joined(open, beside(-0.02))).left_out.backdrops, 0) << "it passes through the cloth";
+    TriangleMesh label = beside(0.02);
+    label.positions.leftCols(1) *= 0.1;
+    EXPECT_EQ(opened(fixtures::joined(open, label)).left_out.backdrops, 0) << "it is narrow";
+    EXPECT_EQ(opened(fixtures::joined(fixtures::joined(open, beside(0.02)), beside(-0.9))).left_out.backdrops, 0)
+        << "flat panels round a body";
 }
 
 /// The cloth stays where it is; the vertices behind it lie in one of its own.
