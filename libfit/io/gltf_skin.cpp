@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "garmentfit/error.h"
 #include "gltf_scene.h"
@@ -45,6 +46,8 @@ public:
         const std::vector<GltfSurface> surfaces = scene_.surfaces();
         for (const GltfSurface& surface : surfaces)
             add_joints(surface.node);
+        if (std::none_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint.has_value(); }))
+            add_joints_of_rigid_parts();
         add_nodes_between();
         if (below == NodesBelow::taken)
             add_nodes_below();
@@ -90,6 +93,19 @@ private:
                 file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
             joints_[std::size_t(joint)] = { joint_from_mesh * world_from_mesh.inverse(), place };
         }
+    }
+
+    /// Where no mesh has a skin, the file's skins still say which nodes are joints. Parts of a figure that hang on them
+    /// have no bind pose but the scene.
+    void add_joints_of_rigid_parts()
+    {
+        for (const tinygltf::Skin& skin : model_.skins)
+            for (const int joint : skin.joints) {
+                checked(file_, model_.nodes, joint, "node");
+                const Eigen::Affine3d& world_from_joint = scene_.world_from_node(joint);
+                if (const Vec3 place = world_from_joint.translation(); place.allFinite())
+                    joints_[std::size_t(joint)] = { world_from_joint.inverse(), place };
+            }
     }
 
     /// Of each node its children in the scene that are joints or have some below them.
@@ -258,7 +274,26 @@ private:
     FileSkin skin_;
 };
 
+bool hangs_on(const std::set<int>& joints, const GltfScene& scene, int node)
+{
+    while (node >= 0 && !joints.contains(node))
+        node = scene.parent(node);
+    return node >= 0;
+}
+
 }  // namespace
+
+bool shows_skeleton(const FileBytes& file, const tinygltf::Model& model)
+{
+    std::set<int> joints;
+    for (const tinygltf::Skin& skin : model.skins)
+        joints.insert(skin.joints.begin(), skin.joints.end());
+    const GltfScene scene(file, model);
+    const std::vector<GltfSurface> surfaces = scene.surfaces();
+    return std::any_of(surfaces.begin(), surfaces.end(), [&](const GltfSurface& surface) {
+        return model.nodes[std::size_t(surface.node)].skin >= 0 || hangs_on(joints, scene, surface.node);
+    });
+}
 
 double positive(double weight) { return weight > 0 && std::isfinite(weight) ? weight : 0; }
 

@@ -37,6 +37,10 @@ int count_unnormalized(const FileSkin& skin);
 /// no weight, or the goal, weapon or camera of an animator.
 enum class NodesBelow { left_out, taken };
 
+/// Whether the scene shows a mesh with a skin, or one that hangs on a joint of a skin: figures of rigid parts, each on its
+/// bone, have no other weights.
+bool shows_skeleton(const FileBytes& file, const tinygltf::Model& model);
+
 /// A mesh without a skin hangs on the joint above it; what hangs on none, or has no weight, follows the nearest vertex
 /// that has one. @throws InvalidInput: no skinned mesh, mangled
 FileSkin read_skin(const FileBytes& file, const tinygltf::Model& model, NodesBelow below = NodesBelow::left_out);

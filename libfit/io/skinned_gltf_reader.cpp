@@ -298,6 +298,12 @@ bool has_skin(const std::filesystem::path& path)
                        [](const tinygltf::Node& node) { return node.mesh >= 0 && node.skin >= 0; });
 }
 
+bool has_skeleton(const std::filesystem::path& path)
+{
+    const FileBytes file = read_file(path);
+    return shows_skeleton(file, load_model(file, read_plain_gltf(file, path.parent_path()), path.parent_path()));
+}
+
 ForeignRig read_skinned_gltf(const std::filesystem::path& path)
 {
     const FileBytes file = read_file(path);

@@ -327,8 +327,10 @@ private:
         const double forwards
             = (foot(legs[0].last) + foot(legs[1].last)).dot(front) / (legs[0].length + legs[1].length);
         left_leg_ = forwards > 0 ? 0 : 1;
-        left_arm_
-            = (tree_.place(arms[0].first) - tree_.place(arms[1].first)).dot(across) > 0 ? left_leg_ : 1 - left_leg_;
+        const auto upper_arm = [&](const Limb& arm) -> Vec3 {  // both may begin at one joint of the spine
+            return tree_.place(arm.first) + tree_.place(arm.middle);
+        };
+        left_arm_ = (upper_arm(arms[0]) - upper_arm(arms[1])).dot(across) > 0 ? left_leg_ : 1 - left_leg_;
         return std::abs(forwards) > k_least_foot;
     }
 

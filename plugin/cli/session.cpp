@@ -74,11 +74,9 @@ std::optional<Vec3> usual_up(const MeshFile& file)
     return is_gltf(file) && is_own ? std::optional<Vec3>(Vec3::UnitY()) : std::nullopt;
 }
 
-bool is_skinned(const MeshFile& file) { return is_gltf(file) && has_skin(file.path()); }
-
 OwnRig read_own_rig(const BodyFile& body)
 {
-    if (!is_skinned(body.file))
+    if (!is_gltf(body.file) || !has_skeleton(body.file.path()))
         return {};
     try {
         return { read_skinned_gltf(body.path), "" };

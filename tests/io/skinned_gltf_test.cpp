@@ -98,6 +98,39 @@ TEST_F(SkinnedParts, HangOnTheJointAboveWithoutASkin)
     EXPECT_TRUE((last.col(0).array() == ltibia).all()) << last.col(0).transpose();
 }
 
+TEST_F(SkinnedParts, OfARigidFigureHangOnTheirBones)
+{
+    edit([](json& document) {
+        json& nodes = document["nodes"];
+        const std::map<std::string, std::string> bones { { "body", "lowerback" }, { "shoes", "ltibia" } };
+        for (const auto& [part, bone] : bones) {
+            const int mesh = node_called(document, part);
+            nodes[std::size_t(mesh)].erase("skin");
+            json& roots = document["scenes"][0]["nodes"];
+            roots.erase(std::find(roots.begin(), roots.end(), json(mesh)));
+            nodes[std::size_t(node_called(document, bone))]["children"].push_back(mesh);
+        }
+    });
+    EXPECT_FALSE(has_skin(glb));
+    ASSERT_TRUE(has_skeleton(glb));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_EQ(read.loose_vertices, 0);
+    EXPECT_EQ((read.weights.bones.col(0).array() == lowerback).count(), body_rows());
+    EXPECT_EQ((read.weights.bones.col(0).array() == ltibia).count(), shoes.positions.rows());
+    for (const int b : { lfemur, rtibia, lhumerus, rradius })
+        EXPECT_LT((read.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 1e-5) << bone_name(b);
+}
+
+TEST_F(SkinnedParts, BesideASkeletonAreNoFigureOnIt)
+{
+    edit([](json& document) {
+        for (const char* part : { "body", "shoes" })
+            document["nodes"][std::size_t(node_called(document, part))].erase("skin");
+    });
+    EXPECT_FALSE(has_skeleton(glb));
+    fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "weight");
+}
+
 TEST_F(SkinnedParts, WithoutASkinAndAJointFollowWhatTheyLieAt)
 {
     edit([](json& document) { document["nodes"][std::size_t(node_called(document, "shoes"))].erase("skin"); });

@@ -192,6 +192,21 @@ TEST(JointsByTree, KnowsNoAxesAndNoUnits)
     }
 }
 
+TEST(JointsByTree, TellsArmsThatBeginAtOnePlaceByTheirElbows)
+{
+    for (const bool is_turned : { false, true }) {
+        Builder given({ .no_clavicles = true });
+        for (std::size_t j = 0; j < given.meant.size(); ++j)
+            if (given.meant[j] == "left shoulder" || given.meant[j] == "right shoulder")
+                given.joints.places[j].x() = 0;
+        if (is_turned)
+            for (std::vector<Vec3>* places : { &given.joints.places, &given.joints.centres })
+                for (Vec3& place : *places)
+                    place = Vec3(-place.x(), place.y(), -place.z());
+        expect_found(given, is_turned ? "facing back" : "facing front");
+    }
+}
+
 TEST(JointsByTree, DoesNotMindTheOrderOfJoints)
 {
     std::mt19937 random(3);

@@ -68,6 +68,10 @@ struct ForeignRig {
 /// Whether a glTF or GLB shows a mesh with a skin. @throws InvalidInput: missing, not glTF.
 GARMENTFIT_API bool has_skin(const std::filesystem::path& path);
 
+/// Whether a glTF or GLB shows a body on a skeleton: a mesh with a skin, or rigid parts that hang on joints of one.
+/// @throws InvalidInput: missing, not glTF.
+GARMENTFIT_API bool has_skeleton(const std::filesystem::path& path);
+
 /// All meshes of the scene are one body: joints of several skins are merged, and a mesh without a skin hangs on the
 /// joint above it. What hangs on none, or has no weight, follows the nearest vertex that has one. @throws InvalidInput: not glTF, no skin, joints that a human needs have no known names.
 GARMENTFIT_API ForeignRig read_skinned_gltf(const std::filesystem::path& path);
