@@ -315,24 +315,42 @@ std::optional<Outcome> run_refined(const Filter& filter, Scene& scene, const Par
     return end_of(scene);
 }
 
-/// A body of large triangles is dressed on a refined one, where that begins and ends in the input pose; where that does
-/// not end well, and it ends no worse as it is, as it is.
+/// On the refined body; where that does not end well, and it ends no worse as it is, as it is.
+void run_refined_first(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    Scene refined = scene;
+    const std::optional<Outcome> end = run_refined(filter, refined, parameters, progress);
+    const Progress again = progress.part(1, 1);
+    if (!end)
+        return run_stages(filter, scene, parameters, again);
+    const bool is_better = *end != Outcome::done && !progress.is_late()
+        && succeeds([&] { run_stages(filter, scene, parameters, again); }) && end_of(scene) <= *end;
+    if (!is_better)
+        scene = std::move(refined);
+}
+
+/// On the body as it is; where that does not end well, and it ends better on the refined one, on that.
+void run_refined_last(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    Scene refined = scene;
+    run_stages(filter, scene, parameters, progress);
+    if (end_of(scene) == Outcome::done || progress.is_late())
+        return;
+    const std::optional<Outcome> end = run_refined(filter, refined, parameters, progress.part(1, 1));
+    if (end && *end < end_of(scene))
+        scene = std::move(refined);
+}
+
+/// A body may be dressed on a refined one where that begins and ends in the input pose.
 void run_on_refined_body(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
-    if (!filter.has(Stage::drape) || !filter.has(Stage::recover) || !has_large_triangles(*scene.body))
+    if (!filter.has(Stage::drape) || !filter.has(Stage::recover) || !has_triangles_to_refine(*scene.body))
         return run_stages(filter, scene, parameters, progress);
     const double share = filter.has(Stage::rig) ? row(Stage::rig).share : 0;
     if (filter.has(Stage::rig))
         run_stages_once({ Stage::rig }, scene, parameters, progress.part(0, share));
-    const Filter known = filter.on_known_rig();
-    Scene refined = scene;
-    const std::optional<Outcome> end = run_refined(known, refined, parameters, progress.part(share, 1));
-    if (!end)
-        return run_stages(known, scene, parameters, progress.part(1, 1));
-    const bool is_better = *end != Outcome::done && !progress.is_late()
-        && succeeds([&] { run_stages(known, scene, parameters, progress.part(1, 1)); }) && end_of(scene) <= *end;
-    if (!is_better)
-        scene = std::move(refined);
+    const auto run = has_large_triangles(*scene.body) ? run_refined_first : run_refined_last;
+    run(filter.on_known_rig(), scene, parameters, progress.part(share, 1));
 }
 
 void run_at_human_size(const Filter& filter, Scene& scene, Parameters parameters, const Progress& progress)

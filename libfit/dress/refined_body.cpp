@@ -93,12 +93,11 @@ SkinWeights mean_weights(const SkinWeights& given, const std::vector<std::array<
     return strongest_four(dense.bottomRows(Eigen::Index(ends.size())));
 }
 
-}  // namespace
-
-bool has_large_triangles(const BodyMesh& body)
+/// Whether half of the surface or more is made of triangles with a longer edge.
+bool is_mostly_coarser(const TriangleMesh& surface, double edge)
 {
-    const auto& [positions, triangles] = body.surface;
-    double whole = 0, large = 0;
+    const auto& [positions, triangles] = surface;
+    double whole = 0, coarser = 0;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
         double longest = 0;
         for (int k = 0; k < 3; ++k)
@@ -106,10 +105,16 @@ bool has_large_triangles(const BodyMesh& body)
                 = std::max(longest, (positions.row(triangles(f, k)) - positions.row(triangles(f, (k + 1) % 3))).norm());
         const double area = area_vector(positions, triangles, f).norm();
         whole += area;
-        large += longest > k_large_triangle ? area : 0;
+        coarser += longest > edge ? area : 0;
     }
-    return large > whole / 2;
+    return coarser > whole / 2;
 }
+
+}  // namespace
+
+bool has_large_triangles(const BodyMesh& body) { return is_mostly_coarser(body.surface, k_large_triangle); }
+
+bool has_triangles_to_refine(const BodyMesh& body) { return is_mostly_coarser(body.surface, k_refined_edge); }
 
 RiggedBody refine_body(const BodyMesh& body, const Rig& rig)
 {

@@ -42,6 +42,17 @@ TEST(RefinedBody, IsOnlyForBodiesOfLargeTriangles)
     EXPECT_FALSE(has_large_triangles(make_body(mesh.positions, mesh.triangles)));
 }
 
+TEST(RefinedBody, HasNoTrianglesToRefine)
+{
+    const auto [body, rig] = coarse_person();
+    EXPECT_TRUE(has_triangles_to_refine(body));
+    EXPECT_FALSE(has_triangles_to_refine(refine_body(body, rig).body));
+    const TriangleMesh middle = proxy_surface(capsule_person({ .arm_angle = 20 }).mesh, 800);
+    const BodyMesh between = make_body(middle.positions, middle.triangles);
+    EXPECT_TRUE(has_triangles_to_refine(between));
+    EXPECT_FALSE(has_large_triangles(between));
+}
+
 TEST(RefinedBody, IsTheSameSurfaceOfSmallTriangles)
 {
     const auto [body, rig] = coarse_person();

@@ -355,29 +355,48 @@ TriangleMesh coarsened(const TriangleMesh& mesh, double cell)
     return result;
 }
 
-TEST(Filters, DressABodyOfLargeTrianglesOnARefinedOne)
+/// A person of coarse skin, and a shirt this far off the skin.
+Scene scene_of_coarse_person(double edge, double ease)
 {
-    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 60 });
-    const TriangleMesh coarse = coarsened(person.mesh, 0.11);
+    const TriangleMesh coarse = coarsened(fixtures::capsule_person({ .arm_angle = 60 }).mesh, edge);
+    const TriangleMesh shirt
+        = fixtures::garment_round(fixtures::person_skeleton({ .arm_angle = 20 }), ease,
+                                  [](const Vec3& p) { return p.y() > 0.9 && p.y() < 1.47 && std::abs(p.x()) < 0.4; });
     Scene scene;
     scene.body = make_body(coarse.positions, coarse.triangles);
-    ASSERT_TRUE(has_large_triangles(*scene.body));
-    const TriangleMesh shirt
-        = fixtures::garment_round(fixtures::person_skeleton({ .arm_angle = 20 }), 0.03,
-                                  [](const Vec3& p) { return p.y() > 0.9 && p.y() < 1.47 && std::abs(p.x()) < 0.4; });
     scene.garments = { { make_garment(shirt.positions, shirt.triangles), GarmentType::tshirt, "shirt.obj" } };
+    return scene;
+}
+
+TEST(Filters, DressABodyOfLargeTrianglesOnARefinedOne)
+{
+    Scene scene = scene_of_coarse_person(0.11, 0.03);
+    ASSERT_TRUE(has_large_triangles(*scene.body));
+    const Positions given = scene.body->surface.positions;
     Parameters parameters;
     parameters.recover.quality = Quality::draft;
     parameters.recover.frames = 3;
     filter_of("dress").run(scene, parameters);
     ASSERT_TRUE(scene.recovered);
     EXPECT_TRUE(scene.recovered->certified);
-    EXPECT_EQ(scene.recovered->body, coarse.positions);
-    EXPECT_EQ(scene.body->surface.positions, coarse.positions);
-    EXPECT_EQ(scene.rig->weights.weights.rows(), coarse.positions.rows());
-    EXPECT_EQ(scene.draped->body.rows(), coarse.positions.rows());
+    EXPECT_EQ(scene.recovered->body, given);
+    EXPECT_EQ(scene.body->surface.positions, given);
+    EXPECT_EQ(scene.rig->weights.weights.rows(), given.rows());
+    EXPECT_EQ(scene.draped->body.rows(), given.rows());
     ASSERT_FALSE(scene.recovered->frames.empty());
-    EXPECT_EQ(scene.recovered->frames.back().body, coarse.positions);
+    EXPECT_EQ(scene.recovered->frames.back().body, given);
+}
+
+TEST(Filters, KeepTheVerdictOnABodyThatARefinedOneIsNoBetterThan)
+{
+    Scene scene = scene_of_coarse_person(0.07, -0.02);
+    ASSERT_TRUE(has_triangles_to_refine(*scene.body) && !has_large_triangles(*scene.body));
+    const Positions given = scene.body->surface.positions;
+    filter_of("dress").run(scene, {});
+    ASSERT_TRUE(final_dressing(scene));
+    EXPECT_EQ(outcome_of(*final_dressing(scene)), Outcome::too_small);
+    EXPECT_EQ(final_dressing(scene)->body.rows(), given.rows());
+    EXPECT_EQ(scene.body->surface.positions, given);
 }
 
 TEST(Documentation, ParameterTablesAreCurrent)

@@ -17,6 +17,9 @@ namespace garmentfit {
 /// Whether half of the surface or more is made of large triangles, on a body of human size.
 GARMENTFIT_API bool has_large_triangles(const BodyMesh& body);
 
+/// Whether half of it or more is made of triangles that refining divides.
+GARMENTFIT_API bool has_triangles_to_refine(const BodyMesh& body);
+
 struct RiggedBody {
     BodyMesh body;
     Rig rig;
