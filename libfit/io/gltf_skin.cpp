@@ -102,9 +102,10 @@ private:
         for (const tinygltf::Skin& skin : model_.skins)
             for (const int joint : skin.joints) {
                 checked(file_, model_.nodes, joint, "node");
-                const Eigen::Affine3d& world_from_joint = scene_.world_from_node(joint);
-                if (const Vec3 place = world_from_joint.translation(); place.allFinite())
-                    joints_[std::size_t(joint)] = { world_from_joint.inverse(), place };
+                const Eigen::Affine3d world_from_joint = scene_.world_from_node(joint),
+                                      joint_from_world = world_from_joint.inverse();
+                if (joint_from_world.matrix().allFinite())  // else the scene shows it flat
+                    joints_[std::size_t(joint)] = { joint_from_world, world_from_joint.translation() };
             }
     }
 

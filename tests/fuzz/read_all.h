@@ -57,9 +57,10 @@ inline void require_round_trip(const MeshFile& mesh, const std::filesystem::path
 inline void read_skin(const MeshFile& mesh)
 {
     is_vrm(mesh.path());
-    if (!has_skin(mesh.path()))
+    if (!has_skeleton(mesh.path()))
         return;
-    require(read_joint_weights(mesh.path()).rows() == mesh.positions().rows(), "that each vertex has weights");
+    if (has_skin(mesh.path()))
+        require(read_joint_weights(mesh.path()).rows() == mesh.positions().rows(), "that each vertex has weights");
     const ForeignRig rig = read_skinned_gltf(mesh.path());
     require(rig.weights.weights.rows() == mesh.positions().rows(), "that each vertex has weights of bones");
     require(rig.weights.weights.allFinite(), "that weights are finite");
