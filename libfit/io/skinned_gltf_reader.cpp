@@ -195,8 +195,11 @@ private:
         const Vec3 between_hips = 0.5 * (skeleton_.tail(lhipjoint) + skeleton_.tail(rhipjoint));
         const Vec3 trunk = skeleton_.tail(thorax) - between_hips;
         const double share = (skeleton_.root - between_hips).dot(trunk) / trunk.squaredNorm();
-        if (share < 0)
-            skeleton_.root -= share * trunk;
+        if (share >= 0)
+            return;
+        skeleton_.root -= share * trunk;
+        const Vec3 across = (skeleton_.tail(lhipjoint) - skeleton_.tail(rhipjoint)).normalized();
+        skeleton_.root -= (skeleton_.root - between_hips).dot(across) * across;  // the scene's node may lie anywhere
     }
 
     /// Where a head hangs on the trunk, from the shoulders on.

@@ -309,7 +309,7 @@ TEST_F(SkinnedGltf, APelvisBelowTheHipsIsRaisedToThem)
 {
     Rig low = fixtures::nearest_rig(person);
     const auto between_hips = [](const Skeleton& s) { return Vec3(0.5 * (s.tail(lhipjoint) + s.tail(rhipjoint))); };
-    low.skeleton.root = between_hips(low.skeleton) - Vec3(0, 0.12, 0);
+    low.skeleton.root = between_hips(low.skeleton) - Vec3(0.1, 0.12, 0);
     write_outfit_glb(glb, low, { { "body", person.mesh, low.weights } }, { BoneNames::mixamo });
     const Skeleton raised = read_skinned_gltf(glb).skeleton;
     EXPECT_NEAR(raised.root.y(), between_hips(raised).y(), 0.005);
