@@ -7,6 +7,7 @@
 #include "collision_free_step.h"
 #include "distinct_contacts.h"
 #include "garmentfit/stopwatch.h"
+#include "parallel.h"
 #include "preconditioned_cg.h"
 #include "stall_detector.h"
 
@@ -225,55 +226,54 @@ ClothMotion::Barrier ClothMotion::barrier_at(const ActiveContact& contact, doubl
 }
 
 // A contact that is too close is pushed to its rest distance along the normal, and held against slipping by Coulomb's
-// law.
+// law. None where it is not.
+std::optional<SoftConstraint> ClothMotion::contact_constraint(const ActiveContact& contact, const Positions& targets,
+                                                              const MotionStep& step) const
+{
+    const Vec3& normal = contact.normal;
+    SoftConstraint constraint { contact.pair.vertices, contact.pair.at.weights, Vec3::Zero(), normal, 0, 0 };
+    Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) {
+        const int v = constraint.vertices[k];
+        before += constraint.weights[k] * x_.row(v).transpose();
+        now += constraint.weights[k] * targets.row(v).transpose();
+        if (v >= cloth_vertices_) {
+            obstacle += constraint.weights[k] * targets.row(v).transpose();
+            constraint.vertices[k] = -1;
+        }
+    }
+    const double depth = contact.rest_distance - normal.dot(now);
+    if (depth <= 0 || (!contact.is_guard && passes_by(contact, targets)))
+        return {};
+    const Material material = material_at(contact.pair);
+    const double area_share = step.contact_area > 0 ? area_at(contact.pair) / step.contact_area : 1;
+    const double contact_stiffness = step.contact_stiffness * material.stretch_stiffness * area_share;
+    // The linear contact that has the force and the stiffness of the soft one here.
+    double rest_distance = contact.rest_distance - 0.5 * std::min(depth, step.contact_softening);
+    constraint.normal_stiffness = contact_stiffness * std::min(1.0, depth / step.contact_softening);
+    if (step.barrier > 0) {
+        const double gap = normal.dot(now);
+        const Barrier barrier = barrier_at(contact, gap, normal.dot(before), step);
+        // in proportion to the area, it could not carry what the cloth beside a small detail pulls with
+        const double stiffness = std::max(contact_stiffness, step.contact_stiffness * material.stretch_stiffness);
+        const double force = constraint.normal_stiffness * (rest_distance - gap) + stiffness * barrier.length;
+        constraint.normal_stiffness += stiffness * barrier.slope;
+        rest_distance = gap + force / constraint.normal_stiffness;
+    }
+    const Vec3 slip = contact.stored_slip + (now - before) - (now - before).dot(normal) * normal;
+    const double slipped = slip.norm(), friction = step.friction_fraction * material.friction;
+    constraint.tangent_stiffness = constraint.normal_stiffness
+        * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
+    constraint.target
+        = rest_distance * normal + (before - before.dot(normal) * normal) - contact.stored_slip - obstacle;
+    return constraint;
+}
+
 std::vector<SoftConstraint> ClothMotion::contact_constraints(const std::vector<ActiveContact>& contacts,
                                                              const Positions& targets, const MotionStep& step) const
 {
-    std::vector<SoftConstraint> result;
-    for (const ActiveContact& contact : contacts) {
-        const Material material = material_at(contact.pair);
-        double contact_stiffness = step.contact_stiffness * material.stretch_stiffness;
-        if (step.contact_area > 0)
-            contact_stiffness *= area_at(contact.pair) / step.contact_area;
-        const double friction = step.friction_fraction * material.friction;
-        const Vec3& normal = contact.normal;
-        SoftConstraint constraint { contact.pair.vertices, contact.pair.at.weights,
-                                    Vec3::Zero(),          normal,
-                                    contact_stiffness,     0 };
-        Vec3 before = Vec3::Zero(), now = Vec3::Zero(), obstacle = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) {
-            const int v = constraint.vertices[k];
-            before += constraint.weights[k] * x_.row(v).transpose();
-            now += constraint.weights[k] * targets.row(v).transpose();
-            if (v >= cloth_vertices_) {
-                obstacle += constraint.weights[k] * targets.row(v).transpose();
-                constraint.vertices[k] = -1;
-            }
-        }
-        const double depth = contact.rest_distance - normal.dot(now);
-        if (depth <= 0 || (!contact.is_guard && passes_by(contact, targets)))
-            continue;
-        // The linear contact that has the force and the stiffness of the soft one here.
-        double rest_distance = contact.rest_distance - 0.5 * std::min(depth, step.contact_softening);
-        constraint.normal_stiffness *= std::min(1.0, depth / step.contact_softening);
-        if (step.barrier > 0) {
-            const double gap = normal.dot(now);
-            const Barrier barrier = barrier_at(contact, gap, normal.dot(before), step);
-            // in proportion to the area, it could not carry what the cloth beside a small detail pulls with
-            const double stiffness = std::max(contact_stiffness, step.contact_stiffness * material.stretch_stiffness);
-            const double force = constraint.normal_stiffness * (rest_distance - gap) + stiffness * barrier.length;
-            constraint.normal_stiffness += stiffness * barrier.slope;
-            rest_distance = gap + force / constraint.normal_stiffness;
-        }
-        const Vec3 slip = contact.stored_slip + (now - before) - (now - before).dot(normal) * normal;
-        const double slipped = slip.norm();
-        constraint.tangent_stiffness = constraint.normal_stiffness
-            * (slipped > 0 ? std::min(1.0, friction * depth / slipped) : 1.0) * (friction > 0);
-        constraint.target
-            = rest_distance * normal + (before - before.dot(normal) * normal) - contact.stored_slip - obstacle;
-        result.push_back(constraint);
-    }
-    return result;
+    return parallel_collect<SoftConstraint>(
+        contacts.size(), [&](std::size_t i) { return contact_constraint(contacts[i], targets, step); });
 }
 
 // The spring of a contact that slides stays stretched as far as friction holds it.

@@ -132,6 +132,8 @@ private:
     Material material_at(const ContactPair& pair) const;
     double area_at(const ContactPair& pair) const;
     Barrier barrier_at(const ActiveContact& contact, double gap, double gap_before, const MotionStep& step) const;
+    std::optional<SoftConstraint> contact_constraint(const ActiveContact& contact, const Positions& targets,
+                                                     const MotionStep& step) const;
     std::vector<SoftConstraint> contact_constraints(const std::vector<ActiveContact>& contacts,
                                                     const Positions& targets, const MotionStep& step) const;
     void remember_slips(const std::vector<ActiveContact>& contacts, const Positions& before, const MotionStep& step);
