@@ -360,25 +360,51 @@ std::optional<Dressing> run_leaders(const DressingStage& stage, const Scene& led
     return std::move(leaders.*stage.output);
 }
 
-/// Runs a stage with stand-ins in the places of garments that need one, or are dressed faster with one.
-void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress)
+struct Followed {
+    Dressing dressing;
+    bool led_well;
+};
+
+/// Leads the stand-ins through a stage, and the garments after them.
+Followed lead_and_follow(const DressingStage& stage, const Scene& scene, const Parameters& p, const Progress& progress)
 {
-    if (!find_stand_ins(scene))
-        return stage.run(scene, p, progress);
     Scene led = lead(scene);
-    const bool is_rough = is_led_roughly(scene);
-    if (is_rough)
+    if (is_led_roughly(scene))
         stage.run(led, for_rough_cloth(p), progress.part(0, k_progress_of_leading));
     else
         led.*stage.output = run_leaders(stage, led, p, progress);
     const std::vector<std::size_t> order = worn_from_inside_out(scene, *(led.*stage.output));
     const bool led_well = (led.*stage.output)->certified;
     const ClothOptions& cloth = stage.stage == Stage::drape ? p.drape.cloth : p.recover.cloth;
-    Dressing dressing = follow_stand_ins({ scene, led, order, stage.is_on_the_way && led_well },
-                                         *std::move(led.*stage.output), cloth, progress);
-    if (led_well && !dressing.certified && progress.is_late())
-        dressing.out_of_time = stage.stage;
-    scene.*stage.output = std::move(dressing);
+    return { follow_stand_ins({ scene, led, order, stage.is_on_the_way && led_well }, *std::move(led.*stage.output),
+                              cloth, progress),
+             led_well };
+}
+
+/// Once more as draft quality has it, if that is certified: where stand-ins lie at rest, garments may not be able to
+/// follow without crossing, though they are where these only hang.
+void follow_before_rest(const DressingStage& stage, const Scene& scene, Parameters p, Followed& followed,
+                        const Progress& progress)
+{
+    p.recover.quality = Quality::draft;
+    if (Followed earlier = lead_and_follow(stage, scene, p, progress); earlier.dressing.certified)
+        followed = std::move(earlier);
+}
+
+/// Runs a stage with stand-ins in the places of garments that need one, or are dressed faster with one.
+void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Parameters& p, const Progress& progress)
+{
+    if (!find_stand_ins(scene))
+        return stage.run(scene, p, progress);
+    const bool is_rough = is_led_roughly(scene),
+               finds_rest = stage.stage == Stage::recover && !is_rough && p.recover.quality != Quality::draft;
+    Followed followed = lead_and_follow(stage, scene, p, progress);
+    const auto has_failed = [&] { return followed.led_well && !followed.dressing.certified; };
+    if (finds_rest && has_failed() && !progress.is_late())
+        follow_before_rest(stage, scene, p, followed, progress.part(1, 1));
+    if (has_failed() && progress.is_late())
+        followed.dressing.out_of_time = stage.stage;
+    scene.*stage.output = std::move(followed.dressing);
     if (is_rough && !stage.is_on_the_way && has_arrived(*(scene.*stage.output)))
         find_own_rest(stage, scene, p, progress.part(k_progress_of_leading, 1));
 }
