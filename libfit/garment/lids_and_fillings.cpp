@@ -87,6 +87,19 @@ std::vector<std::vector<int>> joined_where_near(const TriangleMesh& mesh, const 
 
 // ---- lids ----------------------------------------------------------------------------------------------------------
 
+/// The middle of points, and their principal axes; they spread least along the first.
+struct Frame {
+    Eigen::RowVector3d mean;
+    Eigen::Matrix3d axes;
+};
+
+Frame frame_of(const Positions& points)
+{
+    const Eigen::RowVector3d mean = points.colwise().mean();
+    const Positions about = points.rowwise() - mean;
+    return { mean, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(about.transpose() * about).eigenvectors() };
+}
+
 /// A patch as it lies in its own plane.
 struct Disc {
     Vec3 centre, normal;
@@ -102,11 +115,8 @@ Disc disc_of(const TriangleMesh& mesh, const std::vector<int>& faces, bool is_sl
     for (const int f : faces)
         used.insert(mesh.triangles.row(f).begin(), mesh.triangles.row(f).end());
     const Positions points = mesh.positions(std::vector<int>(used.begin(), used.end()), Eigen::all);
-    const Eigen::RowVector3d mean = points.colwise().mean();
-    const Positions about = points.rowwise() - mean;
-    const Eigen::Matrix3d axes
-        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(about.transpose() * about).eigenvectors();
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> along = about * axes;
+    const auto [mean, axes] = frame_of(points);
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> along = (points.rowwise() - mean) * axes;
     const Eigen::RowVector3d low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
     Disc disc;
     disc.centre = mean.transpose() + axes * (0.5 * (low + high)).transpose();
@@ -165,21 +175,36 @@ bool spans_opening(const TriangleMesh& mesh, const std::vector<int>& others, con
     return steep > k_lid_steep * all;
 }
 
+/// Whether all vertices but a patch's own lie on one side of a plane.
+bool are_on_one_side(const Positions& positions, const std::vector<int>& all, const std::vector<int>& own,
+                     const Frame& plane)
+{
+    bool any_above = false, any_below = false;
+    for (const int v : all) {
+        if (std::binary_search(own.begin(), own.end(), v))
+            continue;
+        const double height = (positions.row(v) - plane.mean).dot(plane.axes.col(0));
+        (height > 0 ? any_above : any_below) = true;
+        if (any_above && any_below)
+            return false;
+    }
+    return any_above || any_below;
+}
+
 /// Whether all else lies on one side of a flat patch, apart from it, and is not much larger along it: the floor below a
 /// garment, or its shadow. Nothing holds it.
-bool is_floor(const TriangleMesh& mesh, const std::vector<int>& patch)
+/// @param all  used vertices of the mesh. There may be thousands of flat patches: most lie amid the others.
+bool is_floor(const TriangleMesh& mesh, const std::vector<int>& all, const std::vector<int>& patch)
 {
-    const std::vector<int> own = used_vertices(mesh.triangles(patch, Eigen::all)), all = used_vertices(mesh.triangles);
+    const std::vector<int> own = used_vertices(mesh.triangles(patch, Eigen::all));
     const Positions flat = mesh.positions(own, Eigen::all);
-    const Eigen::RowVector3d middle = flat.colwise().mean();
-    const Positions away = flat.rowwise() - middle;
-    const Eigen::Matrix3d axes
-        = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(away.transpose() * away).eigenvectors();  // the normal first
+    const Frame frame = frame_of(flat);
+    if (!are_on_one_side(mesh.positions, all, own, frame))
+        return false;
     std::vector<int> rest;
     std::set_difference(all.begin(), all.end(), own.begin(), own.end(), std::back_inserter(rest));
-    if (rest.empty())
-        return false;
-    const Positions others = (mesh.positions(rest, Eigen::all).rowwise() - middle) * axes, along = away * axes;
+    const Positions others = (mesh.positions(rest, Eigen::all).rowwise() - frame.mean) * frame.axes,
+                    along = (flat.rowwise() - frame.mean) * frame.axes;
     const auto length = [](const Positions& positions, int axis) {
         return positions.col(axis).maxCoeff() - positions.col(axis).minCoeff();
     };
@@ -288,11 +313,12 @@ std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std
     }
     if (others.isEmpty())
         return {};
+    const std::vector<int> all = used_vertices(mesh.triangles);
     std::vector<std::vector<int>> floors;
     for (const std::vector<int>& patch : flat)
         if (box_of(mesh, patch).diagonal().norm() >= k_backdrop_size * others.diagonal().norm())
             backdrops.push_back(patch);
-        else if (is_floor(mesh, patch))
+        else if (is_floor(mesh, all, patch))
             floors.push_back(patch);
     if (backdrops.empty() && floors.size() == 1)  // more are panels that lie round a body
         return floors;
