@@ -15,19 +15,19 @@
 namespace garmentfit {
 namespace {
 
-double largest_stretch(const Dressing& end)
+// Short edges that are pinched, such as those of a button's rim, are no tears.
+bool is_torn(const Dressing& end)
 {
-    double largest = 0;
-    for (const Overstretch& stretch : end.overstretches)
-        largest = std::max(largest, stretch.largest);
-    return largest;
+    return std::any_of(end.overstretches.begin(), end.overstretches.end(), [&](const Overstretch& stretch) {
+        return stretch.largest > k_torn && stretch.longer * end.to_human_size > k_torn_length;
+    });
 }
 
 double furthest_slip(const Dressing& end)
 {
     double furthest = 0;
     for (const WornGarment& garment : end.garments)
-        furthest = std::max(furthest, garment.slipped);
+        furthest = std::max(furthest, garment.slipped * end.to_human_size);
     return furthest;
 }
 
@@ -59,7 +59,7 @@ End end_of(const Scene& scene)
         return End::refused;
     if (outcome_of(*end) != Outcome::done)
         return outcome_of(*end) == Outcome::too_small ? End::too_small : End::not_certified;
-    return largest_stretch(*end) <= k_torn && furthest_slip(*end) <= k_slipped ? End::worn : End::torn_or_slipped;
+    return is_torn(*end) || furthest_slip(*end) > k_slipped ? End::torn_or_slipped : End::worn;
 }
 
 // The garment with the tightest part, or the one that was put on last; without an end, the one that was refused.
@@ -103,7 +103,7 @@ std::string reason_against(const Scene& scene, std::size_t garment)
         return explain(end, names_of(scene));
     if (const double size = size_of(scene, garment); is_another_size(size))
         return "it has to be " + std::to_string(std::lround(100 * (size - 1))) + "% larger";
-    return largest_stretch(end) > k_torn ? "the cloth is stretched too far" : "it slips down";
+    return is_torn(end) ? "the cloth is stretched too far" : "it slips down";
 }
 
 // Both then count for the second one, which keeps the more probable name.

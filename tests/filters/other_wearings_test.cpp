@@ -158,6 +158,19 @@ TEST(OtherWearings, AreLessPlausibleTheLargerTheGarmentHasToBe)
     EXPECT_LT(plausibility(0.5, End::worn, 1.7), 0.05 * 0.5);
 }
 
+TEST(OtherWearings, AreNotTriedWhereOnlyShortEdgesArePinched)
+{
+    Trial trial({ { 0.5, End::worn }, { 0.5, End::worn, -Vec3::UnitZ() } });
+    Overstretch& stretch = trial.scene.draped->overstretches[0];
+    stretch.largest = 2.1;
+    stretch.longer = 0.004;
+    trial.run();
+    EXPECT_EQ(trial.draped, 0);
+    stretch.longer = 0.04;
+    trial.run();
+    EXPECT_EQ(trial.draped, 1);
+}
+
 TEST(OtherWearings, ThatFellOffOrTornDoNotReplaceAMoreProbableOne)
 {
     Trial trial({ { 0.5, End::too_small }, { 0.45, End::torn_or_slipped, -Vec3::UnitZ() } });
