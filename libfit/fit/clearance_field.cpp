@@ -16,7 +16,7 @@ constexpr double k_max_nodes = 4e6;  // unit: a limit of memory; a garment far t
 
 }  // namespace
 
-ClearanceField::Parts ClearanceField::parts_of(const TriangleMesh& outward)
+ClearanceField::Parts ClearanceField::parts_of(const TriangleMesh& outward, const TriangleMesh& lids)
 {
     std::optional<ClothTree> tree;
     std::optional<CrossingTree> triangles;
@@ -24,12 +24,15 @@ ClearanceField::Parts ClearanceField::parts_of(const TriangleMesh& outward)
         if (part == 0)
             triangles.emplace(outward);
         else
-            tree.emplace(cloth_patches(outward, k_patch_size));
+            tree.emplace(cloth_patches(outward, k_patch_size), cloth_patches(lids, k_patch_size));
     });
     return { *std::move(tree), *std::move(triangles) };
 }
 
-ClearanceField::ClearanceField(const TriangleMesh& outward) : ClearanceField(outward, parts_of(outward)) { }
+ClearanceField::ClearanceField(const TriangleMesh& outward, const TriangleMesh& lids) :
+    ClearanceField(outward, parts_of(outward, lids))
+{
+}
 
 ClearanceField::ClearanceField(const TriangleMesh& outward, Parts parts) :
     low_(outward.positions.colwise().minCoeff()), high_(outward.positions.colwise().maxCoeff()),

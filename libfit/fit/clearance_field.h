@@ -17,7 +17,8 @@ namespace garmentfit {
 class ClearanceField {
 public:
     /// @param outward  from outward_cloth
-    explicit ClearanceField(const TriangleMesh& outward);
+    /// @param lids  what closes openings, facing outwards: behind it is inside, as behind cloth
+    explicit ClearanceField(const TriangleMesh& outward, const TriangleMesh& lids = {});
 
     Clearance at(const Vec3& point) const;  ///< trilinear
     bool crosses(const Vec3& from, const Vec3& to) const;  ///< by the triangles, exact
@@ -34,7 +35,7 @@ private:
         CrossingTree triangles;
     };
     ClearanceField(const TriangleMesh& outward, Parts parts);
-    static Parts parts_of(const TriangleMesh& outward);
+    static Parts parts_of(const TriangleMesh& outward, const TriangleMesh& lids);
 
     /// ClothTree::k nodes along each axis are computed together.
     struct Block {

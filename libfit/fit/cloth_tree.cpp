@@ -46,6 +46,8 @@ float softened_angle(const ClothPatch& patch, const Eigen::Vector3f& query)
 
 std::vector<ClothPatch> cloth_patches(const TriangleMesh& outward, double cell)
 {
+    if (outward.triangles.rows() == 0)
+        return {};
     const Vec3 low = outward.positions.colwise().minCoeff(), size = Vec3(outward.positions.colwise().maxCoeff()) - low;
     cell = std::max(cell, std::cbrt(size.prod() / k_largest_grid));
     const Eigen::Vector3i cells = (size / cell).cast<int>() + Eigen::Vector3i::Ones();
@@ -97,10 +99,14 @@ ClothTree::Ball ClothTree::ball_of(std::span<const ClothPatch> patches)
     return ball;
 }
 
-ClothTree::ClothTree(std::vector<ClothPatch> patches) :
-    tree_(
-        std::move(patches), k_leaf_size, [](const ClothPatch& patch) -> const Eigen::Vector3f& { return patch.centre; },
-        ball_of)
+ClothTree::Tree ClothTree::tree_of(std::vector<ClothPatch> patches)
+{
+    return { std::move(patches), k_leaf_size,
+             [](const ClothPatch& patch) -> const Eigen::Vector3f& { return patch.centre; }, ball_of };
+}
+
+ClothTree::ClothTree(std::vector<ClothPatch> patches, std::vector<ClothPatch> lids) :
+    tree_(tree_of(std::move(patches))), lids_(tree_of(std::move(lids)))
 {
 }
 
@@ -120,10 +126,15 @@ float ClothTree::distance(const Vec3& query) const
 float ClothTree::winding(const Vec3& query) const
 {
     const Eigen::Vector3f q = query.cast<float>();
+    return (angle(tree_, q) + angle(lids_, q)) / (4 * k_pi);
+}
+
+float ClothTree::angle(const Tree& tree, const Eigen::Vector3f& query)
+{
     float angle = 0;
-    tree_.walk(
+    tree.walk(
         [&](const Ball& ball) {
-            const Eigen::Vector3f to = ball.centre - q;
+            const Eigen::Vector3f to = ball.centre - query;
             const float squared = to.squaredNorm(), far = k_far_dipole * ball.radius;
             if (!(squared > far * far && squared > ball.size))
                 return true;
@@ -131,11 +142,11 @@ float ClothTree::winding(const Vec3& query) const
             return false;
         },
         [&](const Ball& leaf) {
-            for (const ClothPatch& patch : tree_.items(leaf))
-                angle += softened_angle(patch, q);
+            for (const ClothPatch& patch : tree.items(leaf))
+                angle += softened_angle(patch, query);
             return true;
         });
-    return angle / (4 * k_pi);
+    return angle;
 }
 
 struct ClothTree::Nodes {
@@ -229,10 +240,10 @@ ClothTree::Values ClothTree::squared_distances(const Nodes& nodes) const
     return squared;
 }
 
-ClothTree::Values ClothTree::angles(const Nodes& nodes) const
+ClothTree::Values ClothTree::angles(const Tree& tree, const Nodes& nodes)
 {
     Values angles = Values::Zero();
-    tree_.walk(
+    tree.walk(
         [&](const Ball& ball) {
             const float distance = (ball.centre - nodes.centre).norm() - nodes.radius;
             if (!(distance > k_far_dipole * ball.radius && distance > std::sqrt(ball.size)))
@@ -241,7 +252,7 @@ ClothTree::Values ClothTree::angles(const Nodes& nodes) const
             return false;
         },
         [&](const Ball& leaf) {
-            for (const ClothPatch& patch : tree_.items(leaf))
+            for (const ClothPatch& patch : tree.items(leaf))
                 angles += nodes.angles(patch.area_vector, patch.centre, patch.area_vector.norm() / k_pi);
             return true;
         });
@@ -251,7 +262,7 @@ ClothTree::Values ClothTree::angles(const Nodes& nodes) const
 ClothTree::Block ClothTree::block(const Vec3& first_node, double spacing) const
 {
     const Nodes nodes(first_node, spacing);
-    return { squared_distances(nodes).sqrt(), angles(nodes) / (4 * k_pi) };
+    return { squared_distances(nodes).sqrt(), (angles(tree_, nodes) + angles(lids_, nodes)) / (4 * k_pi) };
 }
 
 }  // namespace garmentfit

@@ -24,8 +24,9 @@ std::vector<ClothPatch> cloth_patches(const TriangleMesh& outward, double cell);
 
 class ClothTree {
 public:
+    /// @param lids  of openings, facing outwards: they count for windings, and are no cloth for distances
     /// Cost O(n log n).
-    explicit ClothTree(std::vector<ClothPatch> patches);
+    explicit ClothTree(std::vector<ClothPatch> patches, std::vector<ClothPatch> lids = {});
 
     /// m, to a patch's centre that is at most a tenth further away than the nearest. O(log n).
     float distance(const Vec3& query) const;
@@ -52,11 +53,14 @@ private:
         float size;  // sum of areas' lengths: how wide a single patch is
     };
     static Ball ball_of(std::span<const ClothPatch> patches);
+    using Tree = MedianTree<ClothPatch, Ball>;
+    static Tree tree_of(std::vector<ClothPatch> patches);
     struct Nodes;
     Values squared_distances(const Nodes& nodes) const;
-    Values angles(const Nodes& nodes) const;
+    static float angle(const Tree& tree, const Eigen::Vector3f& query);
+    static Values angles(const Tree& tree, const Nodes& nodes);
 
-    MedianTree<ClothPatch, Ball> tree_;
+    Tree tree_, lids_;
 };
 
 }  // namespace garmentfit

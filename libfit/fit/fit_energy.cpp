@@ -117,16 +117,28 @@ double FitEnergy::cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) 
     return weights_.cuff_direction * angle * angle;
 }
 
+// Between straps there is as much clearance beside the middle as in it. Both shoulders count for the left one.
+double FitEnergy::armhole_cost(int bone, const Vec3& tail, const Skeleton& joints) const
+{
+    if (cues_.armholes.empty() || bone != lclavicle)
+        return 0;
+    const Vec3 across = (cues_.armholes[1] - cues_.armholes[0]).normalized(),
+               between = 0.5 * (cues_.armholes[0] + cues_.armholes[1]), middle = 0.5 * (tail + joints.tail(rclavicle));
+    const double beside = (middle - between).dot(across);
+    return weights_.armhole * beside * beside;
+}
+
 double FitEnergy::bone_value(int bone, const Vec3& head, const Vec3& tail, const Eigen::Quaterniond& parent_turn,
                              const Skeleton& joints, double least) const
 {
     const Vec3 direction = (tail - head).normalized();
     const double posture = posture_cost(bone, direction, parent_turn),
-                 symmetry = symmetry_cost(bone, direction, joints), cuff = cuff_cost(bone, tail, joints);
-    if (metric_.max_value(bone) - posture - symmetry - cuff <= least)
+                 symmetry = symmetry_cost(bone, direction, joints),
+                 opening = cuff_cost(bone, tail, joints) + armhole_cost(bone, tail, joints);
+    if (metric_.max_value(bone) - posture - symmetry - opening <= least)
         return k_any;
     return metric_.value(bone, head, tail) - metric_.trunk_overlap(bone, head, tail, joints) - posture - symmetry
-        - cuff;
+        - opening;
 }
 
 double FitEnergy::tip_value(int extremity, const PlacedBones& bones) const

@@ -94,6 +94,7 @@ private:
     double posture_cost(int bone, const Vec3& direction, const Eigen::Quaterniond& parent_turn) const;
     double symmetry_cost(int bone, const Vec3& direction, const Skeleton& joints) const;
     double cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
+    double armhole_cost(int bone, const Vec3& tail, const Skeleton& joints) const;
     double facing_cost(const Posture& posture) const;
     double stance_value(const Posture& posture) const;
     template <class BoneValue, class TipValue, class Lower>

@@ -12,6 +12,7 @@
 #include "outward_cloth.h"
 #include "place_of_garment.h"
 #include "posture_moves.h"
+#include "straps.h"
 #include "tuning.h"
 #include "way_up.h"
 
@@ -27,7 +28,10 @@ std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& w
     held->outward = rotate(given.outward, way.turn);
     held->openings = rotate(given.openings, held->outward, way.turn);
     held->cues = cues_of(held->openings, front ? std::optional<Vec3>(way.turn * *front) : std::nullopt);
-    held->clearance = std::make_unique<const ClearanceField>(held->outward);
+    const std::vector<Opening> shoulders = openings_between_straps(held->outward, held->openings);
+    for (std::size_t i = 0; i + 1 < shoulders.size(); ++i)
+        held->cues.armholes.push_back(shoulders[i].centre);
+    held->clearance = std::make_unique<const ClearanceField>(held->outward, lids_between_straps(shoulders));
     return held;
 }
 

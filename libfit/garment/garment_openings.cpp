@@ -78,15 +78,17 @@ Opening opening_of(const Positions& positions, const Ring& ring)
 {
     const auto at = [&](int v) { return Vec3(positions.row(v)); };
     Opening opening;
-    std::vector<int> rim;
+    std::vector<int> rim, next;
     Vec3 area = Vec3::Zero();
     for (const auto& [a, b] : ring) {
         const double length = (at(b) - at(a)).norm();
         opening.girth += length;
         opening.centre += length * 0.5 * (at(a) + at(b));
         rim.push_back(a);
+        next.push_back(b);
     }
     opening.rim = positions(rim, Eigen::all);
+    opening.rim_next = positions(next, Eigen::all);
     opening.centre /= std::max(opening.girth, k_no_length);
     for (const auto& [a, b] : ring)  // the closing disc has the opposite direction of the cloth's edges
         area += 0.5 * (at(b) - opening.centre).cross(at(a) - opening.centre);
@@ -475,6 +477,7 @@ std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& c
         opening.facing = turn * opening.facing;
         opening.tube_end = turn * opening.tube_end;
         opening.rim = (opening.rim * turn.toRotationMatrix().transpose()).eval();
+        opening.rim_next = (opening.rim_next * turn.toRotationMatrix().transpose()).eval();
         measure_heights(opening, ranges);
     }
     return openings;

@@ -20,6 +20,7 @@ struct Opening {
     double tube_girth = 0;  ///< m, median of its slices
     double tube_waist = 0;  ///< m, smallest of its slices without the hem
     Positions rim;  ///< vertices of its edge
+    Positions rim_next;  ///< the vertex after each of them along the edge of the cloth
     int piece = 0;  ///< number of the connected piece of cloth
     double piece_low = 0;  ///< m, lowest y of the piece
     double piece_height = 0;  ///< m, of the piece

@@ -283,6 +283,13 @@ GarmentType type_with_hem(Piece& piece, const Opening& hem, const Opening& top)
     return top.facing.y() < k_hood_normal ? GarmentType::hoodie : GarmentType::longsleeve;
 }
 
+/// From neck to hem, which are one opening. @pre it has openings beside sleeves and legs
+bool is_open_in_front(const Piece& piece)
+{
+    const Opening& lowest = piece.others.front();
+    return lowest.high.y() - lowest.low.y() > k_open_front * piece.height;
+}
+
 std::optional<GarmentType> type_of(Piece& piece)
 {
     if (!piece.legs.empty())
@@ -291,8 +298,7 @@ std::optional<GarmentType> type_of(Piece& piece)
         return {};
     const Opening& lowest = piece.others.front();
     const Opening& highest = piece.others.back();
-    const bool open_front = lowest.high.y() - lowest.low.y() > k_open_front * piece.height;
-    if (open_front)
+    if (is_open_in_front(piece))
         return piece.sleeves.empty() ? GarmentType::vest : type_with_open_front(piece, lowest);
     if (piece.sleeves.empty() && piece.others.size() == 2)
         return GarmentType::skirt;
@@ -525,6 +531,21 @@ std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>&
     };
     bones.erase(std::remove_if(bones.begin(), bones.end(), is_uncovered), bones.end());
     return bones;
+}
+
+std::vector<Opening> openings_at_shoulders(const std::vector<Opening>& openings)
+{
+    std::vector<Opening> found;
+    double tallest = 0;
+    for (const Piece& piece : pieces_of(openings)) {
+        const bool has_trunk = piece.others.size() > (piece.legs.empty() ? 1 : 0);
+        if (piece.height <= tallest || piece.sleeves.empty() || !has_trunk || !are_armholes(piece)
+            || is_open_in_front(piece))
+            continue;
+        tallest = piece.height;
+        found = { piece.sleeves[0], piece.sleeves[1], piece.others.back() };
+    }
+    return found;
 }
 
 GarmentMeasures measures_of(const std::vector<Opening>& openings)

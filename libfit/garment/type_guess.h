@@ -30,9 +30,14 @@ struct GarmentCues {
     bool has_arms = false;  // two openings are sleeves or armholes
     bool is_strapless = false;  // each piece has a top and a hem, or legs, and no other opening
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
+    std::vector<Vec3> armholes;  // centroids of two armholes that only straps part from the neck, or empty
 };
 /// @param front  where the user says that the front of the held garment is: not vertical
 GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Vec3>& front = {});
+
+/// The openings for arms and neck of the tallest piece that has armholes, and one for the trunk: straps may be all that
+/// parts them. None where it has sleeves, or is open in front. The armholes come first.
+std::vector<Opening> openings_at_shoulders(const std::vector<Opening>& openings);
 
 /// Measures of the tallest piece of a garment, m; 0 where it has no such part.
 struct GarmentMeasures {

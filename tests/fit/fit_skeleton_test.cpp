@@ -146,6 +146,31 @@ GarmentMesh long_dress()
     });
 }
 
+// A tube below the arms with two straps, 24 cm high, between facets of its rim.
+GarmentMesh strap_dress(double length)
+{
+    constexpr int steps = 12;
+    GarmentMesh dress = skirt(0.17, 0.18, 0.25, length);
+    dress.positions.col(1).array() += 0.2;
+    for (const auto& [front, back] : { std::pair(3, 20), std::pair(8, 15) }) {
+        TriangleMesh strap { Positions(2 * (steps + 1), 3), Triangles(2 * steps, 3) };
+        for (int i = 0; i <= steps; ++i)
+            for (int k = 0; k < 2; ++k) {
+                const double t = double(i) / steps;
+                strap.positions.row(2 * i + k)
+                    = (1 - t) * dress.positions.row(front + k) + t * dress.positions.row(back + 1 - k);
+                strap.positions(2 * i + k, 1) += 0.24 * std::sin(std::numbers::pi * t);
+            }
+        for (int i = 0; i < steps; ++i) {
+            strap.triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 1;
+            strap.triangles.row(2 * i + 1) << 2 * i + 1, 2 * i + 2, 2 * i + 3;
+        }
+        const TriangleMesh both = joined({ dress.positions, dress.triangles }, strap);  // welded where they touch
+        dress = make_garment(both.positions, both.triangles);
+    }
+    return dress;
+}
+
 // Two sheets, sewn together along every edge: a closed surface.
 GarmentMesh with_thickness(const GarmentMesh& garment, double thickness)
 {
@@ -580,6 +605,26 @@ TEST(FitSkeleton, AStraplessGownDownToTheFloorIsFoundAWay)
         const FitResult result = fit_skeleton(rig, gown);
         EXPECT_EQ(result.type, GarmentType::dress) << length;
         expect_clear(pose_skeleton(rig.skeleton, result.pose), gown);
+    }
+}
+
+// Above the bodice the cloth encloses next to nothing.
+TEST(FitSkeleton, StrapsLieBetweenNeckAndShoulders)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    for (const double length : { 0.4, 0.7 }) {
+        const GarmentMesh dress = strap_dress(length);
+        const FitResult result = fit_skeleton(rig, dress);
+        const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
+        expect_clear(joints, dress);
+        for (const Bone clavicle : { lclavicle, rclavicle }) {
+            EXPECT_TRUE(std::count(result.covered.begin(), result.covered.end(), clavicle)) << length;
+            const Vec3 shoulder = joints.tail(clavicle);
+            EXPECT_GT(std::abs(shoulder.x()), 0.1) << length;
+            EXPECT_GT(shoulder.y(), 1.25) << length;
+            EXPECT_LT(shoulder.y(), 1.46) << length;
+        }
+        EXPECT_LT(std::abs(joints.tail(lclavicle).x() + joints.tail(rclavicle).x()), 0.04) << length;
     }
 }
 
