@@ -117,7 +117,8 @@ double FitEnergy::cuff_cost(int bone, const Vec3& tail, const Skeleton& joints) 
     return weights_.cuff_direction * angle * angle;
 }
 
-// Between straps there is as much clearance beside the middle as in it. Both shoulders count for the left one.
+// Without sleeves there is as much clearance beside the middle as in it, and one strap lies on an upper arm. Both
+// shoulders count for the left one.
 double FitEnergy::armhole_cost(int bone, const Vec3& tail, const Skeleton& joints) const
 {
     if (cues_.armholes.empty() || bone != lclavicle)

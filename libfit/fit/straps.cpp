@@ -3,7 +3,6 @@
 
 #include "append_mesh.h"
 #include "clearance.h"
-#include "type_guess.h"
 #include "winding_number.h"
 
 namespace garmentfit {
@@ -20,21 +19,20 @@ TriangleMesh closing_fan(const Opening& opening, const Vec3& tip)
     return disc;
 }
 
-}  // namespace
-
-std::vector<Opening> openings_between_straps(const TriangleMesh& outward, const std::vector<Opening>& openings)
+// The middle between the armholes is not inside by the cloth.
+bool hangs_by_straps(const TriangleMesh& outward, const std::vector<Opening>& shoulders)
 {
-    std::vector<Opening> shoulders = openings_at_shoulders(openings);
-    if (shoulders.empty())
-        return {};
     const Vec3 middle = 0.5 * (shoulders[0].centre + shoulders[1].centre);
-    const Clearance there { 0, inside_of(winding_number(outward, middle)) };
-    return there.is_inside() ? std::vector<Opening> {} : shoulders;
+    return !Clearance { 0, inside_of(winding_number(outward, middle)) }.is_inside();
 }
 
-TriangleMesh lids_between_straps(const std::vector<Opening>& shoulders)
+}  // namespace
+
+TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& shoulders)
 {
     TriangleMesh lids;
+    if (shoulders.empty() || !hangs_by_straps(outward, shoulders))
+        return lids;
     for (const Opening& opening : shoulders) {
         const bool is_neck = &opening == &shoulders.back();
         const Vec3& centre = opening.centre;

@@ -10,12 +10,10 @@
 
 namespace garmentfit {
 
-/// The two armholes and the neck, in this order, of a garment of which straps are nearly all the cloth between them:
-/// the middle between the armholes is not inside by the cloth. None of other garments. O(n).
-std::vector<Opening> openings_between_straps(const TriangleMesh& outward, const std::vector<Opening>& openings);
-
-/// What closes these openings, facing outwards. The neck's lid is a tent as high as the straps, for the shoulders reach
-/// up to there.
-TriangleMesh lids_between_straps(const std::vector<Opening>& shoulders);
+/// What closes the armholes and the neck, facing outwards, of a garment of which straps are nearly all the cloth between
+/// them. The neck's lid is a tent as high as the straps, for the shoulders reach up to there. Nothing of other garments.
+/// O(n).
+/// @param shoulders  from openings_at_shoulders
+TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& shoulders);
 
 }  // namespace garmentfit

@@ -40,7 +40,7 @@ struct EnergyWeights {
     double symmetry                = 0.1;   // m/rad^2  covered limb from the mirror image of its twin
     double cuff_direction          = 0.3;   // m/rad^2  arm from the line between shoulder and cuff
     double armhole                 = 60;    // m/m^2    squared distance of the middle between the shoulders from that
-                                            //          between armholes, across, where straps part these from the neck
+                                            //          between armholes without sleeves, across
     // Stance, of the whole body.
     double upright                 = 3;     // m/rad^2  tilt of the trunk against the vertical
     double facing                  = 30;    // m/rad^2  angle to the front that the user gives, beyond k_facing_play

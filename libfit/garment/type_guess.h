@@ -30,7 +30,7 @@ struct GarmentCues {
     bool has_arms = false;  // two openings are sleeves or armholes
     bool is_strapless = false;  // each piece has a top and a hem, or legs, and no other opening
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
-    std::vector<Vec3> armholes;  // centroids of two armholes that only straps part from the neck, or empty
+    std::vector<Vec3> armholes;  // centroids of the two armholes of openings_at_shoulders, or empty
 };
 /// @param front  where the user says that the front of the held garment is: not vertical
 GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Vec3>& front = {});
