@@ -11,6 +11,7 @@
 
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/verdict.h"
+#include "garmentfit/shoulders.h"
 #include "named_garment.h"
 #include "other_wearings.h"
 #include "stand_ins.h"
@@ -132,12 +133,31 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     }
 }
 
+/// @param garment  of the scene
+std::vector<Bone> slipped_off(const Scene& scene, const Dressing& dressing, std::size_t garment)
+{
+    if (!dressing.is_worn(garment) || garment >= scene.fits.size())
+        return {};
+    const Skeleton& rest = scene.rig->skeleton;
+    const GarmentMesh& given = scene.garments[garment].mesh;
+    const WornGarment& worn = dressing.garments[garment];
+    std::vector<Bone> off
+        = shoulders_under_cloth(pose_skeleton(rest, scene.fits[garment].pose), given.positions, given.triangles);
+    for (const Bone under :
+         shoulders_under_cloth(pose_skeleton(rest, dressing.pose), worn.positions, worn.rest.triangles))
+        std::erase(off, under);
+    return off;
+}
+
 /// What the scene's garments are made of, and the unit of messages about them.
 void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
 {
     dressing.unit = scene.unit;
     dressing.fabrics.clear();
     dressing.fabric_stretches.clear();
+    dressing.off_shoulders.clear();
+    for (std::size_t i = 0; i < scene.garments.size(); ++i)
+        dressing.off_shoulders.push_back(slipped_off(scene, dressing, i));
     for (const GarmentInput& garment : scene.garments) {
         dressing.fabrics.push_back(garment.fabric.value_or(cloth.fabric));
         dressing.fabric_stretches.push_back(material_of(cloth, dressing.fabrics.back()).largest_stretch);

@@ -68,9 +68,11 @@ std::vector<PlaceVerdict> judge_places(const Dressing& dressing, std::size_t gar
     return places;
 }
 
-bool slipped_down(const Dressing& dressing, std::size_t garment)
+bool has_slipped(const Dressing& dressing, std::size_t garment)
 {
-    return dressing.is_worn(garment) && dressing.garments[garment].slipped * dressing.to_human_size > k_slipped;
+    return dressing.is_worn(garment)
+        && (dressing.garments[garment].slipped * dressing.to_human_size > k_slipped
+            || (garment < dressing.off_shoulders.size() && !dressing.off_shoulders[garment].empty()));
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ std::optional<FitVerdict> fit_verdict(const Dressing& dressing, std::size_t garm
     if (too_small) {
         result.verdict = Verdict::too_small;
         result.would_do = fabric_that_would_do(dressing, garment);
-    } else if (slipped_down(dressing, garment)) {
+    } else if (has_slipped(dressing, garment)) {
         result.verdict = Verdict::too_large;
     } else if (std::any_of(places.begin(), places.end(), is(Verdict::tight))) {
         result.verdict = Verdict::tight;

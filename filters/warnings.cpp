@@ -63,10 +63,20 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
                            + ": it is too wide for this body to stay where it is worn");
 }
 
+std::string shoulders_in_words(const std::vector<Bone>& clavicles)
+{
+    return clavicles.size() == 2    ? "both shoulders"
+        : clavicles[0] == lclavicle ? "the left shoulder"
+                                    : "the right shoulder";
+}
+
 /// Of one that is worn; whether it is tight, too.
 void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, const Dressing& end, std::size_t garment)
 {
     warn_of_garment(warnings, name, end.garments[garment], end);
+    if (garment < end.off_shoulders.size() && !end.off_shoulders[garment].empty())
+        warnings.push_back(name + " slipped off " + shoulders_in_words(end.off_shoulders[garment])
+                           + ": it is too wide there for this body to stay where it is worn");
     const std::optional<FitVerdict> verdict = fit_verdict(end, garment);
     if (!verdict || verdict->verdict != Verdict::tight)
         return;

@@ -268,4 +268,8 @@ inline constexpr int k_gap_rounds = 60, k_futile_gap_rounds = 6;
 /// unit: of a progress bar.
 inline constexpr double k_progress_of_path = 0.5, k_progress_of_settling = 0.2;
 
+/// Share of a collarbone beyond its end that counts as shoulder: straps that lie there do not slip. guess, on three
+/// clothes with straps
+inline constexpr double k_beyond_shoulder = 0.15;
+
 }  // namespace garmentfit

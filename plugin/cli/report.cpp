@@ -257,6 +257,9 @@ Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i
             json["girth"] = end->garments[i].girth;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
             json["overstretched"] = overstretched_of(end->overstretches[i]);
+            json["off_shoulders"] = Json::array();
+            for (const Bone clavicle : end->off_shoulders[i])
+                json["off_shoulders"].push_back(clavicle == lclavicle ? "left" : "right");
             put_ease(json, *end, i, metres_per_unit);
         }
     }

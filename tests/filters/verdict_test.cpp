@@ -78,6 +78,13 @@ TEST(FitVerdict, IsTooLargeWhereItSlippedDown)
     EXPECT_EQ(fit_verdict(dressing, 0)->verdict, Verdict::too_large);
 }
 
+TEST(FitVerdict, IsTooLargeWhereItSlippedOffAShoulder)
+{
+    Dressing dressing = worn();
+    dressing.off_shoulders = { { rclavicle } };
+    EXPECT_EQ(fit_verdict(dressing, 0)->verdict, Verdict::too_large);
+}
+
 TEST(FitVerdict, OfSpikesIsNeverTooSmall)
 {
     Dressing small = worn();

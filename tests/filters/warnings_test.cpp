@@ -140,6 +140,7 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
     scene.draped->garments.pop_back();
     scene.draped->garments[0].size = 1.08;
     scene.draped->garments[0].slipped = 0.214;
+    scene.draped->off_shoulders = { { lclavicle } };
     scene.draped->garments[0].piece_shift = 0.12;
     EXPECT_EQ(
         warnings_of(scene),
@@ -150,6 +151,7 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
                  "a piece of skirt went 120 mm away from the cloth that it lay on; join its border to that cloth "
                  "in the garment's file",
                  "skirt slipped down by 214 mm: it is too wide for this body to stay where it is worn",
+                 "skirt slipped off the left shoulder: it is too wide there for this body to stay where it is worn",
                  "coat was not put on, because the garments under it were not certified" }));
 }
 
