@@ -27,7 +27,7 @@ std::vector<std::vector<int>> find_grounds(const SewnPieces& sewn, Eigen::Index 
 {
     std::vector<int> detail_of(vertices, -1);
     for (int d = 0; d < int(sewn.details.size()); ++d)
-        for (const int v : sewn.details[d])
+        for (const int v : sewn.details[d].vertices)
             detail_of[v] = d;
     std::vector<std::vector<int>> result(sewn.details.size());
     const auto add = [&](int on_detail, int on_ground) {
@@ -55,10 +55,13 @@ StiffDetails::StiffDetails(const SewnPieces& sewn, const Positions& x) : is_deta
         Positions ground = x(grounds[d], Eigen::all);
         if (ground.rows() < 3 || lie_in_a_line(ground))
             continue;
-        const std::vector<int>& vertices = sewn.details[d];
+        std::vector<int> vertices = sewn.details[d].vertices;
         for (const int v : vertices)
             is_detail_[v] = 1;
-        details_.push_back({ vertices, std::move(grounds[d]), x(vertices, Eigen::all), std::move(ground) });
+        if (sewn.details[d].is_link)
+            vertices.insert(vertices.end(), grounds[d].begin(), grounds[d].end());
+        Positions shape = x(vertices, Eigen::all);
+        details_.push_back({ std::move(vertices), std::move(grounds[d]), std::move(shape), std::move(ground) });
     }
 }
 

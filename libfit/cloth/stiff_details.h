@@ -6,7 +6,8 @@
 // Edges of a button are of a millimetre, and its vertices weigh next to nothing: forces that bend it hardly ever balance.
 // So a detail keeps the shape that it has, and goes by the stiff motion nearest to that of the vertices that it is sewn
 // to [umeyama_1991_similarity], its ground. All forces on it act on the ground, as one force and one torque about its
-// middle, spread so that they do the same work there; forces within the detail add up to nothing.
+// middle, spread so that they do the same work there; forces within the detail add up to nothing. Where a detail is a
+// link between two parts of the cloth, its ground is as stiff as itself: it goes by its own nearest stiff motion.
 //
 // Units   metres, newtons. Positions and forces are n x 3.
 
@@ -36,7 +37,7 @@ public:
 
 private:
     struct Detail {
-        std::vector<int> vertices, ground;
+        std::vector<int> vertices, ground;  // of a link, the ground is among the vertices
         Positions shape, ground_shape;  // where these were at the start
     };
     std::vector<Detail> details_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -35,6 +36,8 @@ struct Piece {
 
     /// Whether it is a disc, through which no limb can pass: nothing of that kind and size is worn by itself.
     bool is_patch() const { return euler_characteristic == 1 && size() <= k_patch; }
+    /// Whether cloth may pass through it.
+    bool is_ring() const { return euler_characteristic <= 0; }
     double size() const { return box.diagonal().norm(); }
 };
 
@@ -460,6 +463,53 @@ bool is_held_by_back(const std::vector<Tie>& hold, const Piece& piece)
     return double(hold.size()) >= k_small_piece_share * double(piece.vertices.size());
 }
 
+/// Neighbours of vertices across the seams that pieces have with themselves.
+std::multimap<int, int> across_seams(const std::vector<Tie>& own_ties)
+{
+    std::multimap<int, int> across;
+    for (const Tie& tie : own_ties)
+        for (const int corner : tie.corners) {
+            across.emplace(tie.vertex, corner);
+            across.emplace(corner, tie.vertex);
+        }
+    return across;
+}
+
+/// Whether a ring or a buckle is all that holds two parts of a piece together, such as a strap and a bodice: it is sewn
+/// to both, and round about it no way along the cloth leads from one to the other. Buttons are none: fronts that they
+/// close lie on each other.
+bool is_link(const GarmentMesh& rest, const MeshTopology& topology, const std::multimap<int, int>& across_seams,
+             const Piece& piece, const std::vector<Tie>& hold, const std::vector<int>& piece_of)
+{
+    if (hold.empty() || !piece.is_ring())
+        return false;
+    const Vec3 margin = Vec3::Constant(k_largest_detail);
+    const Eigen::AlignedBox3d around(piece.box.min() - margin, piece.box.max() + margin);
+    const int holder = piece_of[hold[0].corners[0]];
+    const auto is_of_holder = [&](const Tie& tie) { return piece_of[tie.corners[0]] == holder; };
+    std::set<int> ends, reached;
+    for (const Tie& tie : hold)
+        if (is_of_holder(tie))
+            ends.insert(tie.corners.begin(), tie.corners.end());
+    std::vector<int> front { *ends.begin() };
+    while (!front.empty()) {
+        const int v = front.back();
+        front.pop_back();
+        if (!reached.insert(v).second)
+            continue;
+        for (const int n : topology.neighbours(v))
+            if (ends.count(n) || around.contains(Vec3(rest.positions.row(n))))
+                front.push_back(n);
+        const auto [first, last] = across_seams.equal_range(v);
+        for (auto at = first; at != last; ++at)
+            front.push_back(at->second);
+    }
+    const auto on_other_part = std::count_if(
+        hold.begin(), hold.end(), [&](const Tie& tie) { return is_of_holder(tie) && !reached.count(tie.corners[0]); });
+    const double share = double(on_other_part) / double(piece.vertices.size());
+    return std::min(share, double(hold.size()) / double(piece.vertices.size()) - share) >= k_holder_share;
+}
+
 /// Collects ties; a vertex that a seam ties is not held besides.
 class Sewing {
 public:
@@ -485,6 +535,8 @@ public:
                 ties_.push_back(tie);
             }
     }
+
+    const std::vector<Tie>& ties() const { return ties_; }
 
     SewnPieces take() &&
     {
@@ -516,12 +568,17 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
         sewing.add_seam(p, p, find_own_seams(rest, topology, pieces[p], around));
         sewing.add_seam(p, p, find_t_junctions(rest, topology, pieces[p]));
     }
+    const std::multimap<int, int> across = across_seams(sewing.ties());
     std::vector<char> is_on_border(std::size_t(rest.positions.rows()), 0);
-    for (const Piece& piece : pieces)
-        for (const int v : piece.border)
+    std::vector<int> piece_of(std::size_t(rest.positions.rows()), -1);
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        for (const int v : pieces[p].border)
             is_on_border[v] = 1;
+        for (const int v : pieces[p].vertices)
+            piece_of[v] = int(p);
+    }
     Feet feet(rest, topology, pieces);
-    std::vector<std::vector<int>> details;
+    std::vector<SewnDetail> details;
     for (std::size_t p = 1; p < pieces.size(); ++p) {
         const double reach = pieces[p].size() <= k_small_piece ? k_small_piece_distance : k_lining_distance;
         std::vector<std::vector<Foot>> on_pieces;
@@ -538,7 +595,7 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
             = find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border, is_seamed);
         sewing.add_hold(p, hold);
         if (pieces[p].size() <= k_largest_detail && (is_seamed || is_held_by_back(hold, pieces[p])))
-            details.push_back(pieces[p].vertices);
+            details.push_back({ pieces[p].vertices, is_link(rest, topology, across, pieces[p], hold, piece_of) });
     }
     SewnPieces result = std::move(sewing).take();
     result.details = std::move(details);

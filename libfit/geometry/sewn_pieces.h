@@ -34,12 +34,16 @@ struct Tie {
     bool is_own = false;  ///< of one piece
 };
 
+/// A piece such as a button, a bead or a belt loop: small, held by its back on a piece that is none, or in a seam.
+struct SewnDetail {
+    std::vector<int> vertices;
+    bool is_link = false;  ///< a ring or a buckle that alone holds two parts of that piece together: strap and bodice
+};
+
 struct SewnPieces {
     std::vector<Tie> ties;
     PieceCounts counts;
-    /// Vertices of each piece that is a detail, such as a button, a bead or a belt loop: small, held by its back on a
-    /// piece that is none, and in no seam.
-    std::vector<std::vector<int>> details = {};
+    std::vector<SewnDetail> details = {};
 };
 
 /// @param rest      welded

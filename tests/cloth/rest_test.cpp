@@ -293,6 +293,22 @@ TEST(StiffDetails, FollowTheirGround)
     EXPECT_LT((x - moved).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(StiffDetails, ThatAreLinksHoldTheirGroundTogether)
+{
+    ButtonOnCloth cloth;
+    cloth.sewn.details[0].is_link = true;
+    const StiffDetails links(cloth.sewn, cloth.mesh.positions);
+    Positions x = cloth.mesh.positions;
+    x.row(0) += Eigen::RowVector3d(-0.01, 0.005, 0);
+    Positions loose = x;
+    cloth.details.follow(loose);
+    links.follow(x);
+    const auto distance = [](const Positions& of, int a, int b) { return (of.row(a) - of.row(b)).norm(); };
+    for (const int v : { 1, 2, 3, 100 })
+        EXPECT_NEAR(distance(x, 0, v), distance(cloth.mesh.positions, 0, v), 1e-12) << v;
+    EXPECT_GT(distance(loose, 0, 1), distance(cloth.mesh.positions, 0, 1) + 0.005);
+}
+
 TEST(StiffDetails, HandDownForcesThatDoTheSameWork)
 {
     const ButtonOnCloth cloth;
@@ -314,7 +330,7 @@ TEST(StiffDetails, HandDownForcesThatDoTheSameWork)
 TEST(StiffDetails, HoldNothingInALine)
 {
     SewnPieces sewn;
-    sewn.details = { { 3, 4, 5 } };
+    sewn.details = { { { 3, 4, 5 } } };
     sewn.ties = { { 3, { 0, 1, 2 }, { 1, 0, 0 } } };
     Positions x = Positions::Zero(6, 3);
     x.col(0) = Eigen::VectorXd::LinSpaced(6, 0, 1);

@@ -97,12 +97,35 @@ GarmentMesh tube_of_two(double left, double right)
 TEST(SewnPieces, DetailsAreSmallAndSewnToCloth)
 {
     EXPECT_EQ(sewn(sheet_with_button(0.001)).details.size(), 1u);
-    EXPECT_EQ(sewn(sheet_with_button(0.001)).details.front().size(), 9u);
+    EXPECT_EQ(sewn(sheet_with_button(0.001)).details.front().vertices.size(), 9u);
     EXPECT_TRUE(sewn(sheet_with_button(0.03)).details.empty()) << "a layer of its own";
     const TriangleMesh sheet = flat(20, 0.02, Vec3::Zero()), pocket = flat(8, 0.01, Vec3(0.1, 0.001, 0.1));
     EXPECT_TRUE(sewn(garment_of({ sheet, pocket })).details.empty()) << "7 cm a side bend with the cloth";
     const TriangleMesh beside = flat(3, 0.02, Vec3(0.1, 0, 0.3805));
     EXPECT_EQ(sewn(garment_of({ sheet, beside })).details.size(), 1u) << "by a seam";
+}
+
+TEST(SewnPieces, RingsThatAloneHoldTwoPartsTogetherAreLinks)
+{
+    const auto with_clasp = [](const GarmentMesh& tube, bool is_ring) {
+        TriangleMesh clasp = flat(4, 0.01, Vec3(-0.015, 0, 0.18));
+        const double radius = 0.38 / (2 * std::numbers::pi);
+        for (auto row : clasp.positions.rowwise()) {
+            const double y = row.x();
+            row << std::sqrt(radius * radius - y * y) + 0.003, y, row.z();
+        }
+        std::vector<Eigen::Index> kept;
+        for (Eigen::Index f = 0; f < clasp.triangles.rows(); ++f)
+            if (const Vec3 middle = clasp.positions(clasp.triangles.row(f), Eigen::all).colwise().mean().transpose();
+                !is_ring || std::abs(middle.y()) > 0.005 || std::abs(middle.z() - 0.195) > 0.005)
+                kept.push_back(f);
+        return sewn(
+            garment_of({ { tube.positions, tube.triangles }, { clasp.positions, clasp.triangles(kept, Eigen::all) } }));
+    };
+    const auto is_link = [](const SewnPieces& pieces) { return pieces.details.at(0).is_link; };
+    EXPECT_TRUE(is_link(with_clasp(rolled(0.005), true)));
+    EXPECT_FALSE(is_link(with_clasp(rolled(0.005), false))) << "a button";
+    EXPECT_FALSE(is_link(with_clasp(rolled(5e-4), true))) << "a seam holds them together as well";
 }
 
 TEST(SewnPieces, SeamsMayGapeThatAreHalfOfABorder)
