@@ -58,7 +58,7 @@ StiffDetails::StiffDetails(const SewnPieces& sewn, const Positions& x) : is_deta
         std::vector<int> vertices = sewn.details[d].vertices;
         for (const int v : vertices)
             is_detail_[v] = 1;
-        if (sewn.details[d].is_link)
+        if (sewn.details[d].is_link())
             vertices.insert(vertices.end(), grounds[d].begin(), grounds[d].end());
         Positions shape = x(vertices, Eigen::all);
         details_.push_back({ std::move(vertices), std::move(grounds[d]), std::move(shape), std::move(ground) });

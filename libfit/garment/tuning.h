@@ -214,6 +214,10 @@ inline constexpr double k_thickest = 0.03;
 /// fitted: guess. m, distance on both sides of a flat patch at which the winding number is compared.
 inline constexpr double k_side_step = 0.02;
 
+/// Diagonals of the box: an armhole that a strap in a ring parts from the neck is no shorter round. guess; a camisole's
+/// is 1.0 long, what the buckle of a skirt's belt would part .5
+inline constexpr double k_strap_border = 0.7;
+
 /// fitted: guess. Share of the garment's area that panels with thickness have: from here on it is in parts. Straps and
 /// labels stay below.
 inline constexpr double k_panel_share = 0.1;

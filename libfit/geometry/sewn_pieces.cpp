@@ -475,21 +475,21 @@ std::multimap<int, int> across_seams(const std::vector<Tie>& own_ties)
     return across;
 }
 
-/// Whether a ring or a buckle is all that holds two parts of a piece together, such as a strap and a bodice: it is sewn
-/// to both, and round about it no way along the cloth leads from one to the other. Buttons are none: fronts that they
-/// close lie on each other.
-bool is_link(const GarmentMesh& rest, const MeshTopology& topology, const std::multimap<int, int>& across_seams,
-             const Piece& piece, const std::vector<Tie>& hold, const std::vector<int>& piece_of)
+/// The vertices of two parts of a piece that a ring or a buckle alone holds together, such as strap and bodice: it is sewn
+/// to both, and round about it no way along the cloth leads from one to the other. None where it is no such link. Buttons
+/// are none: fronts that they close lie on each other.
+std::array<std::vector<int>, 2> find_linked(const GarmentMesh& rest, const MeshTopology& topology,
+                                            const std::multimap<int, int>& across_seams, const Piece& piece,
+                                            const std::vector<Tie>& hold, const std::vector<int>& piece_of)
 {
     if (hold.empty() || !piece.is_ring())
-        return false;
+        return {};
     const Vec3 margin = Vec3::Constant(k_largest_detail);
     const Eigen::AlignedBox3d around(piece.box.min() - margin, piece.box.max() + margin);
     const int holder = piece_of[hold[0].corners[0]];
-    const auto is_of_holder = [&](const Tie& tie) { return piece_of[tie.corners[0]] == holder; };
     std::set<int> ends, reached;
     for (const Tie& tie : hold)
-        if (is_of_holder(tie))
+        if (piece_of[tie.corners[0]] == holder)
             ends.insert(tie.corners.begin(), tie.corners.end());
     std::vector<int> front { *ends.begin() };
     while (!front.empty()) {
@@ -504,10 +504,16 @@ bool is_link(const GarmentMesh& rest, const MeshTopology& topology, const std::m
         for (auto at = first; at != last; ++at)
             front.push_back(at->second);
     }
-    const auto on_other_part = std::count_if(
-        hold.begin(), hold.end(), [&](const Tie& tie) { return is_of_holder(tie) && !reached.count(tie.corners[0]); });
-    const double share = double(on_other_part) / double(piece.vertices.size());
-    return std::min(share, double(hold.size()) / double(piece.vertices.size()) - share) >= k_holder_share;
+    std::array<int, 2> ties {};
+    for (const Tie& tie : hold)
+        if (piece_of[tie.corners[0]] == holder)
+            ++ties[reached.count(tie.corners[0])];
+    if (std::min(ties[0], ties[1]) < k_holder_share * double(piece.vertices.size()))
+        return {};
+    std::array<std::vector<int>, 2> linked;
+    for (const int v : ends)
+        linked[reached.count(v)].push_back(v);
+    return linked;
 }
 
 /// Collects ties; a vertex that a seam ties is not held besides.
@@ -595,7 +601,7 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
             = find_hold(pieces[p], choose_feet(on_pieces, pieces[p].vertices.size()), is_on_border, is_seamed);
         sewing.add_hold(p, hold);
         if (pieces[p].size() <= k_largest_detail && (is_seamed || is_held_by_back(hold, pieces[p])))
-            details.push_back({ pieces[p].vertices, is_link(rest, topology, across, pieces[p], hold, piece_of) });
+            details.push_back({ pieces[p].vertices, find_linked(rest, topology, across, pieces[p], hold, piece_of) });
     }
     SewnPieces result = std::move(sewing).take();
     result.details = std::move(details);

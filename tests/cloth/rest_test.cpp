@@ -296,7 +296,7 @@ TEST(StiffDetails, FollowTheirGround)
 TEST(StiffDetails, ThatAreLinksHoldTheirGroundTogether)
 {
     ButtonOnCloth cloth;
-    cloth.sewn.details[0].is_link = true;
+    cloth.sewn.details[0].linked = { std::vector { 0, 1 }, std::vector { 2, 3 } };
     const StiffDetails links(cloth.sewn, cloth.mesh.positions);
     Positions x = cloth.mesh.positions;
     x.row(0) += Eigen::RowVector3d(-0.01, 0.005, 0);

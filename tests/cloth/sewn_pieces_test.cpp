@@ -122,7 +122,7 @@ TEST(SewnPieces, RingsThatAloneHoldTwoPartsTogetherAreLinks)
         return sewn(
             garment_of({ { tube.positions, tube.triangles }, { clasp.positions, clasp.triangles(kept, Eigen::all) } }));
     };
-    const auto is_link = [](const SewnPieces& pieces) { return pieces.details.at(0).is_link; };
+    const auto is_link = [](const SewnPieces& pieces) { return pieces.details.at(0).is_link(); };
     EXPECT_TRUE(is_link(with_clasp(rolled(0.005), true)));
     EXPECT_FALSE(is_link(with_clasp(rolled(0.005), false))) << "a button";
     EXPECT_FALSE(is_link(with_clasp(rolled(5e-4), true))) << "a seam holds them together as well";

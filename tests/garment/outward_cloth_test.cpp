@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outward_cloth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -118,6 +120,33 @@ TEST(PlainReading, OfTwoSheetsThatAreNotJoinedAtTheHemServesNot)
     TriangleMesh sheets = thick_tube(0.15, 0.6, 0.004);
     sheets.triangles.conservativeResize(sheets.triangles.rows() - 2 * k_around, 3);
     EXPECT_FALSE(read_plainly(garment_of(sheets)).serves);
+}
+
+// A tube of 38 cm, 6 mm open along its whole length, and a square ring of 3 cm over the middle of the gap.
+TEST(PlainReading, JoinsWhatOnlyARingHoldsTogether)
+{
+    const auto on_tube = [](const TriangleMesh& sheet, double radius, double from) {
+        TriangleMesh bent = sheet;
+        for (auto row : bent.positions.rowwise()) {
+            const double angle = from + row.x() / 0.0615;
+            row << radius * std::cos(angle), radius * std::sin(angle), Vec3(row.transpose()).z();
+        }
+        return bent;
+    };
+    const TriangleMesh tube = on_tube(fixtures::flat(20, 0.02, Vec3::Zero()), 0.0615, 0.04);
+    TriangleMesh ring = fixtures::flat(4, 0.01, Vec3(-0.015, 0, 0.175));
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index f = 0; f < ring.triangles.rows(); ++f)
+        if (const Vec3 middle = ring.positions(ring.triangles.row(f), Eigen::all).colwise().mean().transpose();
+            std::max(std::abs(middle.x()), std::abs(middle.z() - 0.19)) > 0.005)
+            kept.push_back(f);
+    ring = on_tube({ ring.positions, ring.triangles(kept, Eigen::all) }, 0.0645, 0);
+    const auto borders = [](const TriangleMesh& mesh) {
+        const TriangleMesh cloth = read_plainly(make_garment(mesh.positions, mesh.triangles)).cloth;
+        return MeshTopology(cloth.triangles, int(cloth.positions.rows())).border_loops().size();
+    };
+    EXPECT_EQ(borders(tube), 1u);
+    EXPECT_EQ(borders(fixtures::joined(tube, ring)), 2u + 2u) << "the ring has two of its own";
 }
 
 TEST(OutwardCloth, OfThickClothTheOuterSheetIsTheSameInAnyUnit)
