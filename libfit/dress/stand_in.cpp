@@ -249,27 +249,34 @@ void lengthen_ways_between(const Parts& cloth, const Positions& positions, const
         }
 }
 
-/// Beyond the skin, in turns with half of the way to the stand-in, which lies clear of it also where the skin of one limb
-/// faces that of another.
+/// Half of the way to the stand-in, which lies clear of the body also where the skin of one limb faces that of another.
+Positions ways_to_stand_in(const Parts& cloth, const Positions& positions, const std::vector<char>& marks)
+{
+    Positions ways = Positions::Zero(positions.rows(), 3);
+    for (Eigen::Index v = 0; v < ways.rows(); ++v)
+        if (marks[v])
+            ways.row(v) = (cloth.led.feet.row(v) - positions.row(v)) / 2;
+    return ways;
+}
+
+/// Beyond the skin, in turns with half of the way to the stand-in.
 Positions ways_out(const Parts& cloth, const Positions& positions, const std::vector<char>& marks,
                    const Obstacles& obstacles, int round)
 {
-    if (round % 2 == 1) {
-        Positions ways = Positions::Zero(positions.rows(), 3);
-        for (Eigen::Index v = 0; v < ways.rows(); ++v)
-            if (marks[v])
-                ways.row(v) = (cloth.led.feet.row(v) - positions.row(v)) / 2;
-        return ways;
-    }
+    if (round % 2 == 1)
+        return ways_to_stand_in(cloth, positions, marks);
     Positions ways = ways_beyond_skin(positions, marks, obstacles, (round + 1) * k_pushing_step);
     lengthen_ways_between(cloth, positions, marks, obstacles, ways);
     return ways;
 }
 
-/// Pushes what meets something away from the body, and the space round it along with it: sheets keep their order. Where
-/// something goes on to meet, it is where the least does. Between two limbs ways out cancel each other: where pushing is in
-/// vain, less of the space is taken along.
-Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress)
+/// Moves what meets something, and the space round it along with it: sheets keep their order. Where something goes on to
+/// meet, it is where the least does. Between two limbs ways out cancel each other: where moving is in vain, less of the
+/// space is taken along.
+/// @param ways_of  of the positions, of the vertices that are marked, in a round
+template <class Ways>
+Best moved_off(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress,
+               const Ways& ways_of)
 {
     const double edge = mean_edge_length(cloth.rest.positions, cloth.topology.edges()),
                  reach = std::min(k_pushing_reach * edge, k_longest_reach);
@@ -280,13 +287,30 @@ Positions pushed_clear(const Parts& cloth, Positions positions, const Obstacles&
         best.offer(positions,
                    obstacles.mark_meeting({ positions, cloth.rest.triangles }, cloth.topology.edges(), marks));
         if (best.faults == 0 || round == k_pushing_rounds || best.futile == k_futile_pushes || !progress.goes_on(1))
-            return best.positions;
-        const Positions ways = ways_out(cloth, positions, marks, obstacles, round);
+            return best;
+        const Positions ways = ways_of(positions, marks, round);
         const double longest = ways.rowwise().norm().maxCoeff();
         if (best.futile > k_patient_pushes)
             softness *= k_harder_push;
         positions += spread_ways(positions, ways, softness * std::max(reach, longest / k_steepest_way));
     }
+}
+
+/// Pushes what meets something away from the body. What stays caught between two limbs, which push it to and fro, goes
+/// to the stand-in alone.
+Positions pushed_clear(const Parts& cloth, const Positions& positions, const Obstacles& obstacles,
+                       const Progress& progress)
+{
+    Best pushed = moved_off(cloth, positions, obstacles, progress, [&](const auto& now, const auto& marks, int round) {
+        return ways_out(cloth, now, marks, obstacles, round);
+    });
+    if (pushed.faults == 0)
+        return pushed.positions;
+    const Best drawn
+        = moved_off(cloth, pushed.positions, obstacles, progress,
+                    [&](const auto& now, const auto& marks, int) { return ways_to_stand_in(cloth, now, marks); });
+    pushed.offer(drawn.positions, drawn.faults);
+    return pushed.positions;
 }
 
 // ---- parts that meet each other ------------------------------------------------------------------------------------

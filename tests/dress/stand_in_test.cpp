@@ -464,4 +464,38 @@ TEST(StandIn, GivesSheetsTheirGapsAgainBesideTheBody)
     EXPECT_TRUE(worn.clean());
 }
 
+/// An arch of cloth along z, as between two trouser legs. Its sides are twice `half` apart.
+TriangleMesh arch(double half, double top, double edge)
+{
+    const int n = int(0.3 / edge) | 1;
+    TriangleMesh mesh = sheet(n, 1. / (n - 1), [](double, double) { return 0; });
+    const double quarter = half * std::numbers::pi / 2;
+    for (auto row : mesh.positions.rowwise()) {
+        const double along = 0.3 * (row.x() - 0.5), z = 0.3 * (row.z() - 0.5), down = std::abs(along) - quarter;
+        row << (down < 0 ? half * std::sin(along / half) : std::copysign(half, along)),
+            top - half + (down < 0 ? half * std::cos(along / half) : -down), z;
+    }
+    return mesh;
+}
+
+TEST(StandIn, TakesDoubledClothThroughANarrowCrotch)
+{
+    // thighs 6 mm apart and wider apart below; pushed away from one of them, cloth is pushed into the other
+    const auto thighs = [](const Vec3& p) {
+        const double leg = std::hypot(std::abs(p.x()) - 0.103 + 0.05 * p.y(), p.z()) - 0.1,
+                     trunk = std::max(std::hypot(p.x() / 2, p.z()) - 0.1, 0.02 - p.y());
+        return std::max(std::min(leg, trunk), std::abs(p.y()) - 0.2);
+    };
+    const Surroundings around { polygonise(thighs, Vec3(-0.28, -0.25, -0.15), Vec3(0.28, 0.25, 0.15), 0.006) };
+    const TriangleMesh between = arch(0.0015, 0.012, 0.012);
+    const GarmentMesh stand_in { between.positions, between.triangles };
+    for (const double top : { 0.012, 0.018, 0.024 }) {
+        const TriangleMesh sheets = joined(arch(0.0012, top - 0.002, 0.008), arch(0.0052, top, 0.008));
+        const GarmentMesh garment { sheets.positions, sheets.triangles };
+        ASSERT_GT(crossing_count(sheets, around.body), 0);
+        const Certificate worn = certify(around.body, garment, follow(stand_in, stand_in.positions, garment, around));
+        EXPECT_TRUE(worn.clean()) << top << ": " << worn.body_crossings << " crossings with the body";
+    }
+}
+
 }  // namespace
