@@ -144,7 +144,8 @@ std::vector<Search> search_roughly(const Rig& rig, const Garment& given, const W
     return searches;
 }
 
-// Only what the rough postures leave in the running is worth an ascent.
+// Only what the rough postures leave in the running is worth an ascent, and what the openings suggest: in slim legs no
+// rough posture may be clear of the cloth.
 void search_closely(std::vector<Search>& searches, const Garment& given, const FitOptions& options,
                     const Progress& progress)
 {
@@ -154,7 +155,7 @@ void search_closely(std::vector<Search>& searches, const Garment& given, const F
     for (std::size_t i = 0; i < searches.size(); ++i) {
         progress.at(double(i) / double(searches.size()));
         Search& search = searches[i];
-        if (search.best_log_odds() < best - k_hopeless)
+        if (!search.attempt->coverage().is_guessed && search.best_log_odds() < best - k_hopeless)
             continue;
         std::vector<Posture> in_place;
         for (const BodyPlace& place : search.in_place)

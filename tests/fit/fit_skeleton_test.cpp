@@ -686,6 +686,42 @@ TEST(FitSkeleton, ASmallBodyDoesNotSlideIntoOneTrouserLeg)
     expect_clear(joints, garment);
 }
 
+/// Trousers whose legs are cones side by side, narrow at the ankles.
+GarmentMesh slim_trousers(double height, double waist)
+{
+    constexpr double crotch = 0.78, apart = 0.09, thigh = 0.083, ankle = 0.05;
+    const auto distance = [&](const Vec3& p) {
+        const double along = std::clamp(p.y() / crotch, 0., 1.2),
+                     rise = std::clamp((p.y() - crotch) / (height - crotch), 0., 1.);
+        const double leg = std::max(std::hypot(std::abs(p.x()) - apart, p.z()) - std::lerp(ankle, thigh, along),
+                                    p.y() - crotch - 0.15);
+        const double half_width = std::lerp(apart + thigh, 1.15 * waist, rise),
+                     half_depth = std::lerp(1.25 * thigh, 0.85 * waist, rise),
+                     round = std::hypot(p.x() / half_width, p.z() / half_depth) - 1;
+        return std::min(leg, std::max(round * half_depth, crotch - p.y()));
+    };
+    const TriangleMesh whole = polygonise(distance, Vec3(-0.35, -0.06, -0.25), Vec3(0.35, height + 0.06, 0.25), 0.025);
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index f = 0; f < whole.triangles.rows(); ++f) {
+        const double y = whole.positions(whole.triangles.row(f), 1).mean();
+        if (y > 0.01 && y < height - 0.01)
+            rows.push_back(f);
+    }
+    return make_garment(whole.positions, whole.triangles(rows, Eigen::all));
+}
+
+// On the grid that places are found by, no leg finds its way into these.
+TEST(FitSkeleton, SlimTrousersThatReachAboveTheWaistAreNoJumpsuit)
+{
+    const Rig rig = rig_of({ .arm_angle = 60 });
+    for (const auto& [height, waist] : { std::pair(1.1, 0.146), std::pair(1.1, 0.17), std::pair(1.2, 0.17) }) {
+        const GarmentMesh garment = slim_trousers(height, waist);
+        const FitResult result = fit_skeleton(rig, garment);
+        EXPECT_EQ(result.type, GarmentType::trousers) << height << ", " << waist;
+        expect_clear(pose_skeleton(rig.skeleton, result.pose), garment);
+    }
+}
+
 // As of a figure with a large head: legs of a share of a human's length.
 Rig with_short_legs(const PersonOptions& options, double share)
 {
