@@ -270,9 +270,9 @@ Positions ways_out(const Parts& cloth, const Positions& positions, const std::ve
     return ways;
 }
 
-/// Moves what meets something, and the space round it along with it: sheets keep their order. Where something goes on to
-/// meet, it is where the least does. Between two limbs ways out cancel each other: where moving is in vain, less of the
-/// space is taken along.
+/// Moves what meets something, and the space round it along with it: sheets keep their order. Where something goes on
+/// to meet, it is where the least does. Between two limbs ways out cancel each other: where moving is in vain, less of
+/// the space is taken along.
 /// @param ways_of  of the positions, of the vertices that are marked, in a round
 template <class Ways>
 Best moved_off(const Parts& cloth, Positions positions, const Obstacles& obstacles, const Progress& progress,
