@@ -196,10 +196,19 @@ bool has_doubled_rims(const std::vector<Opening>& openings)
     return false;
 }
 
+/// Whether a border runs to and fro over the cloth, as where sheets that pass through each other are parted.
+bool has_cracks(const std::vector<Opening>& openings, const TriangleMesh& outer)
+{
+    const double longest = k_longest_opening * diagonal(outer.positions);
+    return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
+        return opening.girth > longest && opening.roundness < k_roundest_crack;
+    });
+}
+
 bool has_openings(const TriangleMesh& outer)
 {
     const std::vector<Opening> openings = openings_of(outer);
-    return openings.size() >= k_fewest_openings && !has_doubled_rims(openings);
+    return openings.size() >= k_fewest_openings && !has_doubled_rims(openings) && !has_cracks(openings, outer);
 }
 
 }  // namespace

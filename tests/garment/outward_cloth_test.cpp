@@ -195,4 +195,24 @@ TEST(OutwardCloth, OfCoarseClothWhoseSheetsPassThroughEachOtherOneRemains)
     EXPECT_LT(rim, 2 * 1.5 * k_around * 0.05);  // m, twice round its pleats: a side of them is 0.045 long
 }
 
+/// A band about the y axis, wound up with a gap between its turns.
+TriangleMesh wound_band()
+{
+    constexpr double turns = 1.6;
+    TriangleMesh mesh = fixtures::sheet(161, 1. / 160, [](double, double) { return 0; });
+    for (auto row : mesh.positions.rowwise()) {
+        const double angle = 2 * std::numbers::pi * turns * row.x(), up = 0.1 * turns * row.x() + 0.08 * row.z();
+        row << 0.15 * std::sin(angle), up, 0.15 * std::cos(angle);
+    }
+    return mesh;
+}
+
+// Of sheets that pass through each other, such bands may be left of the outer one.
+TEST(PlainReading, WithABorderThatRunsToAndFroServesNot)
+{
+    const TriangleMesh tube = open_tube(0.15, 0.3, 0.4, k_rows);
+    EXPECT_TRUE(read_plainly(garment_of(tube)).serves);
+    EXPECT_FALSE(read_plainly(garment_of(fixtures::joined(wound_band(), tube))).serves);
+}
+
 }  // namespace
