@@ -228,8 +228,8 @@ inline constexpr double k_longest_slits = 1.75;
 /// have 9.5 diagonals of border, and the next one 5.8; four clothes of web shops have 11 to 25. Diagonals.
 inline constexpr double k_longest_borders = 10;
 /// Girth, in diagonals, and roundness of the border of an opening, beyond which it is a crack. fitted: a guess between
-/// 3.4, the most of 87 garments of the house, the catalogue and the wild data, and 7.7, of one polo shirt of a shop; those
-/// of three others of a shop with 4.7 to 18 are wrapped for other reasons.
+/// 3.4, the most of 87 garments of the house, the catalogue and the wild data, and 7.7, of one polo shirt of a shop;
+/// three others of a shop, with 4.7 to 18, are wrapped for other reasons.
 inline constexpr double k_longest_opening = 5, k_roundest_crack = 0.1;
 /// fitted: guess, on one shirt of a web shop, whose cuffs have .2 and .3. Distance of two borders that lie in each
 /// other, and length of the tubes that lead to them, in radii of the shorter one. Of 88 other clothes of shops that
