@@ -10,9 +10,9 @@
 
 namespace garmentfit {
 
-/// What closes the armholes and the neck, facing outwards, of a garment of which straps are nearly all the cloth between
-/// them. The neck's lid is a tent as high as the straps, for the shoulders reach up to there. Nothing of other garments.
-/// O(n).
+/// What closes the armholes and the neck, facing outwards, of a garment of which straps are nearly all the cloth
+/// between them. The neck's lid is a tent as high as the straps, for the shoulders reach up to there. Nothing of other
+/// garments. O(n).
 /// @param shoulders  from openings_at_shoulders
 TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& shoulders);
 

@@ -102,8 +102,8 @@ std::optional<double> way_along_border(const GarmentMesh& cloth, const std::vect
 }
 
 /// Two triangles between the nearest border edges of two parts that a ring joins: a strap goes on into the bodice, and
-/// parts the armhole from the neck. Not where they would part a small hole from the border, as a belt's end in its buckle
-/// does. @return whether there were any
+/// parts the armhole from the neck. Not where they would part a small hole from the border, as a belt's end in its
+/// buckle does. @return whether there were any
 bool bridge_links(GarmentMesh& cloth, const MeshTopology& topology, const std::vector<SewnDetail>& details)
 {
     const std::vector<std::vector<int>> loops = topology.border_loops();

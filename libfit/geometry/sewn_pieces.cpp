@@ -475,9 +475,9 @@ std::multimap<int, int> across_seams(const std::vector<Tie>& own_ties)
     return across;
 }
 
-/// The vertices of two parts of a piece that a ring or a buckle alone holds together, such as strap and bodice: it is sewn
-/// to both, and round about it no way along the cloth leads from one to the other. None where it is no such link. Buttons
-/// are none: fronts that they close lie on each other.
+/// The vertices of two parts of a piece that a ring or a buckle alone holds together, such as strap and bodice: it is
+/// sewn to both, and round about it no way along the cloth leads from one to the other. None where it is no such link.
+/// Buttons are none: fronts that they close lie on each other.
 std::array<std::vector<int>, 2> find_linked(const GarmentMesh& rest, const MeshTopology& topology,
                                             const std::multimap<int, int>& across_seams, const Piece& piece,
                                             const std::vector<Tie>& hold, const std::vector<int>& piece_of)

@@ -37,8 +37,8 @@ struct Tie {
 /// A piece such as a button, a bead or a belt loop: small, held by its back on a piece that is none, or in a seam.
 struct SewnDetail {
     std::vector<int> vertices;
-    /// Where it is a link, a ring or a buckle that alone holds two parts of that piece together, such as strap and bodice:
-    /// the vertices of either part that it is sewn to.
+    /// Where it is a link, a ring or a buckle that alone holds two parts of that piece together, such as strap and
+    /// bodice: the vertices of either part that it is sewn to.
     std::array<std::vector<int>, 2> linked = {};
 
     bool is_link() const { return !linked[0].empty(); }

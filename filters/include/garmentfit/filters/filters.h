@@ -80,7 +80,8 @@ struct Dressing : DressedBody {
     std::vector<std::vector<Girth>> girths;  ///< of garment and body under it
     std::vector<Overstretch> overstretches;
     std::vector<std::vector<PartLoad>> loads;  ///< round each part of the body that the garment goes round
-    /// Of each of the scene's garments, the shoulders (lclavicle, rclavicle) that it lay over in its fit and slipped off.
+    /// Of each of the scene's garments, the shoulders (lclavicle, rclavicle) that it lay over in its fit and slipped
+    /// off.
     std::vector<std::vector<Bone>> off_shoulders;
     std::vector<Fabric> fabrics;  ///< of each of the scene's garments
     std::vector<double> fabric_stretches;  ///< what each of them gives: Material::largest_stretch
