@@ -8,6 +8,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/fit_skeleton.h"
 #include "outward_cloth.h"
+#include "straps.h"
 
 namespace garmentfit {
 namespace {
@@ -18,9 +19,10 @@ public:
     SingleFit(const Rig& rig, const JointLimits& limits, const GarmentMesh& garment, const FitResult& fit,
               const std::array<bool, bone_count>& covered_by_any) :
         turn_(shortest_arc(fit.up, Vec3::UnitY())),
-        outward_(rotate(outward_cloth(garment), turn_)), cloth_(outward_),
+        outward_(rotate(outward_cloth(garment), turn_)), openings_(openings_of(outward_)),
+        cloth_(outward_, lids_between_straps(outward_, openings_)),
         metric_(cloth_, limb_radii(rig, fit, covered_by_any)),
-        energy_(rig, limits, metric_, cues_of(openings_of(outward_), front_of(fit, turn_))),
+        energy_(rig, limits, metric_, cues_of(openings_, front_of(fit, turn_))),
         posture_(rotate(posture_of(rig.skeleton, fit.pose), turn_)), joints_(place_bones(rig.skeleton, posture_).joints)
     {
     }
@@ -76,6 +78,7 @@ private:
 
     Eigen::Quaterniond turn_;  // upright from as given
     TriangleMesh outward_;
+    std::vector<Opening> openings_;
     ClearanceField cloth_;
     BoneMetric metric_;
     FitEnergy energy_;

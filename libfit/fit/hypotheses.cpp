@@ -28,11 +28,8 @@ std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& w
     held->outward = rotate(given.outward, way.turn);
     held->openings = rotate(given.openings, held->outward, way.turn);
     held->cues = cues_of(held->openings, front ? std::optional<Vec3>(way.turn * *front) : std::nullopt);
-    const std::vector<Opening> shoulders = openings_at_shoulders(held->openings);
-    for (std::size_t i = 0; i + 1 < shoulders.size(); ++i)
-        held->cues.armholes.push_back(shoulders[i].centre);
     held->clearance
-        = std::make_unique<const ClearanceField>(held->outward, lids_between_straps(held->outward, shoulders));
+        = std::make_unique<const ClearanceField>(held->outward, lids_between_straps(held->outward, held->openings));
     return held;
 }
 

@@ -3,6 +3,7 @@
 
 #include "append_mesh.h"
 #include "clearance.h"
+#include "type_guess.h"
 #include "winding_number.h"
 
 namespace garmentfit {
@@ -28,8 +29,9 @@ bool hangs_by_straps(const TriangleMesh& outward, const std::vector<Opening>& sh
 
 }  // namespace
 
-TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& shoulders)
+TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& openings)
 {
+    const std::vector<Opening> shoulders = openings_at_shoulders(openings);
     TriangleMesh lids;
     if (shoulders.empty() || !hangs_by_straps(outward, shoulders))
         return lids;

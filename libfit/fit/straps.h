@@ -13,7 +13,7 @@ namespace garmentfit {
 /// What closes the armholes and the neck, facing outwards, of a garment of which straps are nearly all the cloth
 /// between them. The neck's lid is a tent as high as the straps, for the shoulders reach up to there. Nothing of other
 /// garments. O(n).
-/// @param shoulders  from openings_at_shoulders
-TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& shoulders);
+/// @param openings  of the garment
+TriangleMesh lids_between_straps(const TriangleMesh& outward, const std::vector<Opening>& openings);
 
 }  // namespace garmentfit
