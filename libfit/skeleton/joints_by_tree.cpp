@@ -107,7 +107,11 @@ struct Pair {
 
 class LimbFinder {
 public:
-    LimbFinder(const Tree& tree, int base, int start) : tree_(tree), base_(base), path_(tree.longest_path(start)) { }
+    /// @param trunk  where it leaves the trunk
+    LimbFinder(const Tree& tree, const Vec3& trunk, int start) :
+        tree_(tree), trunk_(trunk), path_(tree.longest_path(start))
+    {
+    }
 
     /// The likeliest three joints of the path.
     Limb find(const UsualLimb& usual, bool has_fingers) const
@@ -131,7 +135,7 @@ private:
         if (!(upper > 0 && lower > 0))
             return limb;
         const double beyond = tree_.reach(path_[k]) / limb.length,
-                     from_trunk = (place(i) - tree_.place(base_)).norm() / limb.length;
+                     from_trunk = (place(i) - trunk_).norm() / limb.length;
         limb.cost = cost_of(std::log(lower / upper), usual.log_ratio) + cost_of(from_trunk, usual.from_trunk)
             + cost_of(beyond, usual.beyond);
         if (has_fingers)
@@ -151,9 +155,17 @@ private:
     }
 
     const Tree& tree_;
-    int base_;
+    Vec3 trunk_;
     std::vector<int> path_;
 };
+
+/// Where a pair leaves the trunk: limbs that begin at one place do so there, though the joint before them may be at the
+/// other end of the chest.
+Vec3 trunk_at(const Tree& tree, const Pair& pair)
+{
+    const Vec3 &left = tree.place(pair.starts[0]), &right = tree.place(pair.starts[1]);
+    return (left - right).norm() <= k_one_place * tree.reach(pair.starts[0]) ? left : tree.place(pair.base);
+}
 
 bool are_alike(double a, double b) { return std::abs(a - b) <= k_alike * std::max(a, b); }
 
@@ -180,7 +192,7 @@ std::vector<Pair> pairs_in(const Tree& tree)
     pairs.resize(std::min<std::size_t>(pairs.size(), k_most_pairs));
     for (Pair& pair : pairs)
         for (int side = 0; side < 2; ++side) {
-            const LimbFinder finder(tree, pair.base, pair.starts[side]);
+            const LimbFinder finder(tree, trunk_at(tree, pair), pair.starts[side]);
             pair.arms[side] = finder.find(k_usual_arm, true);
             pair.legs[side] = finder.find(k_usual_leg, false);
         }

@@ -159,6 +159,8 @@ inline constexpr Usual k_usual_arm_by_leg { -0.45, 0.3 }, k_usual_trunk_by_leg {
 inline constexpr double k_fingers_gain = 3, k_other_root_cost = 4;
 /// Dimensionless, by the length of the arm: no finger is shorter. fitted: guess.
 inline constexpr double k_least_finger = 0.08;
+/// Share of a limb's length: joints no further apart are at one place. unit: rounding of files.
+inline constexpr double k_one_place = 1e-3;
 /// Dimensionless. Lengths of two limbs of a pair differ by no more. Each has so much of the skin. The head has so much
 /// of the skin of head and neck. fitted: guess.
 inline constexpr double k_alike = 0.1, k_least_limb_mass = 0.005, k_least_head_mass = 0.5;

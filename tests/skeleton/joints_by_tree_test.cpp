@@ -207,6 +207,24 @@ TEST(JointsByTree, TellsArmsThatBeginAtOnePlaceByTheirElbows)
     }
 }
 
+TEST(JointsByTree, TellsElbowsFromWristsWhereClaviclesBeginAtOnePlaceFarAboveTheJointBefore)
+{
+    Builder given({});
+    for (std::size_t j = 0; j < given.meant.size(); ++j) {
+        const std::string& what = given.meant[j];
+        Vec3& place = given.joints.places[j];
+        if (what == "left clavicle" || what == "right clavicle")
+            place.x() = 0;
+        else if (what == "left shoulder" || what == "left elbow" || what == "left wrist")
+            place.x() += 0.1;
+        else if (what == "right shoulder" || what == "right elbow" || what == "right wrist")
+            place.x() -= 0.1;
+        else if (what == "spine")
+            place.y() = 0.95 + 0.3 * (place.y() - 0.95);
+    }
+    expect_found(given, "clavicles as long as upper arms");
+}
+
 TEST(JointsByTree, DoesNotMindTheOrderOfJoints)
 {
     std::mt19937 random(3);
