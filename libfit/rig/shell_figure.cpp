@@ -132,6 +132,14 @@ Eigen::AlignedBox3d padded(Eigen::AlignedBox3d box, double by)
     return box;
 }
 
+/// Adds a part to an earlier one.
+void join(std::vector<Part>& parts, std::size_t one, std::size_t other)
+{
+    parts[one].box.extend(parts[other].box);
+    parts[one].vertices.insert(parts[one].vertices.end(), parts[other].vertices.begin(), parts[other].vertices.end());
+    parts.erase(parts.begin() + std::ptrdiff_t(other));
+}
+
 /// Joins those of which one lies mostly in the other, until none does.
 void join_nested(std::vector<Part>& parts, double padding)
 {
@@ -143,9 +151,7 @@ void join_nested(std::vector<Part>& parts, double padding)
                 const Eigen::AlignedBox3d common = one.intersection(other);
                 if (common.isEmpty() || common.volume() < k_nested_share * std::min(one.volume(), other.volume()))
                     continue;
-                parts[a].box.extend(parts[b].box);
-                parts[a].vertices.insert(parts[a].vertices.end(), parts[b].vertices.begin(), parts[b].vertices.end());
-                parts.erase(parts.begin() + std::ptrdiff_t(b));
+                join(parts, a, b);
                 joined = true;
             }
     }
@@ -381,6 +387,21 @@ std::optional<ShellFigure> figure_about(const TriangleMesh& surface, const std::
     return figure;
 }
 
+/// The highest part that lies across the middle of the trunk and, by its centre, below it, or -1.
+int next_below(const std::vector<Part>& parts, std::size_t trunk)
+{
+    const Vec3 middle = parts[trunk].box.center();
+    int next = -1;
+    for (int p = 0; p < int(parts.size()); ++p) {
+        const Eigen::AlignedBox3d& box = parts[std::size_t(p)].box;
+        if (box.min().x() < middle.x() && box.max().x() > middle.x() && box.center().y() < parts[trunk].box.min().y()
+            && (next < 0 || box.center().y() > parts[std::size_t(next)].box.center().y()))
+            next = p;
+    }
+    return next;
+}
+
+/// A trunk may be of several parts, such as chest, belly and hips: each is tried with those below it.
 /// @param best  the likeliest so far, or none
 void look_for_trunk(const TriangleMesh& surface, std::vector<Part> parts, const std::vector<Part>& held, double size,
                     std::optional<ShellFigure>& best)
@@ -388,12 +409,20 @@ void look_for_trunk(const TriangleMesh& surface, std::vector<Part> parts, const 
     join_nested(parts, k_shell_padding * size);
     if (parts.size() > k_most_parts)
         return;
-    for (std::size_t trunk = 0; trunk < parts.size(); ++trunk)
-        if (std::optional<ShellFigure> figure = figure_about(surface, parts, trunk, held)) {
-            figure->cost += held.empty() ? 0 : k_held_cost;
-            if (figure->cost < (best ? best->cost : k_most_figure_cost))
-                best = std::move(figure);
+    for (const Part& first : parts) {
+        std::vector<Part> others = parts;
+        others.erase(others.begin() + (&first - parts.data()));
+        others.insert(others.begin(), first);
+        for (int below = 0; below >= 0; below = next_below(others, 0)) {
+            if (below > 0)
+                join(others, 0, std::size_t(below));
+            if (std::optional<ShellFigure> figure = figure_about(surface, others, 0, held)) {
+                figure->cost += held.empty() ? 0 : k_held_cost;
+                if (figure->cost < (best ? best->cost : k_most_figure_cost))
+                    best = std::move(figure);
+            }
         }
+    }
 }
 
 }  // namespace

@@ -44,14 +44,20 @@ struct Blocks {
     Arms arms = Arms::down;
     double gap = 0;  ///< between parts
     double sunk = 0;  ///< the head into the chest, and as far forwards
-    bool split = true, head = true, has_pack = false, has_hat = false, has_bow = false;
+    bool split = true, head = true, has_pack = false, has_hat = false, has_bow = false,
+         has_parted_trunk = false;  ///< chest, belly and hips
 };
 
 /// 32 units tall.
 TriangleMesh figure_of_blocks(const Blocks& b)
 {
-    TriangleMesh mesh = block({ 0, 18, 0 }, { 8, 12, 4 }, b.split);
+    TriangleMesh mesh;
     const auto add = [&](const Vec3& middle, const Vec3& size) { mesh = joined(mesh, block(middle, size, b.split)); };
+    if (b.has_parted_trunk)
+        for (const double y : { 14, 18, 22 })
+            add({ 0, y, 0 }, { 8, 4 - b.gap, 4 });
+    else
+        add({ 0, 18, 0 }, { 8, 12, 4 });
     if (b.head)
         add({ 0, 28 + b.gap - b.sunk, b.sunk }, { 8, 8, 8 });
     for (const double s : { 1, -1 }) {
@@ -79,7 +85,8 @@ TEST(ShellFigure, BlocksAreHeadTrunkArmsAndLegsHoweverTheyTouch)
 {
     for (const Blocks& b : { Blocks {}, Blocks { .gap = 0.5 }, Blocks { .split = false }, Blocks { .arms = Arms::out },
                              Blocks { .arms = Arms::forwards }, Blocks { .has_pack = true }, Blocks { .has_hat = true },
-                             Blocks { .gap = 0.2, .has_pack = true, .has_hat = true } }) {
+                             Blocks { .gap = 0.2, .has_pack = true, .has_hat = true },
+                             Blocks { .gap = 0.5, .has_parted_trunk = true } }) {
         SCOPED_TRACE("arms " + std::to_string(int(b.arms)) + " gap " + std::to_string(b.gap) + " pack "
                      + std::to_string(b.has_pack) + " hat " + std::to_string(b.has_hat));
         const std::optional<ShellFigure> figure = shell_figure(figure_of_blocks(b));
