@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "joint_labels.h"
 
+#include <algorithm>
 #include <string>
 
 #include "garmentfit/error.h"
@@ -66,10 +67,20 @@ Centreline place_legs_and_spine(const LabelledSurface& surface, const Slicer& sl
     return spine;
 }
 
+/// By how much the neck begins too far above the shoulders, m. A head that is larger than a human's reaches further down.
+double neck_in_head(const BodyJoints& joints)
+{
+    const Vec3 shoulders = 0.5 * (joints.arms[0].root + joints.arms[1].root), trunk = shoulders - joints.pelvis;
+    const double above = (joints.neck_base - shoulders).dot(trunk.normalized());
+    return std::max(0.0, above - k_neck_above_shoulders * trunk.norm());
+}
+
 void place_neck(const Centreline& spine, bool headless, BodyJoints& joints)
 {
     const double head = headless ? k_neck_stub : 1;
-    joints.neck_base = point_below(spine, joints.crown, head * k_neck_base * joints.size);
+    const double below_crown = head * k_neck_base * joints.size;
+    joints.neck_base = point_below(spine, joints.crown, below_crown);
+    joints.neck_base = point_below(spine, joints.crown, below_crown + neck_in_head(joints));
     joints.skull_base
         = joints.crown + head * k_skull_base * joints.size * (joints.neck_base - joints.crown).normalized();
     if (!headless)

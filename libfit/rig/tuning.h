@@ -163,6 +163,9 @@ inline constexpr double k_pelvis_cuts = 2, k_spine_spacing = 0.5;
 /// fitted: on the bodies, by the number with correct sides. Distances below the end of the spine's line: end of the
 /// head, beginning and end of the neck.
 inline constexpr double k_head = 0.09, k_jaw = 0.13, k_neck = 0.2;
+/// Share of the distance from the pelvis to the shoulders: the neck begins no further above these. fitted: guess; 22
+/// bodies with human heads have .14 to .3, a figure with a large one had 1.
+inline constexpr double k_neck_above_shoulders = 0.4;
 /// fitted: guess, on the bodies without heads. Share of neck and head that remains.
 inline constexpr double k_neck_stub = 0.25;
 

@@ -97,6 +97,20 @@ INSTANTIATE_TEST_SUITE_P(Poses, RigBodyInPose,
                                          PersonOptions { .scale = 0.6 }),
                          [](const auto& pose) { return "pose" + std::to_string(pose.index); });
 
+TEST(RigBody, PlacesTheNeckAtTheShouldersWhereTheHeadIsLarge)
+{
+    TriangleMesh mesh = capsule_person().mesh;
+    for (auto p : mesh.positions.rowwise())
+        if (const double above = p.y() - 1.5; above > 0) {
+            const double wider = 1 + std::min(1.0, 20 * above);
+            p = Eigen::RowVector3d(wider * p.x(), 1.5 + 2.2 * above, wider * p.z());
+        }
+    const Skeleton skeleton = rig_body(body_of(mesh), k_coarse).skeleton;
+    const double shoulders = 0.5 * (skeleton.head(lhumerus).y() + skeleton.head(rhumerus).y());
+    EXPECT_LT(skeleton.head(lowerneck).y() - shoulders, 0.45 * (shoulders - skeleton.root.y()));
+    EXPECT_GT(skeleton.head(lowerneck).y(), shoulders);
+}
+
 TEST(RigBody, GivesEveryVertexPositiveWeightsThatSumToOne)
 {
     const Person person = capsule_person();
