@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -491,12 +492,12 @@ std::array<std::vector<int>, 2> find_linked(const GarmentMesh& rest, const MeshT
     for (const Tie& tie : hold)
         if (piece_of[tie.corners[0]] == holder)
             ends.insert(tie.corners.begin(), tie.corners.end());
-    std::vector<int> front { *ends.begin() };
-    while (!front.empty()) {
-        const int v = front.back();
-        front.pop_back();
+    std::deque<int> front { *ends.begin() };
+    for (std::size_t ends_reached = 0; !front.empty() && ends_reached < ends.size(); front.pop_front()) {
+        const int v = front.front();
         if (!reached.insert(v).second)
             continue;
+        ends_reached += ends.count(v);
         for (const int n : topology.neighbours(v))
             if (ends.count(n) || around.contains(Vec3(rest.positions.row(n))))
                 front.push_back(n);
