@@ -67,7 +67,8 @@ Centreline place_legs_and_spine(const LabelledSurface& surface, const Slicer& sl
     return spine;
 }
 
-/// By how much the neck begins too far above the shoulders, m. A head that is larger than a human's reaches further down.
+/// By how much the neck begins too far above the shoulders, m. A head that is larger than a human's reaches further
+/// down.
 double neck_in_head(const BodyJoints& joints)
 {
     const Vec3 shoulders = 0.5 * (joints.arms[0].root + joints.arms[1].root), trunk = shoulders - joints.pelvis;
