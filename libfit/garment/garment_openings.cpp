@@ -483,6 +483,16 @@ std::vector<Opening> rotate(std::vector<Opening> openings, const TriangleMesh& c
     return openings;
 }
 
+Positions positions_of_piece(const TriangleMesh& outward, int piece)
+{
+    const std::vector<int> pieces = pieces_of(outward);
+    std::vector<Eigen::Index> rows;
+    for (std::size_t v = 0; v < pieces.size(); ++v)
+        if (pieces[v] == piece)
+            rows.push_back(Eigen::Index(v));
+    return outward.positions(rows, Eigen::all);
+}
+
 bool face_alike(const Opening& a, const Opening& b, const Vec3& axis)
 {
     return (a.facing - 2 * a.facing.dot(axis) * axis).dot(b.facing) > k_facing_alike;

@@ -44,6 +44,9 @@ bool face_alike(const Opening& a, const Opening& b, const Vec3& axis);
 /// its genus is larger.
 bool is_sealed(const TriangleMesh& outward);
 
+/// The vertices of a connected piece. @param piece  Opening::piece
+Positions positions_of_piece(const TriangleMesh& outward, int piece);
+
 struct Pieces {
     int count = 0;
     double largest = 0;  ///< m, longest side of the bounding box of the largest piece

@@ -53,9 +53,14 @@ void add(std::vector<WearerHeight>& heights, double measure, const Usual& usual)
 
 std::vector<WearerHeight> wearer_heights(const GarmentMesh& garment)
 {
-    const GarmentMeasures measures = measures_of(openings_of(outward_cloth(garment)));
+    const TriangleMesh outward = outward_cloth(garment);
+    const std::vector<Opening> openings = openings_of(outward);
+    const GarmentMeasures measures = measures_of(openings);
     std::vector<WearerHeight> heights = wearer_heights(measures);
-    const Positions used = garment.positions(used_vertices(garment.triangles), Eigen::all);
+    // A jacket reaches further than the trousers that were measured.
+    const bool are_two = measures.piece >= 0 && guess_type(openings).type == GarmentType::suit;
+    const Positions used = are_two ? positions_of_piece(outward, measures.piece)
+                                   : Positions(garment.positions(used_vertices(garment.triangles), Eigen::all));
     const Extents extents = level_extents(used);
     add(heights, extents.depth, usual_extents(measures).depth);
     add(heights, extents.width, usual_extents(measures).width);

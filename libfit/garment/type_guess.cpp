@@ -557,6 +557,7 @@ GarmentMeasures measures_of(const std::vector<Opening>& openings)
             continue;
         tallest = piece.height;
         measures = {};
+        measures.piece = piece.others.front().piece;
         if (!piece.sleeves.empty()) {
             measures.shoulders = level_between(piece.sleeves[0], piece.sleeves[1]).norm();
             if (!are_armholes(piece)) {

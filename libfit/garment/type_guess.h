@@ -41,6 +41,7 @@ std::vector<Opening> openings_at_shoulders(const std::vector<Opening>& openings)
 
 /// Measures of the tallest piece of a garment, m; 0 where it has no such part.
 struct GarmentMeasures {
+    int piece = -1;  ///< Opening::piece; less than 0 where no piece was measured
     double shoulders = 0;  ///< from sleeve to sleeve, where they meet the trunk, or from armhole to armhole
     double sleeve = 0;  ///< girth of the wider sleeve; not of an armhole
     double sleeve_length = 0;  ///< of the shorter sleeve

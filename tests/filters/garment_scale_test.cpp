@@ -230,6 +230,19 @@ TEST(GarmentScale, WidthAndDepthAreEvidenceWithoutParts)
     }
 }
 
+TEST(GarmentScale, AJacketAboveTrousersIsNoneOfTheirExtents)
+{
+    const TriangleMesh trousers = garment_round(person_skeleton(k_person), 0.02, [](const Vec3& p) {
+        return p.y() > 0.15 && p.y() < 1.0 && std::abs(p.x()) < 0.26;
+    });
+    const auto heights_of
+        = [](const TriangleMesh& mesh) { return wearer_heights(make_garment(mesh.positions, mesh.triangles)); };
+    const auto alone = heights_of(trousers), suit = heights_of(joined(trousers, shirt()));
+    ASSERT_EQ(suit.size(), alone.size());
+    for (std::size_t i = 0; i < suit.size(); ++i)
+        EXPECT_NEAR(suit[i].height, alone[i].height, 0.02 * alone[i].height) << i;
+}
+
 TEST(GarmentScale, IsSaidInAWarningWithTheOptionsThatSettleIt)
 {
     const FrameGuess guess = guess_of(2.1);
