@@ -133,7 +133,7 @@ void measure(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
     }
 }
 
-/// @param garment  of the scene
+/// The shoulders that one of the scene's garments lay over in its fit, and lies over no longer.
 std::vector<Bone> slipped_off(const Scene& scene, const Dressing& dressing, std::size_t garment)
 {
     if (!dressing.is_worn(garment) || garment >= scene.fits.size())
@@ -149,7 +149,7 @@ std::vector<Bone> slipped_off(const Scene& scene, const Dressing& dressing, std:
     return off;
 }
 
-/// What the scene's garments are made of, and the unit of messages about them.
+/// What the scene's garments are made of, the unit of messages about them, and the shoulders that they slipped off.
 void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
 {
     dressing.unit = scene.unit;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/shoulders.h"
 
-#include <cmath>
-
 #include "tuning.h"
 
 namespace garmentfit {

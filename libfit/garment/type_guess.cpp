@@ -583,9 +583,8 @@ GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Ve
     GarmentCues cues;
     if (front)
         cues.front_given = Vec3(front->x(), 0, front->z()).normalized();
-    const std::vector<Opening> shoulders = openings_at_shoulders(openings);
-    for (std::size_t i = 0; i + 1 < shoulders.size(); ++i)
-        cues.armholes.push_back(shoulders[i].centre);
+    if (const std::vector<Opening> shoulders = openings_at_shoulders(openings); !shoulders.empty())
+        cues.armholes = { shoulders[0].centre, shoulders[1].centre };
     double longest = 0, tallest = 0;
     cues.is_strapless = !openings.empty();
     for (const Piece& piece : pieces_of(openings)) {

@@ -575,7 +575,10 @@ SewnPieces find_sewn_pieces(const GarmentMesh& rest, const MeshTopology& topolog
         sewing.add_seam(p, p, find_own_seams(rest, topology, pieces[p], around));
         sewing.add_seam(p, p, find_t_junctions(rest, topology, pieces[p]));
     }
-    const std::multimap<int, int> across = across_seams(sewing.ties());
+    const bool has_rings = std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) {
+        return piece.is_ring() && piece.size() <= k_largest_detail;
+    });
+    const std::multimap<int, int> across = has_rings ? across_seams(sewing.ties()) : std::multimap<int, int>();
     std::vector<char> is_on_border(std::size_t(rest.positions.rows()), 0);
     std::vector<int> piece_of(std::size_t(rest.positions.rows()), -1);
     for (std::size_t p = 0; p < pieces.size(); ++p) {
