@@ -203,7 +203,8 @@ bool has_failed(const FitEnergy& energy, const Posture& posture)
     return std::any_of(k_limbs.begin(), k_limbs.end(), [&](const Limb& limb) {
         const int upper = limb.bones[0];
         return covers_first_bone(energy, limb)
-            && energy.metric().samples_inside(joints.head(upper), joints.tail(upper)) == 0;
+            && (energy.metric().samples_inside(joints.head(upper), joints.tail(upper)) == 0
+                || energy.misses_sleeve(upper, joints.tail(upper), joints));
     });
 }
 

@@ -49,7 +49,7 @@ InsideShares shares_inside(const FitEnergy& energy, const Posture& posture)
     for (int b = 0; b < bone_count; ++b) {
         const int samples = energy.metric().samples_inside(joints.head(b), joints.tail(b));
         if (energy.metric().covers(b)) {
-            sum.covered += samples >= k_mostly_inside;
+            sum.covered += samples >= k_mostly_inside && !energy.misses_sleeve(b, joints.tail(b), joints);
             ++covered;
         } else if (b != lowerneck && b != upperneck) {
             sum.uncovered += double(samples) / k_samples;

@@ -25,7 +25,7 @@ enum Evidence {
     clearance_evidence,  ///< share of the clearance that covered bones need, 0 to about 1
     uncovered_cloth_evidence,  ///< mean distance of the cloth from the covered limbs, in tenths of a leg
     crossing_evidence,  ///< bones that pass through cloth, at most 3
-    covered_inside_evidence,  ///< share of the covered bones that lie inside
+    covered_inside_evidence,  ///< share of the covered bones that lie inside, arms not beside an empty sleeve
     uncovered_inside_evidence,  ///< share of the other bones, neck apart, that lies inside
     // The way up
     as_given_evidence,  ///< 1 where the garment is held as its file has it, and its openings lie along the vertical

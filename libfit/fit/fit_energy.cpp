@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "search_grids.h"
+#include "segment.h"
 
 namespace garmentfit {
 namespace {
@@ -258,6 +259,19 @@ bool FitEnergy::passes_through_cloth(const Vec3& from, const Vec3& to) const
     return passes_beside(across) || passes_beside(-across) || passes_beside(other) || passes_beside(-other);
 }
 
+bool FitEnergy::misses_sleeve(int bone, const Vec3& elbow, const Skeleton& joints) const
+{
+    if ((bone != lhumerus && bone != rhumerus) || !metric_.covers(bone))
+        return false;
+    Vec3 nearest = joints.head(lowerback);
+    for (const int spine : { lowerback, upperback, thorax })
+        if (const Vec3 there = nearest_on_segment(elbow, joints.head(spine), joints.tail(spine));
+            (there - elbow).squaredNorm() < (nearest - elbow).squaredNorm())
+            nearest = there;
+    // the nearest is seen from a level sleeve through its armhole, the waist perhaps from one that is held up
+    return !metric_.cloth().crosses(elbow, nearest) && !metric_.cloth().crosses(elbow, joints.head(upperback));
+}
+
 double FitEnergy::tip_crossing_cost(const PlacedBones& bones, Extremity extremity) const
 {
     const bool crosses = passes_through_cloth(bones.joints.tail(bone_before(extremity)), bones.joints.tips[extremity]);
@@ -279,6 +293,8 @@ double FitEnergy::crossing_cost(const Posture& posture) const
     double cost = weights_.crossing * bones_through_cloth(posture);
     for (int e = 0; e < extremity_count; ++e)
         cost += tip_crossing_cost(bones, Extremity(e));
+    for (const int arm : { lhumerus, rhumerus })
+        cost += misses_sleeve(arm, bones.joints.tail(arm), bones.joints) ? weights_.arm_in_trunk : 0;
     return cost;
 }
 
@@ -286,8 +302,10 @@ double FitEnergy::crossing_cost(const Posture& posture, const Limb& limb) const
 {
     const PlacedBones bones = place_bones(rig_.skeleton, posture);
     double cost = tip_crossing_cost(bones, limb.end);
-    for (const int b : limb.bones)
+    for (const int b : limb.bones) {
         cost += passes_through_cloth(bones.joints.head(b), bones.joints.tail(b)) ? weights_.crossing : 0;
+        cost += misses_sleeve(b, bones.joints.tail(b), bones.joints) ? weights_.arm_in_trunk : 0;
+    }
     return cost;
 }
 

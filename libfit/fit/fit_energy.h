@@ -44,13 +44,16 @@ public:
     /// Less the cost of crossings, m.
     double total(const Posture& posture) const { return value(posture) - crossing_cost(posture); }
 
-    /// Cost of all bones and extremities that pass through cloth, m.
+    /// Cost of all bones and extremities that pass through cloth, and of arms that miss their sleeves, m.
     double crossing_cost(const Posture& posture) const;
     double crossing_cost(const Posture& posture, const Limb& limb) const;
     /// Of hands and feet alone.
     double tip_crossing_cost(const Posture& posture) const;
     int bones_through_cloth(const Posture& posture) const;
     bool passes_through_cloth(const Vec3& from, const Vec3& to) const;
+    /// Of a covered arm with its elbow there: no cloth divides it from the spine, so it is not in a sleeve. In a poncho
+    /// that is so of all arms. False for other bones, and for arms that the garment does not cover.
+    bool misses_sleeve(int bone, const Vec3& elbow, const Skeleton& joints) const;
 
     /// E_B of each covered bone, m; 0 for the others.
     std::array<double, bone_count> bone_scores(const Posture& posture) const;

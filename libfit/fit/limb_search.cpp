@@ -22,6 +22,11 @@ struct Chain {
     CoverageDistances distances;  // empty where coverage does not count
 };
 
+void sort_best_first(std::vector<Chain>& chains)
+{
+    std::stable_sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) { return a.score > b.score; });
+}
+
 class LimbSearch {
 public:
     LimbSearch(const FitEnergy& energy, const Posture& present, const Limb& limb, const LimbGrid& grid) :
@@ -36,8 +41,14 @@ public:
         Chain root { bones_.joints.head(first), bones_.parent_turn(first), { Vec3::Zero(), Vec3::Zero() }, 0, {} };
         if (grid_.exact && fills_tube())
             root.distances = energy_.coverage_distances(bones_, limb_);
-        std::vector<Chain> beam;
-        for (Chain& chain : extend(root, 0, present_.directions[first], k_any)) {
+        std::vector<Chain> beam, chains = extend(root, 0, present_.directions[first], k_any);
+        if (grid_.exact && (first == lhumerus || first == rhumerus)) {
+            for (Chain& chain : chains)
+                if (energy_.misses_sleeve(first, chain.tail, bones_.joints))
+                    chain.score -= energy_.weights().arm_in_trunk;
+            sort_best_first(chains);
+        }
+        for (Chain& chain : chains) {
             if (int(beam.size()) == grid_.beam)
                 break;
             const bool is_alike = std::any_of(beam.begin(), beam.end(), [&](const Chain& kept) {
@@ -130,8 +141,7 @@ private:
                 least = std::max(least, next.score);
             result.push_back(std::move(next));
         }
-        std::stable_sort(result.begin(), result.end(),
-                         [](const Chain& a, const Chain& b) { return a.score > b.score; });
+        sort_best_first(result);
         return result;
     }
 

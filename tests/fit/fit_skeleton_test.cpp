@@ -650,6 +650,19 @@ TEST(FitSkeleton, OneSleeveHoldsOneArm)
     EXPECT_FALSE(covers(rradius));
 }
 
+// Where a cuff is folded, a forearm in its sleeve passes through cloth sooner than an arm beside the spine.
+TEST(FitSkeleton, NoArmHangsInTheTrunkBesideAnEmptySleeve)
+{
+    const Rig rig = rig_of({ .arm_angle = 45 });
+    const MeshFile file = MeshFile::read(std::filesystem::path(GARMENTFIT_GARMENTS) / "turtleneck.ply");
+    const GarmentMesh garment = make_garment(file.positions(), file.triangles());
+    const FitResult result = fit_skeleton(rig, garment);
+    const Skeleton joints = pose_skeleton(rig.skeleton, result.pose);
+    expect_clear(joints, garment);
+    EXPECT_GT(joints.tail(lhumerus).x(), 0.3);
+    EXPECT_LT(joints.tail(rhumerus).x(), -0.3);
+}
+
 TEST(FitSkeleton, ClosedClothWithThicknessIsFittedLikeItsOuterSheet)
 {
     const Rig rig = rig_of({ .arm_angle = 70 });

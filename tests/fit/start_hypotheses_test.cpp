@@ -97,6 +97,25 @@ TEST_F(Shirt, ALimbIsSearchedWithoutPassingThroughCloth)
         EXPECT_EQ(found.directions[b], lowered.directions[b]) << "other limbs keep their directions";
 }
 
+TEST_F(Shirt, AnArmBesideTheSpineMissesItsSleeve)
+{
+    const Posture worn = ascend_starts(energy, find_rough_starts(energy, facing_hypotheses(energy)), {}).front();
+    Posture beside = worn;
+    const Vec3 shoulder = place_bones(rig.skeleton, worn).joints.tail(lclavicle),
+               between_hips = place_bones(rig.skeleton, worn).joints.root;
+    for (const int b : { lhumerus, lradius })
+        beside.directions[b] = (between_hips - shoulder).normalized();
+    const auto misses = [&](const Posture& posture, Bone bone) {
+        const Skeleton joints = place_bones(rig.skeleton, posture).joints;
+        return energy.misses_sleeve(bone, joints.tail(bone), joints);
+    };
+    EXPECT_FALSE(misses(worn, lhumerus) || misses(worn, rhumerus));
+    EXPECT_TRUE(misses(beside, lhumerus));
+    EXPECT_FALSE(misses(beside, rhumerus) || misses(beside, lfemur));
+    EXPECT_EQ(energy.crossing_cost(worn, k_limbs[2]), 0);
+    EXPECT_GE(energy.crossing_cost(beside, k_limbs[2]), energy.weights().arm_in_trunk);
+}
+
 TEST_F(Shirt, AscentsKeepTheBestOfEachFacing)
 {
     const std::vector<Posture> rough = find_rough_starts(energy, facing_hypotheses(energy)),
