@@ -128,7 +128,7 @@ std::optional<std::string_view> name_of_unit(double metres_per_unit)
 }
 
 /// By what the garment's measures say. What is no garment is left alone: its defects are found where it is prepared.
-void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangles& triangles, const Frame& body,
+void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangles& triangles, double usual_unit,
                    double stature)
 {
     const Positions metres = guess.frame.to_metres(positions);
@@ -141,8 +141,8 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
     if (wearers.empty())
         return;
     const double length = extents_of(metres, triangles).y();
-    const ScaleGuess scale = guess_scale(wearers, length, stature, guess.frame.metres_per_unit,
-                                         nearest_unit(body.metres_per_unit), is_normalised(positions, triangles));
+    const ScaleGuess scale = guess_scale(wearers, length, stature, guess.frame.metres_per_unit, usual_unit,
+                                         is_normalised(positions, triangles));
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;
     if (scale.factor == 1)
@@ -162,12 +162,13 @@ std::string unit_text(const Frame& frame)
     return std::string(name_of_unit(frame.metres_per_unit).value_or("no unit"));
 }
 
-/// Whether it is, by its measures: a small garment may come to lie in the body's trunk or round a limb by chance. What
-/// is no garment, or has no measures, may be of any size.
-bool is_dolls(const Positions& metres, const Triangles& triangles, const std::optional<double>& stature)
+/// By its measures: a small garment may come to lie in the body's trunk or round a limb by chance. What is no garment,
+/// or has no measures, may be of any size.
+bool is_too_small(const Positions& metres, const Triangles& triangles, double stature)
 {
     try {
-        return stature && is_dolls_garment(wearer_heights_of_any_size(metres, triangles), *stature);
+        const std::optional<double> median = median_wearer(wearer_heights_of_any_size(metres, triangles));
+        return median && *median <= k_least_wearer_in_place * stature;
     } catch (const InvalidInput&) {
         return false;
     }
@@ -180,7 +181,7 @@ std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& 
 {
     const auto lies_in = [&](const Frame& frame) {
         const Positions metres = frame.to_metres(positions);
-        return lies_on_body({ metres, triangles }, skin) && !is_dolls(metres, triangles, stature);
+        return lies_on_body({ metres, triangles }, skin) && !(stature && is_too_small(metres, triangles, *stature));
     };
     if (lies_in(body))
         return body;
@@ -243,7 +244,8 @@ FrameGuess garment_frame(const Positions& positions, const Triangles& triangles,
         choose_up(guess, positions, cloth, body);
     guess = apply_choice(guess, choice);
     if (stature && choice.unit == "auto" && choice.scale == 1 && !on_body)
-        scale_to_body(guess, positions, cloth, body, *stature);
+        scale_to_body(guess, positions, cloth, choice.usual_unit.value_or(nearest_unit(body.metres_per_unit)),
+                      *stature);
     guess.frame.metres_per_unit *= choice.scale;
     if (choice.scale != 1)
         guess.why += ", scaled by " + rounded_text(choice.scale, 3) + " as given";

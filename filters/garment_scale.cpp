@@ -55,8 +55,13 @@ public:
         return sum;
     }
 
-    /// With its size multiplied by a factor.
-    bool is_dolls(double factor) const { return is_dolls_garment(wearers_, height_ / factor); }
+    /// With its size multiplied by a factor, for people so much smaller that the fit refuses it, and names its unit as
+    /// the reason.
+    bool is_dolls(double factor) const
+    {
+        const std::optional<double> median = median_wearer(wearers_);
+        return median && *median * factor <= k_least_wearer * height_;
+    }
 
     /// Logarithms of factors between which any measure fits, one k_step apart.
     std::vector<double> log_factors() const
@@ -107,22 +112,22 @@ struct Hypothesis {
     double factor = 1, weight = 0;
 };
 
-double usualness(const UsualUnit& unit, double body_unit)
+double usualness(const UsualUnit& unit, double usual_unit)
 {
-    return unit.usualness * (metres_per(unit.name) == body_unit ? k_body_unit : 1);
+    return unit.usualness * (metres_per(unit.name) == usual_unit ? k_usual_unit : 1);
 }
 
 /// One for each unit, made for people as large as the body or not.
-std::vector<Hypothesis> in_units(const Wearer& wearer, double prior, double metres_per_unit, double body_unit)
+std::vector<Hypothesis> in_units(const Wearer& wearer, double prior, double metres_per_unit, double usual_unit)
 {
     double all = 0;
     for (const UsualUnit& unit : k_usual_units)
-        all += usualness(unit, body_unit);
+        all += usualness(unit, usual_unit);
     std::vector<Hypothesis> hypotheses;
     for (const UsualUnit& unit : k_usual_units) {
         const double factor = metres_per(unit.name) / metres_per_unit;
         const double likelihood = wearer.is_dolls(factor) ? 0 : wearer.likelihood_of_others(std::log(factor));
-        hypotheses.push_back({ factor, prior * usualness(unit, body_unit) / all * likelihood });
+        hypotheses.push_back({ factor, prior * usualness(unit, usual_unit) / all * likelihood });
     }
     return hypotheses;
 }
@@ -184,28 +189,28 @@ bool is_normalised(const Positions& positions, const Triangles& triangles)
     return std::abs(longest - 1) < k_normalised || std::abs(longest / 2 - 1) < k_normalised;
 }
 
-bool is_dolls_garment(const std::vector<WearerHeight>& wearers, double stature)
+std::optional<double> median_wearer(std::span<const WearerHeight> wearers)
 {
     std::vector<double> heights;
     for (const WearerHeight& wearer : wearers)
         if (!wearer.is_least)
             heights.push_back(wearer.height);
     if (heights.empty())
-        return false;
+        return {};
     const auto median = heights.begin() + std::ptrdiff_t(heights.size() / 2);
     std::nth_element(heights.begin(), median, heights.end());
-    return *median <= k_least_wearer * stature;
+    return *median;
 }
 
 ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, double height, double metres_per_unit,
-                       double body_unit, bool normalised)
+                       double usual_unit, bool normalised)
 {
     if (wearers.empty() || !(height > 0) || !(length > 0))
         return {};
     const Wearer wearer(wearers, length, height);
     const double odds = k_without_unit / (1 - k_without_unit) * (normalised ? k_normalised_odds : 1);
     const double prior = odds / (1 + odds);  // that there is no unit
-    const std::vector<Hypothesis> units = in_units(wearer, 1 - prior, metres_per_unit, body_unit),
+    const std::vector<Hypothesis> units = in_units(wearer, 1 - prior, metres_per_unit, usual_unit),
                                   any = without_unit(wearer, prior);
     const Hypothesis unit = *std::max_element(units.begin(), units.end(),
                                               [](const auto& a, const auto& b) { return a.weight < b.weight; });

@@ -3,6 +3,8 @@
 
 // Whether a garment has the size of its unit, or a normalised one that no unit explains.
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "garmentfit/garment_size.h"
@@ -26,17 +28,16 @@ bool is_normalised(const Positions& positions, const Triangles& triangles);
 /// @param log_stature  natural logarithm of their stature over the body's
 double density_of_others(double log_stature);
 
-/// Whether a garment, by the median of its measures, is for people so much smaller than somebody of a stature, m, that
-/// the fit refuses it, and names its unit as the reason. Not where it has no measures.
-bool is_dolls_garment(const std::vector<WearerHeight>& wearers, double stature);
+/// How tall the people are whom a garment fits, by the median of its measures, m; none where it has no measures.
+std::optional<double> median_wearer(std::span<const WearerHeight> wearers);
 
 /// @param wearers  of the garment in the unit guessed (wearer_heights)
 /// @param length  of the garment as it hangs, from its highest to its lowest point, in the unit guessed, m
 /// @param height  of the body, m
 /// @param metres_per_unit  as guessed
-/// @param body_unit  m, of the body's file
+/// @param usual_unit  m, of the file's format, or else of the body's file: others are rarer
 /// @param normalised  is_normalised: the file has hardly a unit
 ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, double height, double metres_per_unit,
-                       double body_unit, bool normalised = false);
+                       double usual_unit, bool normalised = false);
 
 }  // namespace garmentfit

@@ -67,12 +67,15 @@ void leave_out_others(Session& session, BodyFile& body, Wears wears)
 
 bool is_gltf(const MeshFile& file) { return file.format() == "glb" || file.format() == "gltf"; }
 
-/// FBX and COLLADA are read as if they were glTF; their axes are what their programs had.
+/// FBX and COLLADA are read as if they were glTF; their axes and units are what their programs had.
+bool is_own_gltf(const MeshFile& file) { return is_gltf(file) && file.written_name() == file.path().filename(); }
+
 std::optional<Vec3> usual_up(const MeshFile& file)
 {
-    const bool is_own = file.written_name() == file.path().filename();
-    return is_gltf(file) && is_own ? std::optional<Vec3>(Vec3::UnitY()) : std::nullopt;
+    return is_own_gltf(file) ? std::optional<Vec3>(Vec3::UnitY()) : std::nullopt;
 }
+
+std::optional<double> usual_unit(const MeshFile& file) { return is_own_gltf(file) ? std::optional(1.0) : std::nullopt; }
 
 OwnRig read_own_rig(const BodyFile& body)
 {
@@ -237,10 +240,11 @@ void add_garment(Session& session, const fs::path& path, GarmentType type, const
     const Stopwatch watch(session.read_seconds);
     GarmentFile garment { path, MeshFile::read(path), {} };
     garment.choice = choice;
+    garment.choice->usual_unit = usual_unit(garment.file);
     require_no_body(garment.file);
     try {
         garment.frame = garment_frame(garment.file.positions(), garment.file.triangles(), session.body.frame.frame,
-                                      choice, stature_of(*session.scene.body), session.scene.body->surface);
+                                      *garment.choice, stature_of(*session.scene.body), session.scene.body->surface);
     } catch (const InvalidInput& error) {
         throw InvalidInput(error.code(), garment.name() + ": " + error.what());
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "garmentfit/body_place.h"
 #include "garmentfit/filters/frame_choice.h"
 
 #include <cmath>
@@ -135,6 +136,23 @@ TEST(FrameChoice, OfASmallGarmentThatLiesRoundALimbByChanceIsAnother)
         const FrameGuess guess = garment_frame(tube.positions, tube.triangles, { body_unit }, {}, 1.7, person.mesh);
         EXPECT_EQ(guess.why.find("lies on the body"), std::string::npos) << guess.why;
         EXPECT_NE(guess.frame.metres_per_unit, 0.1) << guess.why;
+    }
+}
+
+// In decimetres, a wide T-shirt of normalised size is for somebody little more than half as tall, and lies round the
+// chest.
+TEST(FrameChoice, OfASmallTShirtThatLiesRoundTheChestByChanceIsAnother)
+{
+    const Person person = capsule_person({ .arm_angle = 45 });
+    TriangleMesh shirt = garment_round(
+        person.skeleton, 0.13, [](const Vec3& p) { return p.y() > 0.95 && p.y() < 1.42 && std::abs(p.x()) < 0.3; });
+    const Eigen::RowVector3d chest(0, 1.2, 0);
+    shirt.positions = (0.52 * (shirt.positions.rowwise() - chest)).rowwise() + chest;
+    EXPECT_TRUE(lies_on_body(shirt, person.mesh));
+    shirt.positions *= 10;
+    for (const double body_unit : { 1.0, 0.1 }) {
+        const FrameGuess guess = garment_frame(shirt.positions, shirt.triangles, { body_unit }, {}, 1.7, person.mesh);
+        EXPECT_EQ(guess.why.find("lies on the body"), std::string::npos) << guess.why;
     }
 }
 

@@ -84,6 +84,20 @@ TEST(GarmentScale, AGarmentOfAnotherUnitThanTheBodyIsRead)
     }
 }
 
+// Five units wide: in decimetres it is for somebody half as tall.
+TEST(GarmentScale, AFormatWithAUnitDoesNotTakeThatOfTheBody)
+{
+    const double size = 5.2;
+    GarmentChoice in_metres;
+    in_metres.usual_unit = 1;
+    const auto guess = [&](const GarmentChoice& choice) {
+        return garment_frame(size * shirt().positions, shirt().triangles, { 0.1 }, choice, body_stature());
+    };
+    EXPECT_EQ(guess({}).frame.metres_per_unit, 0.1) << guess({}).why;
+    EXPECT_NEAR(size * guess(in_metres).frame.metres_per_unit, 1, 0.25) << guess(in_metres).why;
+    EXPECT_FALSE(guess(in_metres).frame.has_unit);
+}
+
 TEST(GarmentScale, ClothesOfOtherPeopleKeepTheirSize)
 {
     for (const double size : { 0.7, 0.85, 1.15, 1.3 })

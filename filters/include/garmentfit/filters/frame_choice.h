@@ -31,6 +31,8 @@ struct GarmentChoice : FrameChoice {
     double scale = 1;  ///< of the garment, applied after its unit
     bool as_placed = false;  ///< it lies on the body in its file: the same units and axes, unless they are given
     std::string front = "auto";  ///< axis of the garment's file that its front faces
+    /// m; which unit the file's format says: others are rarer. Without it, the body's is the usual one.
+    std::optional<double> usual_unit = {};
 };
 
 /// Possible values, for hosts that show a list; "auto" comes first.
