@@ -8,7 +8,7 @@
 #include "garmentfit/error.h"
 #include "garmentfit/fit_skeleton.h"
 #include "outward_cloth.h"
-#include "straps.h"
+#include "shoulder_lids.h"
 
 namespace garmentfit {
 namespace {
@@ -20,8 +20,7 @@ public:
               const std::array<bool, bone_count>& covered_by_any) :
         turn_(shortest_arc(fit.up, Vec3::UnitY())),
         outward_(rotate(outward_cloth(garment), turn_)), openings_(openings_of(outward_)),
-        cloth_(outward_, lids_between_straps(outward_, openings_)),
-        metric_(cloth_, limb_radii(rig, fit, covered_by_any)),
+        cloth_(outward_, lids_at_shoulders(outward_, openings_)), metric_(cloth_, limb_radii(rig, fit, covered_by_any)),
         energy_(rig, limits, metric_, cues_of(openings_, front_of(fit, turn_))),
         posture_(rotate(posture_of(rig.skeleton, fit.pose), turn_)), joints_(place_bones(rig.skeleton, posture_).joints)
     {

@@ -12,7 +12,7 @@
 #include "outward_cloth.h"
 #include "place_of_garment.h"
 #include "posture_moves.h"
-#include "straps.h"
+#include "shoulder_lids.h"
 #include "tuning.h"
 #include "way_up.h"
 
@@ -29,7 +29,7 @@ std::shared_ptr<const HeldGarment> hold(const HeldGarment& given, const WayUp& w
     held->openings = rotate(given.openings, held->outward, way.turn);
     held->cues = cues_of(held->openings, front ? std::optional<Vec3>(way.turn * *front) : std::nullopt);
     held->clearance
-        = std::make_unique<const ClearanceField>(held->outward, lids_between_straps(held->outward, held->openings));
+        = std::make_unique<const ClearanceField>(held->outward, lids_at_shoulders(held->outward, held->openings));
     return held;
 }
 

@@ -18,6 +18,9 @@
 #include "garmentfit/error.h"
 #include "hypotheses.h"
 #include "outward_cloth.h"
+#include "shoulder_lids.h"
+#include "tuning.h"
+#include "winding_number.h"
 
 namespace {
 
@@ -146,29 +149,47 @@ GarmentMesh long_dress()
     });
 }
 
-// A tube below the arms with two straps, 24 cm high, between facets of its rim.
-GarmentMesh strap_dress(double length)
+// A tube below the arms, and a strap between two facets of its rim. `bow` is how far, m, it is off the straight line at
+// a place from 0 to pi along it.
+GarmentMesh with_strap(const GarmentMesh& tube, int from, int to, const std::function<Vec3(double)>& bow)
 {
     constexpr int steps = 12;
+    TriangleMesh strap { Positions(2 * (steps + 1), 3), Triangles(2 * steps, 3) };
+    for (int i = 0; i <= steps; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const double t = double(i) / steps;
+            strap.positions.row(2 * i + k) = (1 - t) * tube.positions.row(from + k) + t * tube.positions.row(to + 1 - k)
+                + bow(std::numbers::pi * t).transpose();
+        }
+    for (int i = 0; i < steps; ++i) {
+        strap.triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 1;
+        strap.triangles.row(2 * i + 1) << 2 * i + 1, 2 * i + 2, 2 * i + 3;
+    }
+    const TriangleMesh both = joined({ tube.positions, tube.triangles }, strap);  // welded where they touch
+    return make_garment(both.positions, both.triangles);
+}
+
+GarmentMesh tube_dress(double length)
+{
     GarmentMesh dress = skirt(0.17, 0.18, 0.25, length);
     dress.positions.col(1).array() += 0.2;
-    for (const auto& [front, back] : { std::pair(3, 20), std::pair(8, 15) }) {
-        TriangleMesh strap { Positions(2 * (steps + 1), 3), Triangles(2 * steps, 3) };
-        for (int i = 0; i <= steps; ++i)
-            for (int k = 0; k < 2; ++k) {
-                const double t = double(i) / steps;
-                strap.positions.row(2 * i + k)
-                    = (1 - t) * dress.positions.row(front + k) + t * dress.positions.row(back + 1 - k);
-                strap.positions(2 * i + k, 1) += 0.24 * std::sin(std::numbers::pi * t);
-            }
-        for (int i = 0; i < steps; ++i) {
-            strap.triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 1;
-            strap.triangles.row(2 * i + 1) << 2 * i + 1, 2 * i + 2, 2 * i + 3;
-        }
-        const TriangleMesh both = joined({ dress.positions, dress.triangles }, strap);  // welded where they touch
-        dress = make_garment(both.positions, both.triangles);
-    }
     return dress;
+}
+
+// Straps, 24 cm high, from front to back.
+GarmentMesh strap_dress(double length)
+{
+    const auto up = [](double t) { return Vec3(0, 0.24 * std::sin(t), 0); };
+    return with_strap(with_strap(tube_dress(length), 3, 20, up), 8, 15, up);
+}
+
+// A strap from one side of the front to the other, up over the chest and behind the neck.
+GarmentMesh halter_dress(double length)
+{
+    return with_strap(tube_dress(length), 4, 7, [](double t) {
+        const double up = std::sin(t);
+        return Vec3(0, 0.33 * std::sqrt(std::abs(up)), -0.2 * std::pow(up, 4));
+    });
 }
 
 // Two sheets, sewn together along every edge: a closed surface.
@@ -625,6 +646,25 @@ TEST(FitSkeleton, StrapsLieBetweenNeckAndShoulders)
             EXPECT_LT(shoulder.y(), 1.46) << length;
         }
         EXPECT_LT(std::abs(joints.tail(lclavicle).x() + joints.tail(rclavicle).x()), 0.04) << length;
+    }
+}
+
+// Above its bodice, the cloth of a halter encloses next to nothing.
+TEST(FitSkeleton, TheLidsOfAHalterEncloseTheChest)
+{
+    const GarmentMesh dress = halter_dress(0.7);
+    const TriangleMesh outward = outward_cloth(dress), lids = lids_at_shoulders(outward, openings_of(outward));
+    const TriangleMesh closed = joined(outward, lids);
+    const Vec3 chest(0, 1.32, 0.02);
+    EXPECT_LT(winding_number(outward, chest), 0.3);
+    EXPECT_GT(winding_number(closed, chest), k_winding_inside);
+}
+
+TEST(FitSkeleton, ClothesWithSleevesAndSkirtsHaveNoLids)
+{
+    for (const GarmentMesh& garment : { shirt({ .arm_angle = 40 }, 1.9), skirt(0.15, 0.2, 0.2, 0.5), trousers() }) {
+        const TriangleMesh outward = outward_cloth(garment);
+        EXPECT_EQ(lids_at_shoulders(outward, openings_of(outward)).triangles.rows(), 0);
     }
 }
 
