@@ -439,6 +439,26 @@ void take_as_given(GarmentInput& garment)
     garment.as_given.reset();
     garment.stand_in.reset();
     garment.widening.clear();
+    garment.share = 1;
+}
+
+bool take_size_in_unit(Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    if (!end || outcome_of(*end) != Outcome::too_small)
+        return false;
+    bool any = false;
+    for (GarmentInput& garment : scene.garments) {
+        if (garment.size_in_unit <= 1)
+            continue;
+        take_as_given(garment);
+        garment.as_given = garment.mesh;
+        garment.share = garment.size_in_unit;
+        garment.mesh.positions *= garment.share;
+        garment.stand_in.reset();
+        any = true;
+    }
+    return any;
 }
 
 bool widen_too_small(Scene& scene, double most, double share)

@@ -218,8 +218,12 @@ void run_stages(const std::vector<Stage>& stages, Scene& scene, const Parameters
 
 void take_all_as_given(Scene& scene)
 {
-    for (GarmentInput& garment : scene.garments)
-        take_as_given(garment);
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+        for (auto* dressing : { &scene.draped, &scene.recovered })
+            if (*dressing && (*dressing)->is_worn(i))
+                (*dressing)->garments[i].size *= scene.garments[i].share;
+        take_as_given(scene.garments[i]);
+    }
 }
 
 void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters, const Progress& progress)
@@ -242,7 +246,9 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
     const auto run = [&](std::vector<Stage> stages) {
         return [&, stages](Scene& s) { run_stages(stages, s, parameters, again, true); };
     };
-    try_other_wearings(scene, { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) }, refused, again);
+    const DressingSteps steps { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) };
+    try_size_in_unit(scene, steps, again);
+    try_other_wearings(scene, steps, refused, again);
     take_all_as_given(scene);
     if (refusal && !final_dressing(scene))
         std::rethrow_exception(refusal);

@@ -153,6 +153,8 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
     } else {
         guess.scale = scale.factor;
         guess.frame.has_unit = false;
+        if (scale.unit_probability > k_worth_trying)
+            guess.frame.size_in_unit = scale.unit_factor / scale.factor;
         guess.why += "; its parts fit the body when it is scaled by " + rounded_text(scale.factor, 3);
     }
 }

@@ -218,7 +218,8 @@ ScaleGuess guess_scale(const std::vector<WearerHeight>& wearers, double length, 
     if (!(sum > 0))
         return {};
     const double factor = sum_of(any) > unit.weight ? median_factor(any) : unit.factor;
-    return { factor, (weight_near(units, factor) + weight_near(any, factor)) / sum };
+    const auto probability = [&](double of) { return (weight_near(units, of) + weight_near(any, of)) / sum; };
+    return { factor, probability(factor), unit.factor, probability(unit.factor) };
 }
 
 }  // namespace garmentfit

@@ -15,6 +15,7 @@ namespace garmentfit {
 struct ScaleGuess {
     double factor = 1;  ///< by which its unit is multiplied
     double probability = 1;  ///< that the factor is right, or as good as right (k_same_size)
+    double unit_factor = 1, unit_probability = 0;  ///< the same of the most probable unit
 };
 
 /// Of the faces' corners: files hold vertices that no face uses.

@@ -159,6 +159,21 @@ double plausibility(double probability, End end, double size)
     return probability * k_end_likelihoods[static_cast<int>(end)] * of_size;
 }
 
+void try_size_in_unit(Scene& scene, const DressingSteps& steps, const Progress& progress)
+{
+    Scene other = scene;
+    if (progress.is_late() || !take_size_in_unit(other))
+        return;
+    other.draped.reset();
+    other.recovered.reset();
+    const bool has_ended = succeeds([&] {
+        steps.fit(other);
+        steps.drape_and_recover(other);
+    });
+    if (has_ended && end_of(other) == End::worn)
+        scene = std::move(other);
+}
+
 void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress)
 {
     std::vector<int> tried(scene.garments.size(), 0);

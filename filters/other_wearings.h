@@ -45,6 +45,10 @@ struct DressingSteps {
     std::function<void(Scene&)> fit, drape_and_recover;
 };
 
+/// Where a garment is too small that was scaled to the body as no unit explains its size, that guess was wrong: it is
+/// fitted anew at the size of its most probable unit, and stays so where it is worn.
+void try_size_in_unit(Scene& scene, const DressingSteps& steps, const Progress& progress);
+
 /// Where a garment is too small, crosses, is held back or torn, the next probable ways of wearing it are tried while
 /// one of them can be more plausible, and the scene keeps the most plausible one. What was tried in vain is added to
 /// FitResult::rejected.

@@ -169,7 +169,10 @@ MeshArrays arrays_of(const Dressing& dressing, const Pose& pose, const Texts& na
 
 MeshArrays arrays_of(const Frame& garment)
 {
-    return { {}, {}, { frame_array("GarmentFrame", garment), counts("GarmentHasUnit", { garment.has_unit }) } };
+    return { {},
+             {},
+             { frame_array("GarmentFrame", garment), counts("GarmentHasUnit", { garment.has_unit }),
+               numbers("GarmentSizeInUnit", { garment.size_in_unit }) } };
 }
 
 MeshArrays arrays_of(const FitResult& fit)
@@ -314,6 +317,8 @@ std::optional<Frame> garment_frame_from(const FindArray& find)
     Frame frame = frame_from(required(find, "GarmentFrame", 1, 4, k_made_first), "GarmentFrame");
     if (find("GarmentHasUnit"))  // older files have none
         frame.has_unit = required(find, "GarmentHasUnit", 1, 1, k_made_first)(0, 0) != 0;
+    if (find("GarmentSizeInUnit"))
+        frame.size_in_unit = required(find, "GarmentSizeInUnit", 1, 1, k_made_first)(0, 0);
     return frame;
 }
 

@@ -37,7 +37,11 @@ bool widen_too_small(Scene& scene, double most, double share);
 /// little. @param most  share by which girths grow at most @return whether there are any
 bool widen_far_too_narrow(Scene& scene, const Parameters& parameters, double most);
 
-/// Takes widen_too_small and widen_far_too_narrow back. What was made of wider garments stays.
+/// Where garments are too small, gives those whose size is a guess that of their most probable unit, if it is larger.
+/// @return whether there are any
+bool take_size_in_unit(Scene& scene);
+
+/// Takes the three before back. What was made of changed garments stays.
 void take_as_given(GarmentInput& garment);
 
 /// Enlarges the garments that are put on, but found too small in the end, until their fabric allows the rest. @return whether

@@ -113,6 +113,7 @@ void add_garment_file(Session& session, GarmentFile garment, GarmentType type)
                                        type, garment.name(), front_of_garment(garment.frame.frame, choice.front),
                                        choice.as_placed });
     session.scene.garments.back().has_unit = garment.frame.frame.has_unit;
+    session.scene.garments.back().size_in_unit = garment.frame.frame.size_in_unit;
     Frame unscaled = garment.frame.frame;
     unscaled.metres_per_unit /= choice.scale;
     if (!same(unscaled, session.body.frame.frame))

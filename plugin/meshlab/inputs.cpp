@@ -36,6 +36,7 @@ GarmentInput input_of(const MeshModel& layer, const Frame& frame, GarmentType ty
     GarmentInput input { make_garment(frame.to_metres(mesh.positions), mesh.triangles, corner_uvs_of(layer)), type };
     input.fabric = fabric;
     input.has_unit = frame.has_unit;
+    input.size_in_unit = frame.size_in_unit;
     return input;
 }
 

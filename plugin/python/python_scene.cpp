@@ -234,7 +234,8 @@ void add_garment(PythonScene& scene, const NumbersIn& positions, const IndicesIn
                                      .front = front_of_garment(frame, front),
                                      .as_placed = choice.as_placed,
                                      .fabric = fabric_from(sizes),
-                                     .has_unit = frame.has_unit });
+                                     .has_unit = frame.has_unit,
+                                     .size_in_unit = frame.size_in_unit });
     scene.garment_frames.push_back(frame);
     scene.names.push_back(name);
 }

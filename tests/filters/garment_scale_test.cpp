@@ -114,6 +114,21 @@ TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
     }
 }
 
+// Where the unit has lost by little, it may be the right one after all.
+TEST(GarmentScale, AGuessTellsTheSizeInTheMostProbableUnit)
+{
+    int told = 0;
+    for (double size = 1; size < 2.5; size += 0.05)
+        if (const Frame frame = guess_of(size).frame; frame.size_in_unit != 1) {
+            EXPECT_FALSE(frame.has_unit) << size;
+            const double unit = frame.metres_per_unit * frame.size_in_unit;
+            EXPECT_NEAR(unit / nearest_unit(unit), 1, 1e-9) << size;
+            ++told;
+        }
+    EXPECT_GT(told, 0);
+    EXPECT_EQ(guess_of(17).frame.size_in_unit, 1) << "in no unit has it a size that anybody wears";
+}
+
 TEST(GarmentScale, AScaleThatTheUserGivesIsNoGuess)
 {
     GarmentChoice given;

@@ -85,6 +85,52 @@ struct Trial {
     double probability() const { return scene.fits[0].probability; }
 };
 
+/// One garment whose size is a guess, and how it ends; in its most probable unit it is twice as large.
+struct SizeTrial {
+    Scene scene = {};
+    int fitted = 0;
+
+    SizeTrial(End end, double size_in_unit)
+    {
+        scene.garments.resize(1);
+        scene.garments[0].mesh.positions.setOnes(3, 3);
+        scene.garments[0].size_in_unit = size_in_unit;
+        scene.fits.resize(1);
+        end_with(scene, end);
+    }
+
+    void run(End end)
+    {
+        const auto fit = [&](Scene&) { ++fitted; };
+        try_size_in_unit(scene, { fit, [&](Scene& s) { end_with(s, end); } }, {});
+    }
+};
+
+TEST(SizeInUnit, ReplacesAGuessAtWhichTheGarmentIsTooSmallWhereItIsWorn)
+{
+    SizeTrial trial(End::too_small, 2);
+    trial.run(End::worn);
+    EXPECT_EQ(trial.fitted, 1);
+    EXPECT_TRUE(trial.scene.draped->certified);
+    EXPECT_EQ(trial.scene.garments[0].share, 2);
+    EXPECT_EQ(trial.scene.garments[0].mesh.positions(0, 0), 2);
+
+    SizeTrial slipping(End::too_small, 2);
+    slipping.run(End::torn_or_slipped);
+    EXPECT_FALSE(slipping.scene.draped->certified) << "that was no better guess";
+    EXPECT_EQ(slipping.scene.garments[0].share, 1);
+    EXPECT_EQ(slipping.scene.garments[0].mesh.positions(0, 0), 1);
+}
+
+TEST(SizeInUnit, IsNotTriedWhereTheGarmentIsLargeEnoughOrWouldBeSmaller)
+{
+    SizeTrial worn(End::worn, 2), smaller(End::too_small, 0.5), has_unit(End::too_small, 1);
+    for (SizeTrial* trial : { &worn, &smaller, &has_unit }) {
+        trial->run(End::worn);
+        EXPECT_EQ(trial->fitted, 0);
+    }
+}
+
 TEST(OtherWearings, AreNotTriedWhereTheGarmentIsWorn)
 {
     Trial trial({ { 0.5, End::worn }, { 0.5, End::worn } });

@@ -70,13 +70,15 @@ TEST_F(SceneArrays, NameWhatIsMissingMangledOrAnotherBodys)
 TEST_F(SceneArrays, KeepTheUnitOfAGarmentOrThatItHasNone)
 {
     for (const bool has_unit : { true, false }) {
-        arrays = by_name(arrays_of(Frame { 0.3, Vec3::UnitZ(), has_unit }));
+        arrays = by_name(arrays_of(Frame { 0.3, Vec3::UnitZ(), has_unit, 2.5 }));
         const Frame back = garment_frame_from(find_in(arrays)).value();
         EXPECT_EQ(back.metres_per_unit, 0.3);
         EXPECT_EQ(back.up, Vec3::UnitZ());
         EXPECT_EQ(back.has_unit, has_unit);
+        EXPECT_EQ(back.size_in_unit, 2.5);
     }
     arrays.erase("GarmentHasUnit");  // as in older files
+    arrays.erase("GarmentSizeInUnit");
     EXPECT_TRUE(garment_frame_from(find_in(arrays))->has_unit);
 }
 

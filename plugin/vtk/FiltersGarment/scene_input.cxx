@@ -112,7 +112,8 @@ void add_garment(KnownScene& known, vtkPolyData& garment, bool seen, const Garme
                                      .front = front_of_garment(*frame, choice.front),
                                      .as_placed = choice.as_placed,
                                      .fabric = fabric_of_field(garment),
-                                     .has_unit = frame->has_unit });
+                                     .has_unit = frame->has_unit,
+                                     .size_in_unit = frame->size_in_unit });
 }
 
 }  // namespace

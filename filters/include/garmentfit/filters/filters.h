@@ -53,8 +53,10 @@ struct GarmentInput {
     std::optional<std::optional<StandIn>> stand_in = {};
     double size = 1;  ///< DrapeOptions::size
     Widening widening = {};  ///< of the mesh, while it is tried with wider girths
+    double share = 1;  ///< of its size as given that the mesh has, while it is tried in another one
     std::optional<GarmentMesh> as_given = {};  ///< the mesh before
     bool has_unit = true;  ///< Frame::has_unit; a garment without one may be made larger where it is too small
+    double size_in_unit = 1;  ///< Frame::size_in_unit; it is tried so where it is far too small
 };
 
 /// Garments on the body, in one pose: one for each of the scene's; without positions where it is not worn.
