@@ -129,20 +129,36 @@ std::vector<int> GltfScene::roots() const
     return nodes;
 }
 
-Eigen::Affine3d GltfScene::joint_from_mesh(const tinygltf::Skin& skin, std::size_t joint) const
+Eigen::Matrix4d GltfScene::inverse_bind_matrix(const tinygltf::Skin& skin, std::size_t joint) const
 {
-    Eigen::Affine3d bind = Eigen::Affine3d::Identity();
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     if (skin.inverseBindMatrices < 0)
-        return bind;
+        return matrix;
     const Column column = column_of(file_, model_, skin.inverseBindMatrices, "inverseBindMatrices");
     const tinygltf::Accessor& accessor = model_.accessors[std::size_t(column.accessor)];
     if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT
         || column.count < skin.joints.size())
         file_.fail("has no inverse bind matrix for each joint; export the skin with its bind pose");
     for (int k = 0; k < 16; ++k)
-        if (k % 4 < 3)
-            bind.matrix()(k % 4, k / 4) = number_at(model_, column, joint, k);
-    return bind;
+        matrix(k % 4, k / 4) = number_at(model_, column, joint, k);
+    return matrix;
+}
+
+bool GltfScene::has_bind_pose(const tinygltf::Skin& skin) const
+{
+    constexpr double k_precision = 1e-3;  // unit: more than the rounding of matrices that were multiplied as floats
+    const Eigen::RowVector4d last_row(0, 0, 0, 1);
+    for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+        const Eigen::Matrix4d matrix = inverse_bind_matrix(skin, joint);
+        if (!matrix.allFinite() || !((matrix.row(3) - last_row).cwiseAbs().maxCoeff() < k_precision))
+            return false;
+    }
+    return true;
+}
+
+Eigen::Affine3d GltfScene::joint_from_mesh(const tinygltf::Skin& skin, std::size_t joint) const
+{
+    return Eigen::Affine3d(Eigen::AffineCompact3d(inverse_bind_matrix(skin, joint).topRows<3>()));
 }
 
 Eigen::Affine3d GltfScene::world_from_mesh(int node) const
@@ -154,7 +170,7 @@ Eigen::Affine3d GltfScene::world_from_mesh(int node) const
     if (skin.joints.empty())
         return Eigen::Affine3d::Identity();
     checked(file_, model_.nodes, skin.joints[0], "node");
-    return world_from_node(skin.joints[0]) * joint_from_mesh(skin, 0);
+    return has_bind_pose(skin) ? world_from_node(skin.joints[0]) * joint_from_mesh(skin, 0) : world_from_node(node);
 }
 
 std::vector<GltfSurface> GltfScene::surfaces() const

@@ -35,15 +35,19 @@ public:
     int parent(int node) const { return parents_[std::size_t(node)]; }
     const Eigen::Affine3d& world_from_node(int node) const { return world_from_node_[std::size_t(node)]; }
     /// The place of a skinned mesh is that of its joints, not of its node: here of the first one in its bind pose. So
-    /// a posed file shows its bind pose.
+    /// a posed file shows its bind pose. Where a skin has none, the mesh lies at its node.
     Eigen::Affine3d world_from_mesh(int node) const;
     std::vector<GltfSurface> surfaces() const;
 
+    /// Whether the inverse bind matrices of a skin are transforms: some exporters leave bytes there that mean nothing,
+    /// and would throw the mesh apart. @throws InvalidInput: not a matrix for each joint
+    bool has_bind_pose(const tinygltf::Skin& skin) const;
     /// Of a skin, from the mesh to its joint. The identity where the file has none. @throws InvalidInput.
     Eigen::Affine3d joint_from_mesh(const tinygltf::Skin& skin, std::size_t joint) const;
 
 private:
     std::vector<int> roots() const;
+    Eigen::Matrix4d inverse_bind_matrix(const tinygltf::Skin& skin, std::size_t joint) const;
 
     const FileBytes& file_;
     const tinygltf::Model& model_;

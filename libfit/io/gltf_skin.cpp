@@ -81,6 +81,8 @@ private:
         const tinygltf::Skin* skin = skin_of(node);
         if (!skin)
             return;
+        if (!scene_.has_bind_pose(*skin))
+            file_.fail("has a skin whose inverse bind matrices are no transforms; export the skin with its bind pose");
         const Eigen::Affine3d world_from_mesh = scene_.world_from_mesh(node);
         for (std::size_t j = 0; j < skin->joints.size(); ++j) {
             const int joint = skin->joints[j];

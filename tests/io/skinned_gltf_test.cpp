@@ -189,6 +189,21 @@ TEST_F(SkinnedParts, AreReadInTheirBindPose)
     EXPECT_LT((Vec3(MeshFile::read(glb).positions().row(0)) - Vec3(person.mesh.positions.row(0))).norm(), 1e-6);
 }
 
+// Bytes of something else stand where the inverse bind matrices should be.
+TEST_F(SkinnedParts, LieAtTheirNodesWhereTheSkinHasNoBindPose)
+{
+    edit([](json& document) {
+        const auto accessor
+            = [&](const json& index) -> json& { return document["accessors"][index.get<std::size_t>()]; };
+        const json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+        for (const json& skin : document["skins"])
+            accessor(skin["inverseBindMatrices"])["bufferView"] = accessor(attributes["POSITION"])["bufferView"];
+    });
+    EXPECT_LT((MeshFile::read(glb).positions().topRows(body_rows()) - person.mesh.positions).cwiseAbs().maxCoeff(),
+              1e-6);
+    fixtures::expect_invalid([&] { read_skinned_gltf(glb); }, "inverse bind matrices are no transforms");
+}
+
 TEST_F(SkinnedParts, MayHaveMoreThanFourJointsAVertex)
 {
     // what stood in the first set comes second; the first set hangs on the first joint, with no weight
