@@ -41,18 +41,36 @@ std::vector<Vec3> skin_of(const FileSkin& skin, const NamedJoints& joints, int r
     return points;
 }
 
-/// From a joint through the skin that lies neither at it nor at the end, as toes and thumbs point aside.
+/// Directions from a joint to points, weighted by distance.
+struct Directions {
+    Vec3 sum = Vec3::Zero();
+    double lengths = 0;
+
+    void add(const Vec3& way)
+    {
+        sum += way;
+        lengths += way.norm();
+    }
+    /// Whether they mostly point the same way.
+    bool agree() const { return sum.norm() > k_directions_agree * lengths; }
+};
+
+/// From a joint through the skin that lies neither at it nor at the end, as toes and thumbs point aside. Limbs of blocks
+/// have corners at both ends only, and those at the joint point anywhere: through all skin, then.
 /// @param middle  shares of the farthest skin
 Vec3 direction_through(const std::vector<Vec3>& points, const Vec3& joint, const double (&middle)[2])
 {
     double reach = 0;
     for (const Vec3& point : points)
         reach = std::max(reach, (point - joint).norm());
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& point : points)
-        if (const double d = (point - joint).norm(); d > middle[0] * reach && d < middle[1] * reach)
-            sum += point - joint;
-    return sum.normalized();
+    Directions between, all;
+    for (const Vec3& point : points) {
+        const Vec3 way = point - joint;
+        all.add(way);
+        if (way.norm() > middle[0] * reach && way.norm() < middle[1] * reach)
+            between.add(way);
+    }
+    return (between.agree() ? between : all).sum.normalized();
 }
 
 double extent_along(const std::vector<Vec3>& points, const Vec3& joint, const Vec3& direction)

@@ -102,8 +102,11 @@ inline constexpr double k_elbow_share = 0.42, k_wrist_share = 0.75, k_knee_share
 inline constexpr double k_near_share = 0.2, k_middle_blend = 0.06;
 /// Dimensionless, shares of the farthest skin: between them it lies along the bone. fitted: guess, on one figure each.
 inline constexpr double k_limb_middle[] = { 0.2, 0.7 };
-/// The same from shoulder or hip on: through the lower half, as the skin of hips and shoulders lies beside the limb.
-/// fitted: guess, on three figures.
+/// Dimensionless. Length of the sum of directions over the sum of their lengths, from which on they say where a limb
+/// points: 1 where all are the same. fitted: guess, on one figure of blocks.
+inline constexpr double k_directions_agree = 0.5;
+/// Shares of the farthest skin, from shoulder or hip on: through the lower half, as the skin of hips and shoulders lies
+/// beside the limb. fitted: guess, on three figures.
 inline constexpr double k_lower_limb[] = { 0.5, 0.85 };
 /// Dimensionless. The length of a shin as a share of that from the knee to the sole [drillis_1966_segments].
 inline constexpr double k_shin_to_sole = 0.86;

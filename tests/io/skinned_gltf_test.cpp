@@ -392,6 +392,25 @@ TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
     EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
 }
 
+// A shin and a forearm of blocks have corners at both ends, and nothing between.
+TEST_F(SkinnedGltf, PlacesHandsAndFeetThatTheFileLacksOnLimbsOfBlocks)
+{
+    Rig blocks = fixtures::nearest_rig(person);
+    for (Eigen::Index v = 0; v < blocks.weights.bones.rows(); ++v)
+        for (const int limb : { ltibia, rtibia, lradius, rradius })
+            if (blocks.weights.bones(v, 0) == limb) {
+                const Vec3 way = Vec3(person.mesh.positions.row(v)) - rig.skeleton.head(limb);
+                const double along = way.dot(rig.skeleton.direction(limb)) / rig.skeleton.length(limb);
+                if (along > 0.15 && along < 0.9)
+                    blocks.weights.bones(v, 0) = parent_of(limb);
+            }
+    write_outfit_glb(glb, blocks, { { "body", person.mesh, blocks.weights } }, { BoneNames::garmentfit });
+    save("rigged.glb", edited(load(glb), forget_ends));
+    const ForeignRig read = read_skinned_gltf(glb);
+    for (const int b : { ltibia, rtibia, lradius, rradius })
+        EXPECT_LT((read.skeleton.tail(b) - rig.skeleton.tail(b)).norm(), 0.06) << bone_name(b);
+}
+
 /// Gives a joint a parent at its place, whose name it doubles, as the volumes of Second Life do.
 void double_joint(json& document, const std::string& name, const std::string& double_name)
 {
