@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shoulder_lids.h"
 
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include "append_mesh.h"
 #include "tuning.h"
 #include "type_guess.h"
