@@ -444,9 +444,6 @@ void take_as_given(GarmentInput& garment)
 
 bool take_size_in_unit(Scene& scene)
 {
-    const Dressing* end = final_dressing(scene);
-    if (!end || outcome_of(*end) != Outcome::too_small)
-        return false;
     bool any = false;
     for (GarmentInput& garment : scene.garments) {
         if (garment.size_in_unit <= 1)

@@ -161,8 +161,10 @@ double plausibility(double probability, End end, double size)
 
 void try_size_in_unit(Scene& scene, const DressingSteps& steps, const Progress& progress)
 {
+    if (progress.is_late() || end_of(scene) != End::too_small)
+        return;
     Scene other = scene;
-    if (progress.is_late() || !take_size_in_unit(other))
+    if (!take_size_in_unit(other))
         return;
     other.draped.reset();
     other.recovered.reset();

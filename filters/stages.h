@@ -37,7 +37,7 @@ bool widen_too_small(Scene& scene, double most, double share);
 /// little. @param most  share by which girths grow at most @return whether there are any
 bool widen_far_too_narrow(Scene& scene, const Parameters& parameters, double most);
 
-/// Where garments are too small, gives those whose size is a guess that of their most probable unit, if it is larger.
+/// Gives garments whose size is a guess that of their most probable unit, if it is larger.
 /// @return whether there are any
 bool take_size_in_unit(Scene& scene);
 

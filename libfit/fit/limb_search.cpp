@@ -42,7 +42,7 @@ public:
         if (grid_.exact && fills_tube())
             root.distances = energy_.coverage_distances(bones_, limb_);
         std::vector<Chain> beam, chains = extend(root, 0, present_.directions[first], k_any);
-        if (grid_.exact && (first == lhumerus || first == rhumerus)) {
+        if (grid_.exact) {
             for (Chain& chain : chains)
                 if (energy_.misses_sleeve(first, chain.tail, bones_.joints))
                     chain.score -= energy_.weights().arm_in_trunk;

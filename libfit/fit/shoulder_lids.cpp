@@ -31,7 +31,7 @@ TriangleMesh lid_of_neck(const Opening& neck)
 Vec3 level(const Vec3& v) { return { v.x(), 0, v.z() }; }
 
 struct Halter {
-    Opening neck, back;
+    const Opening *neck, *back;
 };
 
 // Its strap goes round the neck: two openings without a tube reach up to it, one on each side.
@@ -40,17 +40,17 @@ std::optional<Halter> find_halter(const TriangleMesh& outward, const std::vector
     if (outward.positions.rows() == 0 || cues_of(openings).has_arms)
         return {};
     const double top = outward.positions.col(1).maxCoeff();
-    std::vector<Opening> high;
+    std::vector<const Opening*> high;
     for (const Opening& opening : openings)
         if (opening.high.y() > top - k_neck_strap && opening.tube_length < k_neck_strap)
-            high.push_back(opening);
+            high.push_back(&opening);
     if (high.size() != 2)
         return {};
-    if (high[0].facing.y() < high[1].facing.y())
+    if (high[0]->facing.y() < high[1]->facing.y())
         std::swap(high[0], high[1]);
-    const bool faces_back
-        = std::abs(high[1].facing.y()) < k_end_facing && level(high[0].facing).dot(level(high[1].facing)) < 0;
-    return faces_back ? std::optional(Halter { high[0], high[1] }) : std::nullopt;
+    const Opening &neck = *high[0], &back = *high[1];
+    const bool faces_back = std::abs(back.facing.y()) < k_end_facing && level(neck.facing).dot(level(back.facing)) < 0;
+    return faces_back ? std::optional(Halter { &neck, &back }) : std::nullopt;
 }
 
 // As deep as the garment: the back is behind the way from the strap to the bodice.
@@ -71,8 +71,8 @@ TriangleMesh lids_at_shoulders(const TriangleMesh& outward, const std::vector<Op
         append(lids, closing_fan(shoulders[1], shoulders[1].centre));
         append(lids, lid_of_neck(shoulders[2]));
     } else if (const std::optional<Halter> halter = find_halter(outward, openings)) {
-        append(lids, lid_of_neck(halter->neck));
-        append(lids, lid_of_back(halter->back, outward));
+        append(lids, lid_of_neck(*halter->neck));
+        append(lids, lid_of_back(*halter->back, outward));
     }
     return lids;
 }
