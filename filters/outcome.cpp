@@ -47,6 +47,17 @@ std::string entered_parts(const Dressing& dressing)
     return text.str();
 }
 
+/// How much press, m, lets the skin give way where it is held back; none where it is more than may be asked for.
+std::optional<double> press_that_would_do(const Dressing& end)
+{
+    constexpr double k_margin = 5e-3, k_round = 0.01;  // unit: m; the end of another run is not quite the same
+    if (end.pose_reached < 1 || end.held_back.empty())
+        return {};
+    const double held = end.held_back.front().distance * end.to_human_size;
+    const double press = k_round * std::ceil((held + k_margin) / k_round);
+    return press <= k_largest_press ? std::optional(press) : std::nullopt;
+}
+
 /// The one with the tightest part, or the one that was to be put on.
 std::size_t garment_too_small(const Dressing& end)
 {
@@ -89,6 +100,9 @@ std::string why_too_small(const Dressing& end, const std::vector<std::string>& n
         text << "; a garment " << std::ceil(100 * (enlargement + (size - 1) * (1 + enlargement))) << "% larger "
              << (size > 1 ? "than given " : "") << "would not be stretched there";
     }
+    const std::optional<double> press = press_that_would_do(end);
+    if (press && !end.overlaps.empty())
+        text << entered_parts(end) << "; with " << rounded_text(*press, 2) << " m as press the skin gives way there";
     if (const std::optional<Fabric> fabric = fabric_that_would_do(end, garment))
         text << "; in " << fabric_names()[static_cast<int>(*fabric)] << ", which gives "
              << std::lround(100 * material_of(*fabric).largest_stretch) << "%, it would do";
@@ -129,8 +143,12 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
         text << "the body stopped at " << percent(end.pose_reached) << "% of the path between two poses";
     else
         text << "parts of the body are not in their places";
-    text << held_parts(end) << entered_parts(end)
-         << "; give a wider garment, or a pose with more space between arms, legs and trunk";
+    text << held_parts(end) << entered_parts(end) << "; give a wider garment, ";
+    if (const std::optional<double> press = press_that_would_do(end))
+        text << "a pose with more space between arms, legs and trunk, or " << rounded_text(*press, 2)
+             << " m as press: the skin gives way then";
+    else
+        text << "or a pose with more space between arms, legs and trunk";
     return text.str();
 }
 
@@ -177,6 +195,8 @@ Outcome outcome_of(const Dressing& end)
         = is_too_small(end, garment_too_small(end)) && (end.scale_reached < 1 || all_clean(end.garments));
     return too_small ? Outcome::too_small : Outcome::not_certified;
 }
+
+bool is_pressed(const Dressing& end) { return end.certified && !end.held_back.empty(); }
 
 std::string explain(const Dressing& end, const std::vector<std::string>& names)
 {

@@ -63,6 +63,15 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
                            + ": it is too wide for this body to stay where it is worn");
 }
 
+std::string warning_about_pressed(const Dressing& end)
+{
+    std::string parts;
+    for (const HeldBack& part : end.held_back)
+        parts += (parts.empty() ? "" : ", ") + part.part + " (by " + length_text(part.distance, end.unit) + ")";
+    return "cloth presses the skin in at " + parts
+        + ": the result is certified on the body so pressed, and crosses the body as it was given there";
+}
+
 std::string shoulders_in_words(const std::vector<Bone>& clavicles)
 {
     return clavicles.size() == 2    ? "both shoulders"
@@ -250,6 +259,8 @@ std::vector<std::string> warnings_about_layers(const Scene& scene, const std::ve
 std::vector<std::string> warnings_about_dressing(const Dressing& end, const std::vector<std::string>& names)
 {
     std::vector<std::string> warnings;
+    if (is_pressed(end))
+        warnings.push_back(warning_about_pressed(end));
     if (end.residual && !end.residual->is_at_rest())
         warnings.push_back("the cloth is not at rest: forces on it are out of balance by "
                            + share_of_weight(end.residual->mean) + " on the mean; "

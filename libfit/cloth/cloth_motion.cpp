@@ -390,14 +390,14 @@ SettleResult settle(ClothMotion& motion, const Positions& target, int steps, con
     double lag = INFINITY;
     for (int i = 0; i < steps || detector.goes_on(lag); ++i) {
         if (!progress.goes_on(double(i) / (steps + k_most_extra_settling_steps)))
-            return { motion.advect_obstacle(target) == 0, motion.speed(), true };
+            return { motion.advect_obstacle(target), motion.speed(), true };
         step.velocity_kept = i < k_swinging_steps * steps ? k_swinging_velocity : k_calming_velocity;
         step.contact_stiffness = lag > 0 ? k_pushing_contact_stiffness : k_settling_contact_stiffness;
         lag = motion.advance(step);
         if (lag > 0)
             lag = motion.advect_obstacle(target);
     }
-    return { lag == 0, motion.speed(), false };
+    return { lag, motion.speed(), false };
 }
 
 }  // namespace garmentfit

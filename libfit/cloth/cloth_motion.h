@@ -160,7 +160,7 @@ private:
 double step_until_converged(ClothMotion& motion, const MotionStep& step, const Progress& progress);
 
 struct SettleResult {
-    bool is_at_target;  ///< the whole obstacle
+    double lag;  ///< m; the longest distance of an obstacle vertex from its target
     double speed;  ///< m/s, of the fastest vertex of the cloth
     bool out_of_time;  ///< the deadline passed before the cloth was settled
 };

@@ -14,6 +14,7 @@
 #include "layers.h"
 #include "overlaps.h"
 #include "pose_path.h"
+#include "pressed_skin.h"
 #include "rest_on_body.h"
 #include "sewn_body.h"
 #include "skin_weights.h"
@@ -277,11 +278,12 @@ bool is_far_too_tight(const DressedBody& now, const ClothOptions& cloth)
 struct Start {
     const Rig& rig;
     const DressedBody& dressed;
+    const Triangles& skin;  ///< of the body
 };
 
 /// Lets the cloth hang at the end of the way, leads it to rest where that is asked for, and writes what comes of it.
 /// What looks too small is led there as well, for it may slide to where it is not, unless it is far too small.
-/// @return whether the whole body is in its place
+/// @return whether the whole body is in its place, or pressed in by no more than it may be
 bool come_to_rest(ClothMotion& motion, const Positions& end, Quality quality, const RecoverOptions& options,
                   const Start& start, RecoverResult& result, const Progress& progress)
 {
@@ -302,11 +304,17 @@ bool come_to_rest(ClothMotion& motion, const Positions& end, Quality quality, co
         settled = hang(k_steps_if_tight);
     result.speed = settled.speed;
     result.out_of_time = settled.out_of_time;
+    const bool is_pressed = settled.lag > 0 && settled.lag + options.cloth.contact_distance <= options.press,
+               is_in_place = settled.lag == 0 || is_pressed;
+    if (is_pressed) {
+        motion.advect_obstacle(give_way(motion.obstacle(), end, start.skin, options.cloth.contact_distance));
+        write();
+    }
     if (settled.out_of_time)
-        return settled.is_at_target;
-    if (quality == Quality::draft || is_hopeless || !settled.is_at_target) {
+        return is_in_place;
+    if (quality == Quality::draft || is_hopeless || !is_in_place) {
         result.residual = motion.residual();
-        return settled.is_at_target;
+        return is_in_place;
     }
     const RestResult rest = motion.find_rest(options.settle_time, progress.part(k_progress_of_settling, 1));
     result.residual = rest.residual;
@@ -359,8 +367,9 @@ RecoverResult recover_over(BridgeEnds ends, const Rig& rig, const BodyMesh& body
     const Positions end = path.at(outcome.reached());
     result.pose = slerp(start.pose, target, outcome.reached());
     result.garments = start.garments;
-    const bool in_place = come_to_rest(motion, end, outcome.ended_early() ? Quality::draft : options.quality, options,
-                                       { rig, start }, result, progress.part(k_progress_of_path, 1));
+    const bool in_place
+        = come_to_rest(motion, end, outcome.ended_early() ? Quality::draft : options.quality, options,
+                       { rig, start, body.surface.triangles }, result, progress.part(k_progress_of_path, 1));
     if (!outcome.ended_early())
         recorder.record(motion, 1);
 

@@ -151,6 +151,8 @@ inline constexpr double k_in_place = 1e-3;
 /// Fitted: on paths that end well no part lags by more than 0.02, but hands that cross reach 0.07
 /// (docs/decisions/0011-restore-when-stuck.md).
 inline constexpr double k_stuck_lag = 0.08;
+/// Rings of vertices round pressed skin that give way with it, each less than the one before. Fitted: guess.
+inline constexpr int k_rings_round_pressed = 3;
 /// Share of the path after which creases are fully bridged. Fitted: guess.
 inline constexpr double k_bridged_from = 0.5;
 

@@ -13,6 +13,7 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/verdict.h"
 #include "garmentfit/units.h"
+#include "results.h"
 
 namespace garmentfit::cli {
 namespace {
@@ -301,6 +302,7 @@ Json json_of(const Call& call, const Session& session)
         json["cloth"] = cloth_of(cloth, end->fabrics.empty() ? cloth.fabric : end->fabrics.front());
         json["cloth_seconds"] = { { "detection", end->seconds.detection }, { "solver", end->seconds.solver } };
         json["held_back"] = held_back_of(*end, session.body.frame.frame.metres_per_unit);
+        json["pressed_body"] = is_pressed(*end) ? Json(k_pressed_body) : Json();
         json["spikes"] = { { "edges", end->spikes.edges },
                            { "share", end->spiked_share },
                            { "largest", end->spikes.largest },

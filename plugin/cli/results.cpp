@@ -60,11 +60,15 @@ std::vector<std::string> comments_of(const Dressing& dressing)
     return { text.str() };
 }
 
-/// The numbers of the input file where the body is in its input pose.
+/// The numbers of the input file where the body is as in the input.
 Positions body_in_file(const Session& session, const Positions& in_metres)
 {
-    return in_metres == session.scene.body->surface.positions ? session.body.file.positions()
-                                                              : session.body.frame.frame.to_file(in_metres);
+    const Positions &given = session.scene.body->surface.positions, &numbers = session.body.file.positions();
+    Positions result = session.body.frame.frame.to_file(in_metres);
+    for (Eigen::Index v = 0; v < result.rows(); ++v)
+        if (in_metres.row(v) == given.row(v))
+            result.row(v) = numbers.row(v);
+    return result;
 }
 
 void write_garments(const Session& session, const Dressing& dressing, const fs::path& folder)
@@ -77,8 +81,14 @@ void write_garments(const Session& session, const Dressing& dressing, const fs::
 
 void write_body(const Session& session, const Dressing& dressing, const fs::path& folder)
 {
-    write_ply(folder / "body.ply", body_in_file(session, dressing.body), session.body.triangles, {},
-              comments_of(dressing));
+    const auto write = [&](const char* name, const Positions& in_file, const std::vector<std::string>& comments) {
+        write_ply(folder / name, in_file, session.body.triangles, {}, comments);
+    };
+    const bool pressed = is_pressed(dressing);
+    write(pressed ? k_pressed_body : k_body, body_in_file(session, dressing.body), comments_of(dressing));
+    if (pressed)
+        write(k_body, session.body.file.positions(),
+              { std::string("garmentfit: as given; the garments are certified on ") + k_pressed_body });
 }
 
 /// A file may hold fewer digits than the computation had, so the file is judged.
@@ -172,7 +182,7 @@ void write_fitted_body(const Session& session, const fs::path& folder)
     const Pose& pose = session.scene.fits[outer].pose;
     const Positions fitted
         = skin(session.scene.body->surface.positions, rig.weights, bone_transforms(rig.skeleton, pose));
-    write_ply(folder / "body.ply", session.body.frame.frame.to_file(fitted), session.body.triangles, {},
+    write_ply(folder / k_body, session.body.frame.frame.to_file(fitted), session.body.triangles, {},
               { "garmentfit: the body in the pose fitted to " + session.garments[outer].name() });
 }
 
@@ -220,7 +230,7 @@ std::vector<std::string> outdated_results(const Session& session, std::string_vi
 {
     if (command == "rig" || command == "fit" || !is_result(folder))
         return {};  // those two write all their results, or nothing
-    std::vector<std::string> names { "body.ply", "maps" };
+    std::vector<std::string> names { k_body, k_pressed_body, "maps" };
     if (command != "drape")
         names.emplace_back("frames");
     if (command == "dress")

@@ -91,8 +91,8 @@ OwnRig read_own_rig(const BodyFile& body)
 /// Dressed garments are written beside body.ply and the other results.
 void require_own_name(const Session& session, const std::string& name)
 {
-    for (const char* taken :
-         { "body.ply", "rigged.ply", "rigged.glb", "rig.json", "report.json", "fitted", "frames", "maps", "rest" })
+    for (const char* taken : { "body.ply", "pressed_body.ply", "rigged.ply", "rigged.glb", "rig.json", "report.json",
+                               "fitted", "frames", "maps", "rest" })
         if (name == taken)
             throw InvalidInput(ErrorCode::wrong_call,
                                name + ": a garment may not have the name of a result file; rename it");

@@ -33,6 +33,8 @@ public:
             break;
         case Data::recovered:
             add_dressing(*scene().recovered, "");
+            if (is_pressed(*scene().recovered))
+                add_body(fitting_->body_name + " pressed", scene().recovered->body);
             add_frames(*scene().recovered);
             break;
         case Data::body:

@@ -44,7 +44,8 @@ TriangleMesh read_mesh(const fs::path& path, const Frame& frame)
 
 State read_state(const fs::path& folder, const Frame& frame, const Json& rig, const Vec3& front)
 {
-    State state { read_mesh(folder / "body.ply", frame), {}, front };
+    const bool pressed = fs::exists(folder / "pressed_body.ply");
+    State state { read_mesh(folder / (pressed ? "pressed_body.ply" : "body.ply"), frame), {}, front };
     for (const Json& garment : rig.at("garments"))
         if (const fs::path path = folder / garment.at("file").get<std::string>(); fs::exists(path))
             state.garments.push_back(read_mesh(path, frame));

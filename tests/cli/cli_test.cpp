@@ -928,6 +928,32 @@ TEST_F(Slow, DressesTheSampleAndGoesTheSameWayStepByStep)
     EXPECT_LT(apart, 0.02) << "metres; files between the steps round, and contact is sensitive to it";
 }
 
+TEST_F(Slow, PressesTheSkinOfABodyThatCrossesItselfWhereItMay)
+{
+    const std::string man = GARMENTFIT_BODIES "/heavy_man_arms_down.ply", vest = GARMENTFIT_GARMENTS "/vest.ply";
+    const fs::path fitted = folder / "fitted", draped = folder / "draped", dressed = folder / "dressed";
+    ASSERT_EQ(run({ "fit", man, vest, "-o", fitted }).code, 0);
+    ASSERT_EQ(run({ "drape", fitted, "-o", draped }).code, 0);
+    const Ended pressed = run({ "recover", draped, "--press", "0.08", "--quality", "draft", "--json", "-o", dressed });
+    ASSERT_EQ(pressed.code, 0) << pressed.err;
+    const auto report = nlohmann::json::parse(pressed.out);
+    EXPECT_EQ(report.at("pressed_body"), "pressed_body.ply");
+    ASSERT_FALSE(report.at("held_back").empty());
+    const double deepest = report.at("held_back").at(0).at("distance").get<double>();
+    EXPECT_LE(deepest, 0.08);
+
+    const garmentfit::Positions given = garmentfit::MeshFile::read(man).positions();
+    EXPECT_EQ(garmentfit::MeshFile::read(dressed / "body.ply").positions(), given);
+    const auto skin = garmentfit::MeshFile::read(dressed / "pressed_body.ply");
+    EXPECT_NEAR((skin.positions() - given).rowwise().norm().maxCoeff(), deepest, 1e-6);
+    EXPECT_NE(read_text(dressed / "pressed_body.ply").find("garmentfit: certified"), std::string::npos);
+
+    const Ended held = run({ "recover", draped, "--quality", "draft", "-o", dressed });
+    EXPECT_EQ(held.code, 4);
+    EXPECT_NE(held.err.find("m as press"), std::string::npos) << held.err;
+    EXPECT_FALSE(fs::exists(dressed / "pressed_body.ply")) << "of the run before";
+}
+
 TEST_F(Slow, SaysWhereAGarmentIsTooSmallAndMarksTheStateItLeaves)
 {
     const auto skirt = garmentfit::MeshFile::read(k_skirt);

@@ -491,6 +491,42 @@ TEST(RecoverPose, TurnsBackWhereClothHasNoClearanceOnThePath)
     EXPECT_LT((result.body - posed).rowwise().norm().maxCoeff(), 1e-3);
 }
 
+/// Thighs turned towards each other by an angle.
+Pose with_legs_together(double degrees)
+{
+    Pose pose;
+    pose.rotations[lfemur] = Eigen::Quaterniond(Eigen::AngleAxisd(-degrees * k_degree, Vec3::UnitZ()));
+    pose.rotations[rfemur] = pose.rotations[lfemur].inverse();
+    return pose;
+}
+
+TEST(RecoverPose, SkinOfABodyThatCrossesItselfGivesWayAsFarAsItMay)
+{
+    const Dressing d = person();
+    const DressedBody start = wearing(trousers(0.02));
+    const Pose crossing = with_legs_together(10);
+    RecoverOptions options;
+    options.press = 0.01;
+    const RecoverResult held = recover_pose(d.rig, d.body, start, crossing, options);
+    EXPECT_FALSE(held.certified);
+    EXPECT_EQ(held.pose_reached, 1);
+    ASSERT_FALSE(held.held_back.empty());
+    EXPECT_GT(held.held_back[0].distance, options.press);
+    ASSERT_FALSE(held.overlaps.empty());
+
+    options.press = 0.05;
+    const RecoverResult pressed = recover_pose(d.rig, d.body, start, crossing, options);
+    EXPECT_TRUE(pressed.certified);
+    EXPECT_TRUE(pressed.residual->is_at_rest());
+    EXPECT_TRUE(pressed.garments[0].certificate.clean());
+    ASSERT_FALSE(pressed.held_back.empty());
+    EXPECT_LE(pressed.held_back[0].distance, options.press);
+    const Positions own = skin(d.body.surface.positions, d.rig.weights, bone_transforms(d.rig.skeleton, crossing));
+    const Eigen::ArrayXd moved = (pressed.body - own).rowwise().norm();
+    EXPECT_NEAR(moved.maxCoeff(), pressed.held_back[0].distance, 1e-12);
+    EXPECT_LT((moved > 0).count(), moved.size() / 4) << "only between the legs";
+}
+
 // Each was refused once, or got stuck on its path.
 struct Wearing {
     const char *name, *body, *garment;

@@ -59,9 +59,10 @@ TEST(Schema, DescribesEveryFieldOfEveryOptionsStruct)
     [[maybe_unused]] const auto [drape_cloth, growing, settling, size] = DrapeOptions();
     EXPECT_EQ(count_of(DrapeOptions()), 11u + 2u);
     // whether cloth only rests is for Dress Body to say
-    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, frames, rests]
+    [[maybe_unused]] const auto [recover_cloth, steps, length, recover_settling, quality, settle_time, press, frames,
+                                 rests]
         = RecoverOptions();
-    EXPECT_EQ(count_of(RecoverOptions()), 10u + 6u);  // all of the cloth but how much larger it may be made
+    EXPECT_EQ(count_of(RecoverOptions()), 10u + 7u);  // all of the cloth but how much larger it may be made
 }
 
 TEST(Schema, NamesAreUniqueAndEveryParameterIsExplained)

@@ -116,13 +116,28 @@ TEST(DressingOutcome, SaysWhereTheBodyItselfLeavesNoSpace)
     scene.draped->certified = false;
     scene.draped->held_back = { { "chest", 0.028 } };
     scene.draped->overlaps = { { "chest", "left upper arm", 0.027 }, { "chest", "right upper arm", 0.026 } };
+    const std::string why
+        = "coat could not be certified: parts of the body are not in their places; too little space for the cloth "
+          "at chest (held back by 28 mm); the body crosses itself, and no cloth fits between chest and left upper arm "
+          "(27 mm deep), chest and right upper arm (26 mm deep); give a wider garment, ";
     EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
-              "coat could not be certified: parts of the body are not in their places; too little space for the cloth "
-              "at chest "
-              "(held back by 28 mm); the body crosses itself, and no cloth fits between chest and left upper arm (27 "
-              "mm deep), "
-              "chest and right upper arm (26 mm deep); give a wider garment, or a pose with more space between arms, "
-              "legs and trunk");
+              why + "a pose with more space between arms, legs and trunk, or 0.04 m as press: the skin gives way then");
+    scene.draped->to_human_size = 10;  // more than may be asked for
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }),
+              why + "or a pose with more space between arms, legs and trunk");
+}
+
+TEST(DressingOutcome, OffersPressWhereAGarmentIsTooSmallBecauseTheBodyCrossesItself)
+{
+    Scene scene = draped_scene();
+    scene.draped->certified = false;
+    scene.draped->too_tight = { { 0, "right shoulder", 0.083, 0.17 } };
+    scene.draped->held_back = { { "chest", 0.028 } };
+    EXPECT_EQ(explain(*final_dressing(scene), { "coat" }).find("press"), std::string::npos);
+    scene.draped->overlaps = { { "chest", "right upper arm", 0.027 } };
+    const std::string text = explain(*final_dressing(scene), { "coat" });
+    EXPECT_NE(text.find("too small"), std::string::npos) << text;
+    EXPECT_NE(text.find("with 0.04 m as press the skin gives way there"), std::string::npos) << text;
 }
 
 TEST(DressingOutcome, TellsCrossingsThatTheGarmentWasGivenWithFromNewOnes)

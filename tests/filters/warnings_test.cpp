@@ -155,6 +155,18 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
                  "coat was not put on, because the garments under it were not certified" }));
 }
 
+TEST(Warnings, SayWhereClothPressesTheSkinIn)
+{
+    Scene scene = worn_scene();
+    scene.draped->held_back = { { "chest", 0.027 }, { "waist", 4e-4 } };
+    scene.draped->certified = false;
+    EXPECT_EQ(warnings_of(scene), Lines()) << "it is only held back";
+    scene.draped->certified = true;
+    EXPECT_EQ(warnings_of(scene),
+              Lines { "cloth presses the skin in at chest (by 27 mm), waist (by 0.4 mm): the result is certified on "
+                      "the body so pressed, and crosses the body as it was given there" });
+}
+
 TEST(Warnings, ForcesFarBeyondItsWeightAreNotCounted)
 {
     Scene scene = worn_scene();

@@ -67,6 +67,7 @@
 #define vtkFitEndParametersMacro()                                                                                     \
     vtkFitChoiceMacro(Quality, quality);                                                                               \
     vtkFitNumberMacro(SettleTime, double, settle_time);                                                                \
+    vtkFitNumberMacro(Press, double, press);                                                                           \
     vtkFitNumberMacro(Frames, int, frames)
 
 #define vtkFitTimeLimitMacro() vtkFitNumberMacro(TimeLimit, double, time_limit)

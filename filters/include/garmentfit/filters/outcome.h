@@ -20,6 +20,8 @@ const Dressing* final_dressing(const Scene& scene);
 /// may still hold parts of the body back, such as fingers in a long sleeve: they may come free on the path to another pose.
 bool all_put_on(const Scene& scene);
 Outcome outcome_of(const Dressing& dressing);
+/// Whether it is certified on skin that cloth presses in (RecoverOptions::press): the parts are in `held_back`.
+bool is_pressed(const Dressing& dressing);
 /// Flat caps at the ends of a garment, which are taken for openings; 0 before it is fitted or put on.
 int closed_ends(const Scene& scene, std::size_t garment);
 

@@ -199,6 +199,11 @@ void describe_end(Options& o, Visitor&& visit)
     visit(o.settle_time,
           About { "settle_time", "Settle time", "s", 0, 600,
                   "So much simulated time the cloth goes on for once it is at rest, to see whether it stays there" });
+    visit(o.press,
+          About {
+              "press", "Press", "m", 0, k_largest_press,
+              "Skin that cloth holds back from its place by no more than this stays pressed in: where the body crosses "
+              "itself, no cloth fits between unless it gives way" });
     visit(o.frames,
           About { "frames", "Frames", "", 0, 1000,
                   "States to keep on the return to the input pose, evenly spread; 1 for the end alone, 0 for none" });

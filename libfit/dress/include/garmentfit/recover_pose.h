@@ -21,14 +21,20 @@ enum class Quality { standard, draft };
 /// "standard", "draft".
 GARMENTFIT_API const std::vector<std::string_view>& quality_names();
 
+/// m; RecoverOptions::press at most. fitted: guess; flesh of half a thigh gives way no further.
+constexpr double k_largest_press = 0.1;
+
 /// Defaults are fitted: guesses on the pairs that dress/tuning.h names.
 struct RecoverOptions {
     ClothOptions cloth;
     int largest_steps = 200;  ///< no more steps along the path than these; they get longer instead
     double step_length = 0.015;  ///< m; nothing under cloth moves further in a step, as far as largest_steps permits
     int settling_steps = 20;  ///< time steps under gravity, once the target is reached
-    Quality quality = Quality::standard;  ///< where parts of the body are held back, always a draft
+    Quality quality = Quality::standard;  ///< where skin is held back further than `press`, always a draft
     double settle_time = 0;  ///< s, of simulated time to go on for after rest
+    /// m; skin that cloth holds back from its place in the target pose, by no more than this, stays pressed in, and the
+    /// cloth is certified and led to rest on it. 0: all skin has to be in its place.
+    double press = 0;
     /// States along the path to return, evenly spread, both ends included; 1: the end alone; 0: none. A frame is where
     /// a step ends, so there are at least frames - 1 steps.
     int frames = 0;
@@ -50,7 +56,7 @@ struct Overlap {
 };
 
 /// The dressed body at the pose reached. In the pose of the input (Pose()) its vertices equal BodyMesh::surface bit for
-/// bit.
+/// bit, but for what is held back.
 struct RecoverResult : DressedBody {
     std::vector<TooTight> too_tight;  ///< in the target pose, worst first
     std::vector<HeldBack> held_back;  ///< in the target pose, or where the body got stuck; worst first
@@ -63,7 +69,9 @@ struct RecoverResult : DressedBody {
     double speed = 0;  ///< m/s, of the fastest vertex of the cloth in the last settling step
     /// At the end. Without friction where the quality is a draft; none where time ran out before.
     std::optional<ForceResidual> residual;
-    bool certified = false;  ///< target reached, nothing too tight, every certificate clean
+    /// Target reached, with no skin held back further than RecoverOptions::press permits; nothing too tight, every
+    /// certificate clean.
+    bool certified = false;
     bool out_of_time = false;  ///< the deadline of the Progress passed, on the path or before the cloth was settled
     ClothSeconds seconds;
 };

@@ -54,7 +54,8 @@ def draw_pair(work: Path, row: dict) -> None:
     report = json.loads((result / "report.json").read_text())
     turn = _upright(report["body"])
     scale = report["body"]["metres_per_unit"]
-    meshes = [_mesh("body", result / "body.ply", turn, scale)]
+    bodies = [result / "pressed_body.ply", result / "body.ply"]  # the first is there where cloth presses the skin in
+    meshes = [_mesh("body", next(file for file in bodies if file.exists()), turn, scale)]
     for garment in report["garments"]:
         file = result / "maps" / (Path(garment["file"]).stem + ".ply")
         if file.exists():
