@@ -394,6 +394,12 @@ RecoverResult recover_over(BridgeEnds ends, const Rig& rig, const BodyMesh& body
     return result;
 }
 
+/// Whether cloth holds skin far from its place at the end of the path.
+bool is_stuck(const RecoverResult& result)
+{
+    return !result.held_back.empty() && result.held_back.front().distance > k_stuck_lag;
+}
+
 RecoverResult recover_on(const Rig& rig, const BodyMesh& body, const DressedBody& dressed, const Pose& target,
                          const RecoverOptions& options, const Progress& progress)
 {
@@ -401,11 +407,14 @@ RecoverResult recover_on(const Rig& rig, const BodyMesh& body, const DressedBody
     const Outfit outfit(carried.garments, options.cloth.fabric);
     const Departure departure { dressed, std::move(carried), outfit };
     RecoverResult result = recover_over(BridgeEnds::bottom, rig, body, departure, target, options, progress);
-    if (result.pose_reached == 1 || result.out_of_time)
+    if ((result.pose_reached == 1 && !is_stuck(result)) || result.out_of_time)
         return result;
     RecoverResult other = recover_over(BridgeEnds::nearest, rig, body, departure, target, options, progress);
     other.seconds += result.seconds;
-    return other.pose_reached > result.pose_reached ? other : result;
+    const bool is_better = other.pose_reached != result.pose_reached
+        ? other.pose_reached > result.pose_reached
+        : other.certified || (is_stuck(result) && !is_stuck(other));
+    return is_better ? other : result;
 }
 
 /// Lets the body go from where it is laid to its own skin, and the garments find their rest on that.
