@@ -225,7 +225,7 @@ void add_head(FileSkin& skin, NamedJoints& joints)
 int row_of(const NamedJoints& joints, JointKind kind, int side)
 {
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (joints[j] && joints[j]->kind == kind && joints[j]->side == side)
+        if (joints[j] && joints[j]->kind == kind && joints[j]->side == side && !joints[j]->is_later_part)
             return int(j);
     return -1;
 }

@@ -82,9 +82,13 @@ constexpr std::array k_words {
 };
 
 /// What programs put before or between the words: VRM, 3ds Max, Source, Mixamo without its colon, Rigify, Character
-/// Creator, SMPL.
-constexpr std::array<std::string_view, 13> k_fillers { "j",  "c",    "bip", "biped", "valve", "mixamorig", "def",
-                                                       "cc", "base", "m",   "f",     "avg",   "armature" };
+/// Creator, SMPL, Auto-Rig Pro.
+constexpr std::array<std::string_view, 14> k_fillers { "j",  "c",    "bip", "biped", "valve", "mixamorig", "def",
+                                                       "cc", "base", "m",   "f",     "avg",   "armature",  "x" };
+
+/// The parts of a bone by Auto-Rig Pro: upper arms and thighs begin with "twist", forearms and shins with "stretch".
+/// "offset" means nothing.
+constexpr std::array<std::string_view, 3> k_parts { "stretch", "twist", "offset" };
 
 /// "mixamorig:LeftUpLeg" -> left, up, leg; "thigh_l" -> thigh, l; "LCalf" -> l, calf; digits are dropped.
 std::vector<std::string> tokens_of(const std::string& name)
@@ -129,10 +133,22 @@ std::set<std::string> common_tokens(const std::vector<std::string>& names)
     return common;
 }
 
+template <std::size_t N>
+bool is_among(const std::array<std::string_view, N>& words, const std::string& token)
+{
+    return std::find(words.begin(), words.end(), token) != words.end();
+}
+
+/// What may be meant besides what words say.
+enum class Reading {
+    plain,
+    stand_in,  ///< a palm or fist is a hand, and a goal of inverse kinematics the joint that it pulls
+    part,  ///< the part of a bone is the bone
+};
+
 /// @param common  what is left out
-/// @param as_stand_in  whether a palm or fist is a hand, and a goal of inverse kinematics the joint that it pulls
 std::optional<NamedJoint> recognize(const std::string& name, const std::set<std::string>& common,
-                                    bool as_stand_in = false)
+                                    Reading reading = Reading::plain)
 {
     int side = 0;
     std::string word;
@@ -143,10 +159,10 @@ std::optional<NamedJoint> recognize(const std::string& name, const std::set<std:
             side = 2;
         else if (common.contains(token))
             continue;
-        else if (as_stand_in && (token == "palm" || token == "fist"))
+        else if (reading == Reading::stand_in && (token == "palm" || token == "fist"))
             word += "hand";
-        else if (std::find(k_fillers.begin(), k_fillers.end(), token) == k_fillers.end()
-                 && !(as_stand_in && token == "ik"))
+        else if (!is_among(k_fillers, token) && !(reading == Reading::stand_in && token == "ik")
+                 && !(reading == Reading::part && is_among(k_parts, token)))
             word += token;
     if (const auto joint = look_up(word, side))
         return joint;
@@ -172,6 +188,8 @@ public:
 
     std::vector<std::optional<NamedJoint>> read()
     {
+        if (count_token("stretch") > 0)
+            name_parts();
         // derived: a rig has two shoulders, so some are clavicles, unless these have names of their own
         if (count(JointKind::shoulder) > 2 && count(JointKind::clavicle) == 0)
             rename(JointKind::shoulder, "shoulder", JointKind::clavicle);
@@ -197,6 +215,32 @@ private:
         for (std::size_t i = 0; i < joints_.size(); ++i)
             result += is(i, kind);
         return result;
+    }
+
+    std::ptrdiff_t count_token(std::string_view token) const
+    {
+        return std::count_if(names_.begin(), names_.end(),
+                             [token](const std::string& name) { return has_token(name, token); });
+    }
+
+    /// Where a bone has one part only, the joint is at its head, whatever it is called.
+    void name_parts()
+    {
+        std::map<std::pair<JointKind, int>, std::size_t> first;
+        for (std::size_t i = 0; i < joints_.size(); ++i) {
+            const std::optional<NamedJoint> joint = recognize(names_[i], common_, Reading::part);
+            if (joints_[i] || !joint)
+                continue;
+            joints_[i] = joint;
+            const auto [found, is_new] = first.try_emplace({ joint->kind, joint->side }, i);
+            const bool is_upper = joint->kind == JointKind::shoulder || joint->kind == JointKind::hip;
+            const bool begins = has_token(names_[i], is_upper ? "twist" : "stretch");
+            if (is_new)
+                continue;
+            joints_[begins ? found->second : i]->is_later_part = true;
+            if (begins)
+                found->second = i;
+        }
     }
 
     void rename(JointKind from, std::string_view token, JointKind to)
@@ -231,7 +275,8 @@ private:
     void name_stand_ins(JointKind kind)
     {
         for (std::size_t i = 0; i < joints_.size(); ++i)
-            if (const auto joint = recognize(names_[i], common_, true); !joints_[i] && joint && joint->kind == kind)
+            if (const auto joint = recognize(names_[i], common_, Reading::stand_in);
+                !joints_[i] && joint && joint->kind == kind)
                 joints_[i] = joint;
     }
 

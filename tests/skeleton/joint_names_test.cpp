@@ -118,6 +118,10 @@ const NamedRig k_rigs[] = {
       { "mPelvis", "mNeck", "mHead", "mCollarLeft", "mShoulderLeft", "mElbowLeft", "mWristLeft", "mHipLeft",
         "mKneeLeft", "mAnkleLeft" },
       { "R_CLAVICLE", "R_UPPER_ARM", "mShoulderRight", "BELLY", "BUTT", "LEFT_PEC", "mToeLeft" } },
+    { "Auto-Rig Pro",
+      { "root.x", "neck.x", "head.x", "shoulder.l", "arm_stretch.l", "forearm_stretch.l", "hand.l", "thigh_stretch.l",
+        "leg_stretch.l", "foot.l" },
+      { "shoulder.r", "arm_stretch.r", "toes_01.l", "c_thumb2.l" } },
     { "of one's own",
       { "Hips", "Neck", "Head", "Left shoulder", "Left arm", "Left elbow", "Left wrist", "Left leg", "Left knee",
         "Left ankle" },
@@ -140,6 +144,29 @@ TEST(JointNames, RigsOfManyProgramsAreReadWhole)
         for (std::size_t i = rig.names.size(); i < names.size(); ++i)
             EXPECT_FALSE(joints[i] && joints[i]->side < 2) << rig.program << ' ' << names[i];
     }
+}
+
+TEST(JointNames, ThePartsOfABoneAreOneJoint)
+{
+    const std::vector<std::string> names {
+        "root.x",          "head.x",          "shoulder.l",        "c_arm_twist_offset.l",
+        "arm_stretch.l",   "forearm_twist.l", "forearm_stretch.l", "hand.l",
+        "thigh_stretch.l", "thigh_twist.l",   "leg_stretch.l",     "leg_twist.l",
+        "shoulder.r",      "arm_stretch.r"
+    };
+    const auto joints = recognize_joints(names);
+    const auto expect_parts = [&](std::size_t first, std::size_t later, JointKind kind) {
+        ASSERT_TRUE(joints[first] && joints[later]) << names[first];
+        EXPECT_EQ(joints[first]->kind, kind);
+        EXPECT_EQ(joints[later]->kind, kind);
+        EXPECT_FALSE(joints[first]->is_later_part) << names[first];
+        EXPECT_TRUE(joints[later]->is_later_part) << names[later];
+    };
+    expect_parts(3, 4, JointKind::shoulder);
+    expect_parts(6, 5, JointKind::elbow);
+    expect_parts(9, 8, JointKind::hip);
+    expect_parts(10, 11, JointKind::knee);
+    EXPECT_EQ(joints[2]->kind, JointKind::clavicle);
 }
 
 TEST(JointNames, TheOnlyBoneOfALegBeginsAtTheHip)
