@@ -11,6 +11,7 @@
 
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/verdict.h"
+#include "garmentfit/hips.h"
 #include "garmentfit/shoulders.h"
 #include "named_garment.h"
 #include "other_wearings.h"
@@ -149,7 +150,25 @@ std::vector<Bone> slipped_off(const Scene& scene, const Dressing& dressing, std:
     return off;
 }
 
-/// What the scene's garments are made of, the unit of messages about them, and the shoulders that they slipped off.
+/// The hips that one of the scene's garments covers in its fit, and does not reach.
+std::vector<Bone> below_hips(const Scene& scene, const Dressing& dressing, std::size_t garment)
+{
+    if (!dressing.is_worn(garment) || garment >= scene.fits.size())
+        return {};
+    const std::vector<Bone>& covered = scene.fits[garment].covered;
+    const WornGarment& worn = dressing.garments[garment];
+    const std::vector<Bone> reached
+        = hips_under_cloth(pose_skeleton(scene.rig->skeleton, dressing.pose), worn.positions, worn.rest.triangles);
+    std::vector<Bone> below;
+    for (const Bone hip : { lhipjoint, rhipjoint })
+        if (std::find(covered.begin(), covered.end(), hip) != covered.end()
+            && std::find(reached.begin(), reached.end(), hip) == reached.end())
+            below.push_back(hip);
+    return below;
+}
+
+/// What the scene's garments are made of, the unit of messages about them, the shoulders that they slipped off, and the
+/// hips that they do not reach.
 void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& cloth)
 {
     dressing.unit = scene.unit;
@@ -158,6 +177,9 @@ void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& clo
     dressing.off_shoulders.clear();
     for (std::size_t i = 0; i < scene.garments.size(); ++i)
         dressing.off_shoulders.push_back(slipped_off(scene, dressing, i));
+    dressing.below_hips.clear();
+    for (std::size_t i = 0; i < scene.garments.size(); ++i)
+        dressing.below_hips.push_back(below_hips(scene, dressing, i));
     for (const GarmentInput& garment : scene.garments) {
         dressing.fabrics.push_back(garment.fabric.value_or(cloth.fabric));
         dressing.fabric_stretches.push_back(material_of(cloth, dressing.fabrics.back()).largest_stretch);
@@ -269,10 +291,41 @@ Dressing moved(const Scene& scene, const Dressing& dressing, const Pose& to, con
     return result;
 }
 
+/// The factor by which the fabric of a garment that is made larger may give.
+double given_by_larger(double fabric_stretch) { return 1 + k_stretch_of_enlarged * fabric_stretch; }
+
+/// Girths of body and garment as they are fitted.
+std::vector<Girth> girths_in_fit(const Scene& scene, std::size_t garment)
+{
+    const Rig& rig = *scene.rig;
+    const Pose& pose = scene.fits[garment].pose;
+    const auto& [positions, triangles] = scene.body->surface;
+    const TriangleMesh body { skin(positions, rig.weights, bone_transforms(rig.skeleton, pose)), triangles };
+    const GarmentMesh& mesh = scene.garments[garment].mesh;
+    return girths(pose_skeleton(rig.skeleton, pose), rig.weights, body, { mesh, mesh.positions });
+}
+
+/// A garment that is too narrow for the hips slides down to where it is not. That does not make it large enough, and to
+/// stay there it must not have to stretch.
+void judge_hips(const Scene& scene, Dressing& dressing)
+{
+    for (std::size_t i = 0; i < dressing.below_hips.size(); ++i) {
+        if (!dressing.certified || dressing.below_hips[i].empty())
+            continue;
+        for (const Girth& girth : girths_in_fit(scene, i))
+            if (girth.place == "hips" && girth.ease() < 0)
+                dressing.too_tight.push_back(
+                    { int(i), girth.place, -girth.ease(),
+                      girth.body / girth.garment * given_by_larger(dressing.fabric_stretches[i]) - 1 });
+        dressing.certified = dressing.too_tight.empty();
+    }
+}
+
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
 {
     scene.recovered = moved(scene, *scene.draped, Pose(), p.recover, Stage::recover, progress);
     scene.recovered->certified &= all_put_on(scene);
+    judge_hips(scene, *scene.recovered);
 }
 
 /// A stage that dresses, whose dressing may be that of stand-ins.
@@ -329,7 +382,7 @@ void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Paramete
 /// By which a garment has to be larger, with what its fabric may give.
 double lacking_factor(double enlargement, double fabric_stretch)
 {
-    return (1 + enlargement) / (1 + k_stretch_of_enlarged * fabric_stretch);
+    return (1 + enlargement) / given_by_larger(fabric_stretch);
 }
 
 /// The same round a part for which it is too small.
@@ -341,13 +394,8 @@ double lacking_factor(const Dressing& end, const TooTight& part)
 /// Parts at which the body, in the pose of the fit, is far wider than a garment can give.
 Widening lacking_girths(const Scene& scene, std::size_t garment, double fabric_stretch, double most)
 {
-    const Rig& rig = *scene.rig;
-    const Pose& pose = scene.fits[garment].pose;
-    const auto& [positions, triangles] = scene.body->surface;
-    const TriangleMesh body { skin(positions, rig.weights, bone_transforms(rig.skeleton, pose)), triangles };
-    const GarmentMesh& mesh = scene.garments[garment].mesh;
     Widening result;
-    for (const Girth& girth : girths(pose_skeleton(rig.skeleton, pose), rig.weights, body, { mesh, mesh.positions }))
+    for (const Girth& girth : girths_in_fit(scene, garment))
         if (girth.body > (1 + fabric_stretch) * k_far_too_narrow * girth.garment)
             widen_both_sides(result, girth.place,
                              std::min(1 + most, lacking_factor(girth.body / girth.garment - 1, fabric_stretch)));

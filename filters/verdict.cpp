@@ -70,9 +70,11 @@ std::vector<PlaceVerdict> judge_places(const Dressing& dressing, std::size_t gar
 
 bool has_slipped(const Dressing& dressing, std::size_t garment)
 {
+    const auto has_any
+        = [&](const std::vector<std::vector<Bone>>& off) { return garment < off.size() && !off[garment].empty(); };
     return dressing.is_worn(garment)
-        && (dressing.garments[garment].slipped * dressing.to_human_size > k_slipped
-            || (garment < dressing.off_shoulders.size() && !dressing.off_shoulders[garment].empty()));
+        && (dressing.garments[garment].slipped * dressing.to_human_size > k_slipped || has_any(dressing.off_shoulders)
+            || has_any(dressing.below_hips));
 }
 
 }  // namespace

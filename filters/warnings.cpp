@@ -79,6 +79,11 @@ std::string shoulders_in_words(const std::vector<Bone>& clavicles)
                                     : "the right shoulder";
 }
 
+std::string hips_in_words(const std::vector<Bone>& hips)
+{
+    return hips.size() == 2 ? "the hips" : hips[0] == lhipjoint ? "the left hip" : "the right hip";
+}
+
 /// Of one that is worn; whether it is tight, too.
 void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, const Dressing& end, std::size_t garment)
 {
@@ -86,6 +91,9 @@ void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, c
     if (garment < end.off_shoulders.size() && !end.off_shoulders[garment].empty())
         warnings.push_back(name + " slipped off " + shoulders_in_words(end.off_shoulders[garment])
                            + ": it is too wide there for this body to stay where it is worn");
+    if (garment < end.below_hips.size() && !end.below_hips[garment].empty())
+        warnings.push_back(name + " hangs below " + hips_in_words(end.below_hips[garment])
+                           + ", which it should cover: it does not stay on this body");
     const std::optional<FitVerdict> verdict = fit_verdict(end, garment);
     if (!verdict || verdict->verdict != Verdict::tight)
         return;

@@ -273,5 +273,9 @@ inline constexpr double k_progress_of_path = 0.5, k_progress_of_settling = 0.2;
 /// Share of a collarbone beyond its end that counts as shoulder: straps that lie there do not slip. guess, on three
 /// clothes with straps
 inline constexpr double k_beyond_shoulder = 0.15;
+/// Share of the distance between the hips. Cloth that ends further below a hip joint hangs on the thigh.
+/// fitted: guess, on trousers on 66 strangers' bodies: of those that looked worn, one ended 0.18 below and all others
+/// less than 0.12, of those that did not, all more than 0.23
+inline constexpr double k_below_hip = 0.2;
 
 }  // namespace garmentfit

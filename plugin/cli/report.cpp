@@ -40,6 +40,14 @@ Json stages_of(const Session& session)
 
 Json vector_of(const Vec3& v) { return Json { v.x(), v.y(), v.z() }; }
 
+Json sides_of(const std::vector<Bone>& bones)
+{
+    Json sides = Json::array();
+    for (const Bone bone : bones)
+        sides.push_back(bone < mirror_of(bone) ? "left" : "right");
+    return sides;
+}
+
 Json guess_of(const FrameGuess& guess)
 {
     return { { "metres_per_unit", guess.frame.metres_per_unit },
@@ -258,9 +266,8 @@ Json garment_of(const Session& session, const ClothOptions& cloth, std::size_t i
             json["girth"] = end->garments[i].girth;
             json["too_tight"] = too_tight_of(*end, i, metres_per_unit);
             json["overstretched"] = overstretched_of(end->overstretches[i]);
-            json["off_shoulders"] = Json::array();
-            for (const Bone clavicle : end->off_shoulders[i])
-                json["off_shoulders"].push_back(clavicle == lclavicle ? "left" : "right");
+            json["off_shoulders"] = sides_of(end->off_shoulders[i]);
+            json["below_hips"] = sides_of(end->below_hips[i]);
             put_ease(json, *end, i, metres_per_unit);
         }
     }

@@ -85,6 +85,13 @@ TEST(FitVerdict, IsTooLargeWhereItSlippedOffAShoulder)
     EXPECT_EQ(fit_verdict(dressing, 0)->verdict, Verdict::too_large);
 }
 
+TEST(FitVerdict, IsTooLargeWhereItHangsBelowAHip)
+{
+    Dressing dressing = worn();
+    dressing.below_hips = { { lhipjoint } };
+    EXPECT_EQ(fit_verdict(dressing, 0)->verdict, Verdict::too_large);
+}
+
 TEST(FitVerdict, OfSpikesIsNeverTooSmall)
 {
     Dressing small = worn();

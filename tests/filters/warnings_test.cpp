@@ -141,6 +141,7 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
     scene.draped->garments[0].size = 1.08;
     scene.draped->garments[0].slipped = 0.214;
     scene.draped->off_shoulders = { { lclavicle } };
+    scene.draped->below_hips = { { lhipjoint, rhipjoint } };
     scene.draped->garments[0].piece_shift = 0.12;
     EXPECT_EQ(
         warnings_of(scene),
@@ -152,6 +153,7 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
                  "in the garment's file",
                  "skirt slipped down by 214 mm: it is too wide for this body to stay where it is worn",
                  "skirt slipped off the left shoulder: it is too wide there for this body to stay where it is worn",
+                 "skirt hangs below the hips, which it should cover: it does not stay on this body",
                  "coat was not put on, because the garments under it were not certified" }));
 }
 

@@ -85,6 +85,8 @@ struct Dressing : DressedBody {
     /// Of each of the scene's garments, the shoulders (lclavicle, rclavicle) that it lay over in its fit and slipped
     /// off.
     std::vector<std::vector<Bone>> off_shoulders;
+    /// The same, of the hips (lhipjoint, rhipjoint) that it covers in its fit and does not reach.
+    std::vector<std::vector<Bone>> below_hips;
     std::vector<Fabric> fabrics;  ///< of each of the scene's garments
     std::vector<double> fabric_stretches;  ///< what each of them gives: Material::largest_stretch
     Overstretch spikes;  ///< of the body: edges that cloth draws out far beyond their length
