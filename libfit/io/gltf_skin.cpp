@@ -48,6 +48,7 @@ public:
             add_joints(surface.node);
         if (std::none_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint.has_value(); }))
             add_joints_of_rigid_parts();
+        place_ends();
         add_nodes_between();
         if (below == NodesBelow::taken)
             add_nodes_below();
@@ -66,6 +67,7 @@ private:
     struct Joint {
         Eigen::Affine3d joint_from_world;
         Vec3 place;
+        bool is_at_origin = false;  ///< of the mesh, in the bind pose
     };
 
     bool is_joint(int node) const { return joints_[std::size_t(node)].has_value(); }
@@ -93,8 +95,24 @@ private:
             const Vec3 place = (world_from_mesh * joint_from_mesh.inverse()).translation();
             if (!place.allFinite())
                 file_.fail("joint '" + name + "' has no position; export the skin with its bind pose");
-            joints_[std::size_t(joint)] = { joint_from_mesh * world_from_mesh.inverse(), place };
+            joints_[std::size_t(joint)]
+                = { joint_from_mesh * world_from_mesh.inverse(), place, joint_from_mesh.translation().isZero(0) };
         }
+    }
+
+    /// Joints that end the tree and move nothing, such as "Head_end", have no bind pose in the files of some exporters:
+    /// all lie at the origin.
+    void place_ends()
+    {
+        std::vector<bool> has_joints_below(model_.nodes.size(), false);
+        for (auto node = scene_.nodes().rbegin(); node != scene_.nodes().rend(); ++node)
+            if (const int above = scene_.parent(*node);
+                above >= 0 && (is_joint(*node) || has_joints_below[std::size_t(*node)]))
+                has_joints_below[std::size_t(above)] = true;
+        for (const int node : scene_.nodes())
+            if (const int above = joint_from(scene_.parent(node)); above >= 0 && is_joint(node)
+                && !has_joints_below[std::size_t(node)] && joints_[std::size_t(node)]->is_at_origin)
+                add_weightless(node, above);
     }
 
     /// Where no mesh has a skin, the file's skins still say which nodes are joints. Parts of a figure that hang on them

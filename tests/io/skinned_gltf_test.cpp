@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "garmentfit/skinned_gltf.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -187,6 +189,31 @@ TEST_F(SkinnedParts, AreReadInTheirBindPose)
     for (int b = 0; b < bone_count; ++b)
         EXPECT_LT((posed.skeleton.tail(b) - before.skeleton.tail(b)).norm(), 1e-6) << bone_name(b);
     EXPECT_LT((Vec3(MeshFile::read(glb).positions().row(0)) - Vec3(person.mesh.positions.row(0))).norm(), 1e-6);
+}
+
+/// A GLB in which a joint of the first skin has its bind pose at the origin.
+std::string with_joint_at_origin(std::string bytes, const std::string& joint)
+{
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const json document = json::parse(bytes.substr(20, length));
+    const json& skin = document["skins"][0];
+    const auto& joints = skin["joints"];
+    const auto row
+        = std::size_t(std::find(joints.begin(), joints.end(), json(node_called(document, joint))) - joints.begin());
+    const json& accessor = document["accessors"][skin["inverseBindMatrices"].get<std::size_t>()];
+    const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const std::size_t first = 28 + length + view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u);
+    const float zeros[3] {};
+    std::memcpy(bytes.data() + first + 64 * row + 48, zeros, sizeof zeros);  // the last column
+    return bytes;
+}
+
+TEST_F(SkinnedGltf, EndsWithoutABindPoseLieWhereTheSceneHasThem)
+{
+    const ForeignRig before = read_skinned_gltf(glb);
+    save("rigged.glb", with_joint_at_origin(load(glb), "head_top"));
+    EXPECT_LT((read_skinned_gltf(glb).skeleton.tips[head_top] - before.skeleton.tips[head_top]).norm(), 1e-5);
 }
 
 // Bytes of something else stand where the inverse bind matrices should be.
