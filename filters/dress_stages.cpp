@@ -285,7 +285,7 @@ Dressing moved(const Scene& scene, const Dressing& dressing, const Pose& to, con
     Dressing result = move_to_pose(scene, from, worn, to, options, stage, progress);
     measure(scene, result, options.cloth);
     for (const std::size_t i : result.worn())
-        result.certified &= !is_drawn_out(result, i);
+        result.certified &= !is_drawn_out(result, i) && !has_fallen_off(result, i);
     result = among_all(result, worn, scene.garments.size());
     write_given(scene, result, options.cloth);
     return result;

@@ -127,6 +127,9 @@ std::string why_not_certified(const Dressing& end, const std::vector<std::string
     const auto crossing = std::find_if_not(end.garments.begin(), end.garments.end(),
                                            [](const WornGarment& g) { return g.certificate.clean(); });
     const bool clean = crossing == end.garments.end();
+    for (std::size_t i = 0; i < end.garments.size() && clean; ++i)
+        if (has_fallen_off(end, i))
+            return names[i] + " could not be certified: it fell off the body; give a narrower garment";
     if (const std::size_t caught = garment_caught(end); clean && !end.out_of_time && ends_in_spikes(end, caught))
         return why_spikes(end, names[caught]);
     std::ostringstream text;

@@ -94,6 +94,12 @@ bool is_drawn_out(const Dressing& dressing, std::size_t garment)
         || (stretch.gained > k_drawn_area && !is_too_tight(dressing, garment));
 }
 
+bool has_fallen_off(const Dressing& dressing, std::size_t garment)
+{
+    return dressing.is_worn(garment) && dressing.body.rows() > 0
+        && dressing.garments[garment].positions.col(1).maxCoeff() < dressing.body.col(1).minCoeff();
+}
+
 bool ends_in_spikes(const Dressing& dressing, std::size_t garment)
 {
     return dressing.spiked_share > k_spiked_share || is_drawn_out(dressing, garment)

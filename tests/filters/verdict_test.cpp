@@ -92,6 +92,19 @@ TEST(FitVerdict, IsTooLargeWhereItHangsBelowAHip)
     EXPECT_EQ(fit_verdict(dressing, 0)->verdict, Verdict::too_large);
 }
 
+TEST(FitVerdict, FallenOffIsWhatLiesBelowTheBody)
+{
+    Dressing dressing = worn();
+    dressing.body = Positions::Zero(1, 3);
+    dressing.garments[0].positions = Positions::Constant(1, 3, -0.1);
+    EXPECT_TRUE(has_fallen_off(dressing, 0));
+    dressing.certified = false;
+    EXPECT_EQ(outcome_of(dressing), Outcome::not_certified);
+    EXPECT_NE(explain(dressing, { "top" }).find("it fell off the body"), std::string::npos);
+    dressing.body(0, 1) = -0.2;
+    EXPECT_FALSE(has_fallen_off(dressing, 0));
+}
+
 TEST(FitVerdict, OfSpikesIsNeverTooSmall)
 {
     Dressing small = worn();

@@ -35,7 +35,7 @@ struct FitVerdict {
 /// tight      pressure over 1.96 kPa, or stretched by more than half of what the fabric gives;
 /// roomy      14 % of ease or more;
 /// fits       otherwise.
-/// A garment that slipped down further than warnings allow, or off a shoulder, is too large. One that is roomy is so
+/// A garment that slipped down further than warnings allow, off a shoulder or below a hip, is too large. One that is roomy is so
 /// everywhere.
 /// None for a garment that is not worn for another reason than being too small.
 /// Cost O(parts).
@@ -50,6 +50,9 @@ bool is_too_small(const Dressing& dressing, std::size_t garment);
 /// Whether an edge is far longer than at rest, or triangles have gained much area: cloth that is caught, and no dressing,
 /// though nothing crosses.
 bool is_drawn_out(const Dressing& dressing, std::size_t garment);
+
+/// Whether all of it lies below the body.
+bool has_fallen_off(const Dressing& dressing, std::size_t garment);
 /// A hundredth of the body's edges or a twentieth of the garment's are drawn out to three times their length, or the
 /// garment is drawn out: no girth is missing, but something is caught.
 bool ends_in_spikes(const Dressing& dressing, std::size_t garment);
