@@ -124,7 +124,7 @@ WearEvidence evidence_of(const WearingContext& context, const Posture& posture, 
     e[lap_evidence] = is_bottom && !energy.cues().hems.empty() ? held * shape.lap : 0;
     e[rise_evidence] = is_bottom ? held * shape.rise : 0;
     e[bow_evidence] = context.coverage.kind == CoverageKind::top ? held * shape.bow : 0;
-    e[bare_evidence] = is_bottom ? 0 : held * shape.bare;
+    e[bare_evidence] = is_bottom || energy.cues().is_halter ? 0 : held * shape.bare;  // halters are bare behind
     if (context.coverage.kind == CoverageKind::dress || context.coverage.kind == CoverageKind::jumpsuit)
         e[profile_evidence] = held * profile_of(cloth.patches(), worn, level);
     e[in_place_evidence] = in_place != nullptr;

@@ -30,29 +30,6 @@ TriangleMesh lid_of_neck(const Opening& neck)
 
 Vec3 level(const Vec3& v) { return { v.x(), 0, v.z() }; }
 
-struct Halter {
-    const Opening *neck, *back;
-};
-
-// Its strap goes round the neck: two openings without a tube reach up to it, one on each side.
-std::optional<Halter> find_halter(const TriangleMesh& outward, const std::vector<Opening>& openings)
-{
-    if (outward.positions.rows() == 0 || cues_of(openings).has_arms)
-        return {};
-    const double top = outward.positions.col(1).maxCoeff();
-    std::vector<const Opening*> high;
-    for (const Opening& opening : openings)
-        if (opening.high.y() > top - k_neck_strap && opening.tube_length < k_neck_strap)
-            high.push_back(&opening);
-    if (high.size() != 2)
-        return {};
-    if (high[0]->facing.y() < high[1]->facing.y())
-        std::swap(high[0], high[1]);
-    const Opening &neck = *high[0], &back = *high[1];
-    const bool faces_back = std::abs(back.facing.y()) < k_end_facing && level(neck.facing).dot(level(back.facing)) < 0;
-    return faces_back ? std::optional(Halter { &neck, &back }) : std::nullopt;
-}
-
 // As deep as the garment: the back is behind the way from the strap to the bodice.
 TriangleMesh lid_of_back(const Opening& back, const TriangleMesh& outward)
 {
@@ -70,9 +47,9 @@ TriangleMesh lids_at_shoulders(const TriangleMesh& outward, const std::vector<Op
         append(lids, closing_fan(shoulders[0], shoulders[0].centre));
         append(lids, closing_fan(shoulders[1], shoulders[1].centre));
         append(lids, lid_of_neck(shoulders[2]));
-    } else if (const std::optional<Halter> halter = find_halter(outward, openings)) {
-        append(lids, lid_of_neck(*halter->neck));
-        append(lids, lid_of_back(*halter->back, outward));
+    } else if (const std::optional<Halter> halter = find_halter(openings)) {
+        append(lids, lid_of_neck(halter->neck));
+        append(lids, lid_of_back(halter->back, outward));
     }
     return lids;
 }

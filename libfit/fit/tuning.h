@@ -133,9 +133,6 @@ inline constexpr double k_surely_near = 0.95;
 inline constexpr double k_told_place = 0.05;
 /// Of the body's height: a shorter garment says no place; in another unit it would be a tenth as large. guess
 inline constexpr double k_shortest_on_body = 0.15;
-/// m below the top of a garment, and length of a tube: openings that reach up there without one are parted by the strap of
-/// a halter. guess, on two halter dresses
-inline constexpr double k_neck_strap = 0.08;
 inline constexpr double k_pelvis_height = 0.51;  ///< share of the body's height, before it is rigged. guess
 /// Share of the body's height: a floor or a pelvis nearer to the origin is at the origin. fitted: guess
 inline constexpr double k_least_shift = 0.05;

@@ -373,4 +373,11 @@ inline constexpr double k_least_narrower = 0.05, k_clearly_narrower = 0.3;
 /// front only below the second share.
 inline constexpr double k_hem_normal = -0.8, k_hem_share = 0.5, k_level_share = 0.25;
 
+/// m below the top of a garment, and length of a tube: openings that reach up there without one are parted by the strap of
+/// a halter. guess, on two halter dresses
+inline constexpr double k_neck_strap = 0.08;
+/// Height of the normal of the opening for arms and back of a halter, at most. guess: two halter dresses have 0.07 and
+/// 0.15; the largest opening of four clothes with one sleeve, which a strap divides as well, 0.85 and more
+inline constexpr double k_back_facing = 0.8;
+
 }  // namespace garmentfit::garment_tuning

@@ -52,6 +52,8 @@ struct Piece {
     }
 };
 
+Vec3 level(const Vec3& v) { return { v.x(), 0, v.z() }; }
+
 Vec3 level_between(const Opening& a, const Opening& b)
 {
     Vec3 across = b.centre - a.centre;
@@ -578,6 +580,32 @@ GarmentMeasures measures_of(const std::vector<Opening>& openings)
     return measures;
 }
 
+// The strap lies between two openings without a tube, which reach up to it, one on each side. The larger one is broad from
+// arm to arm, where that of one bare shoulder is deep.
+std::optional<Halter> find_halter(const std::vector<Opening>& openings)
+{
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Opening& opening : openings)
+        top = std::max(top, opening.high.y());
+    std::vector<const Opening*> high;
+    for (const Opening& opening : openings)
+        if (opening.high.y() > top - k_neck_strap && opening.tube_length < k_neck_strap)
+            high.push_back(&opening);
+    if (high.size() != 2)
+        return {};
+    if (high[0]->girth > high[1]->girth)
+        std::swap(high[0], high[1]);
+    const Opening &neck = *high[0], &back = *high[1];
+    const Vec3 behind = level(back.facing).stableNormalized();
+    const auto extent_along = [&](const Vec3& direction) {
+        const Eigen::VectorXd along = back.rim * direction;
+        return along.maxCoeff() - along.minCoeff();
+    };
+    const bool has_both_arms = extent_along(Vec3::UnitY().cross(behind)) > extent_along(behind);
+    const bool is_behind = std::abs(back.facing.y()) < k_back_facing && neck.facing.dot(behind) < 0;
+    return is_behind && has_both_arms ? std::optional(Halter { neck, back }) : std::nullopt;
+}
+
 GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Vec3>& front)
 {
     GarmentCues cues;
@@ -602,6 +630,10 @@ GarmentCues cues_of(const std::vector<Opening>& openings, const std::optional<Ve
             longest = length_of(piece.sleeves);
             cues.cuffs = { piece.sleeves[0].centre, piece.sleeves[1].centre };
         }
+    }
+    if (const std::optional<Halter> halter = find_halter(openings)) {
+        cues.is_halter = true;
+        cues.front = -level(halter->back.facing).stableNormalized();
     }
     return cues;
 }

@@ -21,13 +21,21 @@ double uprightness(const std::vector<Opening>& openings);
 /// straps, and leave the shoulders bare.
 std::vector<Bone> bones_covered_by(GarmentType type, const std::vector<Opening>& openings);
 
+/// A strap round the neck holds it. The arms and the back have one opening, which is behind.
+struct Halter {
+    Opening neck, back;
+};
+std::optional<Halter> find_halter(const std::vector<Opening>& openings);
+
 /// Evidence of the openings on how the garment is worn.
 struct GarmentCues {
     Vec3 across = Vec3::Zero();  // horizontal: from sleeve to sleeve or leg to leg of the tallest piece that has two
-    Vec3 front = Vec3::Zero();  // horizontal: sum of the normals of openings, longer the better they agree
+    Vec3 front = Vec3::Zero();  // horizontal: sum of the normals of openings, longer the better they agree;
+        // of a halter away from its back
     std::optional<Vec3> front_given;  // horizontal: where the user says that the front is
     std::vector<Vec3> hems;  // centroids of the two leg openings, or empty
     bool has_arms = false;  // two openings are sleeves or armholes
+    bool is_halter = false;
     bool is_strapless = false;  // each piece has a top and a hem, or legs, and no other opening
     std::vector<Vec3> cuffs;  // centroids of the two longest sleeves' openings, or empty
     std::vector<Vec3> armholes;  // centroids of the two armholes of openings_at_shoulders, or empty

@@ -660,6 +660,16 @@ TEST(FitSkeleton, TheLidsOfAHalterEncloseTheChest)
     EXPECT_GT(winding_number(closed, chest), k_winding_inside);
 }
 
+// Its largest opening is behind, where that of other clothes is deeper in front.
+TEST(FitSkeleton, AHalterIsBareBehind)
+{
+    const GarmentCues cues = cues_of(openings_of(outward_cloth(halter_dress(0.7))));
+    EXPECT_TRUE(cues.is_halter);
+    EXPECT_GT(cues.front.dot(Vec3::UnitZ()), 0.99);
+    for (const GarmentMesh& garment : { strap_dress(0.7), tube_dress(0.7), shirt({ .arm_angle = 40 }, 1.9) })
+        EXPECT_FALSE(cues_of(openings_of(outward_cloth(garment))).is_halter);
+}
+
 TEST(FitSkeleton, ClothesWithSleevesAndSkirtsHaveNoLids)
 {
     for (const GarmentMesh& garment : { shirt({ .arm_angle = 40 }, 1.9), skirt(0.15, 0.2, 0.2, 0.5), trousers() }) {
