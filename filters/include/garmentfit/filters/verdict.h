@@ -35,8 +35,8 @@ struct FitVerdict {
 /// tight      pressure over 1.96 kPa, or stretched by more than half of what the fabric gives;
 /// roomy      14 % of ease or more;
 /// fits       otherwise.
-/// A garment that slipped down further than warnings allow, off a shoulder or below a hip, is too large. One that is roomy is so
-/// everywhere.
+/// A garment that slipped down further than warnings allow, off a shoulder or below a hip, is too large. One that is roomy
+/// is so everywhere.
 /// None for a garment that is not worn for another reason than being too small.
 /// Cost O(parts).
 std::optional<FitVerdict> fit_verdict(const Dressing& dressing, std::size_t garment);
