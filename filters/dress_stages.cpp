@@ -157,13 +157,11 @@ std::vector<Bone> below_hips(const Scene& scene, const Dressing& dressing, std::
         return {};
     const std::vector<Bone>& covered = scene.fits[garment].covered;
     const WornGarment& worn = dressing.garments[garment];
-    const std::vector<Bone> reached
-        = hips_under_cloth(pose_skeleton(scene.rig->skeleton, dressing.pose), worn.positions, worn.rest.triangles);
-    std::vector<Bone> below;
-    for (const Bone hip : { lhipjoint, rhipjoint })
-        if (std::find(covered.begin(), covered.end(), hip) != covered.end()
-            && std::find(reached.begin(), reached.end(), hip) == reached.end())
-            below.push_back(hip);
+    std::vector<Bone> below { lhipjoint, rhipjoint };
+    std::erase_if(below, [&](Bone hip) { return std::find(covered.begin(), covered.end(), hip) == covered.end(); });
+    for (const Bone reached :
+         hips_under_cloth(pose_skeleton(scene.rig->skeleton, dressing.pose), worn.positions, worn.rest.triangles))
+        std::erase(below, reached);
     return below;
 }
 

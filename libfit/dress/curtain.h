@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
+#include <vector>
+
+#include "garmentfit/skeleton.h"
 #include "garmentfit/types.h"
 
 namespace garmentfit {
@@ -44,5 +50,16 @@ private:
     Eigen::Matrix3d axes_;  // rows: along the line, up, across the curtain
     Eigen::AlignedBox2d window_;
 };
+
+/// Those of the bones whose curtain cloth meets. O(n) for each.
+template <class CurtainOf>
+std::vector<Bone> bones_under_cloth(std::initializer_list<Bone> bones, const CurtainOf& curtain_of,
+                                    const Positions& positions, const Triangles& triangles)
+{
+    std::vector<Bone> covered;
+    std::copy_if(bones.begin(), bones.end(), std::back_inserter(covered),
+                 [&](Bone bone) { return curtain_of(bone).is_met(positions, triangles); });
+    return covered;
+}
 
 }  // namespace garmentfit

@@ -23,11 +23,8 @@ Curtain curtain_beside(const Skeleton& joints, Bone hip)
 
 std::vector<Bone> hips_under_cloth(const Skeleton& joints, const Positions& positions, const Triangles& triangles)
 {
-    std::vector<Bone> covered;
-    for (const Bone hip : { lhipjoint, rhipjoint })
-        if (curtain_beside(joints, hip).is_met(positions, triangles))
-            covered.push_back(hip);
-    return covered;
+    return bones_under_cloth(
+        { lhipjoint, rhipjoint }, [&](Bone hip) { return curtain_beside(joints, hip); }, positions, triangles);
 }
 
 }  // namespace garmentfit

@@ -407,7 +407,7 @@ RecoverResult recover_on(const Rig& rig, const BodyMesh& body, const DressedBody
     const Outfit outfit(carried.garments, options.cloth.fabric);
     const Departure departure { dressed, std::move(carried), outfit };
     RecoverResult result = recover_over(BridgeEnds::bottom, rig, body, departure, target, options, progress);
-    if ((result.pose_reached == 1 && !is_stuck(result)) || result.out_of_time)
+    if (result.certified || result.out_of_time || (result.pose_reached == 1 && !is_stuck(result)))
         return result;
     RecoverResult other = recover_over(BridgeEnds::nearest, rig, body, departure, target, options, progress);
     other.seconds += result.seconds;

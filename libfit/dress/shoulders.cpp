@@ -20,11 +20,8 @@ Curtain curtain_over(const Skeleton& joints, Bone clavicle)
 
 std::vector<Bone> shoulders_under_cloth(const Skeleton& joints, const Positions& positions, const Triangles& triangles)
 {
-    std::vector<Bone> covered;
-    for (const Bone clavicle : { lclavicle, rclavicle })
-        if (curtain_over(joints, clavicle).is_met(positions, triangles))
-            covered.push_back(clavicle);
-    return covered;
+    return bones_under_cloth(
+        { lclavicle, rclavicle }, [&](Bone clavicle) { return curtain_over(joints, clavicle); }, positions, triangles);
 }
 
 }  // namespace garmentfit

@@ -18,11 +18,11 @@ struct NamedJoint {
 
 /// Reads the joint names of Mixamo, Ready Player Me, Unreal, Unity, VRM, MakeHuman, Rigify, Daz, Character Creator, 3ds
 /// Max's Biped, CMU, SMPL, Second Life, Quaternius, Auto-Rig Pro and this program; empty for fingers, toes and helper
-/// joints. Needs all names of a rig at once: "LeftShoulder" is a clavicle if there is a "LeftArm", otherwise a shoulder, "root" is
-/// the pelvis only where no other joint is, and a palm, a fist or the goal "FootIK" of inverse kinematics is a hand or
-/// foot only where there is no other. Without a pelvis it is the first joint of the spine. What nearly all names hold,
-/// such as "Character1" or "jnt", is left out. Auto-Rig Pro cuts limbs into "twist" and "stretch", which are parts of
-/// one bone.
+/// joints. Needs all names of a rig at once: "LeftShoulder" is a clavicle if there is a "LeftArm", otherwise a
+/// shoulder, "root" is the pelvis only where no other joint is, and a palm, a fist or the goal "FootIK" of inverse
+/// kinematics is a hand or foot only where there is no other. Without a pelvis it is the first joint of the spine. What
+/// nearly all names hold, such as "Character1" or "jnt", is left out. Auto-Rig Pro cuts limbs into "twist" and
+/// "stretch", which are parts of one bone.
 /// @param names  parents first
 std::vector<std::optional<NamedJoint>> recognize_joints(const std::vector<std::string>& names);
 

@@ -13,7 +13,6 @@
 #include "garmentfit/filters/outcome.h"
 #include "garmentfit/filters/verdict.h"
 #include "garmentfit/units.h"
-#include "results.h"
 
 namespace garmentfit::cli {
 namespace {

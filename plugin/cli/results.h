@@ -13,10 +13,6 @@
 
 namespace garmentfit::cli {
 
-constexpr const char* k_body = "body.ply";
-/// Beside it, with the skin where cloth presses it in.
-constexpr const char* k_pressed_body = "pressed_body.ply";
-
 /// Warns of guesses of low confidence, and of garments that were not put on.
 void add_warnings(Session& session);
 

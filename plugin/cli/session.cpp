@@ -91,8 +91,8 @@ OwnRig read_own_rig(const BodyFile& body)
 /// Dressed garments are written beside body.ply and the other results.
 void require_own_name(const Session& session, const std::string& name)
 {
-    for (const char* taken : { "body.ply", "pressed_body.ply", "rigged.ply", "rigged.glb", "rig.json", "report.json",
-                               "fitted", "frames", "maps", "rest" })
+    for (const char* taken : { k_body, k_pressed_body, "rigged.ply", "rigged.glb", "rig.json", "report.json", "fitted",
+                               "frames", "maps", "rest" })
         if (name == taken)
             throw InvalidInput(ErrorCode::wrong_call,
                                name + ": a garment may not have the name of a result file; rename it");
@@ -306,7 +306,7 @@ void read_draped(Session& session, const fs::path& folder)
     for (const GarmentFile& garment : session.garments)
         worn.push_back(read_left(session, folder / garment.name()));
     session.scene.draped = dressing_from(session.scene, session.scene.fits[outermost(session.scene.fits)].pose,
-                                         read_left(session, folder / "body.ply"), worn, session.garment_names());
+                                         read_left(session, folder / k_body), worn, session.garment_names());
 }
 
 void read_body_look(Session& session)

@@ -17,6 +17,10 @@
 
 namespace garmentfit::cli {
 
+constexpr const char* k_body = "body.ply";
+/// Beside it, with the skin where cloth presses it in.
+constexpr const char* k_pressed_body = "pressed_body.ply";
+
 /// The rig that a body's file holds, or why it is of no use; neither where it has no skin.
 struct OwnRig {
     std::optional<ForeignRig> rig;
