@@ -215,8 +215,9 @@ void ContactDetector::add_candidate(Candidate c, Found& found)
     c.distance = closest_points(c.kind, corners).distance;
     if (c.distance > near || (c.reason == ContactReason::self && ignored(c.kind).count(c.key)))
         return;
-    const bool touch = c.distance == 0  // the starts of its vertices are of different searches
-        && closest_points(c.kind, corners_of(x_, c.vertices)).distance == 0;
+    const double touching = c.reason == ContactReason::self ? k_touching : 0;
+    const bool touch = c.distance <= touching  // the starts of its vertices are of different searches
+        && closest_points(c.kind, corners_of(x_, c.vertices)).distance <= touching;
     (touch ? found.touching : found.apart).push_back(c);
 }
 

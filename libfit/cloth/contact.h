@@ -55,7 +55,7 @@ public:
     /// Finds all pairs that may meet when each vertex goes any fraction of its displacement, and up to its margin from
     /// there. Cost O(n + c log n), c pairs of overlapping boxes of which one has a vertex that left the region searched
     /// before. It grows with the square of the margins once these are longer than the edges. Pairs of cloth that touch
-    /// (distance 0) have no side to be kept on: they are ignored from then on.
+    /// (k_touching) have no side to be kept on: they are ignored from then on.
     void detect(const Positions& x, const Positions& displacements, const Margins& margins);
 
     const std::vector<ContactPair>& pairs() const { return pairs_; }

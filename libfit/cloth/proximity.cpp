@@ -14,7 +14,7 @@ namespace {
 constexpr double k_parallel = 1e-14;
 // literature: [li_2021_cipc], algorithm 1, whose s is 0.1.
 constexpr double k_advance = 0.9;
-// derived: the part of the path that is free at least doubles in two advances, so no real motion needs more.
+// unit: more advances than motion of cloth takes; what takes more ends there.
 constexpr int k_most_advances = 200;
 
 // Parameter in [0, 1] of the projection of p onto the segment from a along ab; 0 for a segment of no length.
@@ -112,28 +112,75 @@ double required_distance(double distance, double min_distance)
     return distance * (distance > k_rounding_zone * min_distance ? k_kept_below_minimum : k_kept_in_rounding_zone);
 }
 
-double collision_free_fraction(PairKind kind, Corners x, const Corners& d, double min_distance)
+namespace {
+
+/// Two primitives on their way.
+class MovingPair {
+public:
+    MovingPair(PairKind kind, const Corners& x, const Corners& displacements) :
+        kind_(kind), x_(x), at_(closest_points(kind, x)), travel_(relative_travel(kind, displacements))
+    {
+        const Vec3 mean = 0.25 * (displacements[0] + displacements[1] + displacements[2] + displacements[3]);
+        for (int k = 0; k < 4; ++k)
+            d_[k] = displacements[k] - mean;
+    }
+
+    double distance() const { return at_.distance; }
+
+    /// Of the displacements, that during which the distance surely stays above this one.
+    double free_above(double distance) const
+    {
+        const double by_travel = (at_.distance - distance) / travel_;
+        return at_.distance > k_touching ? std::max(by_travel, free_along_axis(distance)) : by_travel;
+    }
+
+    void advance(double fraction)
+    {
+        for (int k = 0; k < 4; ++k)
+            x_[k] += fraction * d_[k];
+        at_ = closest_points(kind_, x_);
+    }
+
+private:
+    /// Convex things that move linearly are at least as far apart as the gap between them along a fixed axis, here that
+    /// of their closest points. It shrinks as the corners approach along it: what slides or parts goes far at once, for
+    /// which the travel alone needs hundreds of advances.
+    double free_along_axis(double distance) const
+    {
+        const Vec3 axis = separation(at_.weights, x_) / at_.distance;
+        const int firsts = kind_ == PairKind::vertex_face ? 1 : 2;
+        double result = INFINITY;
+        for (int a = 0; a < firsts; ++a)
+            for (int b = firsts; b < 4; ++b)
+                if (const double approach = axis.dot(d_[b] - d_[a]); approach > 0)
+                    result = std::min(result, (axis.dot(x_[a] - x_[b]) - distance) / approach);
+        return result;
+    }
+
+    PairKind kind_;
+    Corners x_, d_;  // m, and without the common motion
+    ClosestPoints at_;
+    double travel_;
+};
+
+}  // namespace
+
+double collision_free_fraction(PairKind kind, const Corners& x, const Corners& d, double min_distance)
 {
-    const double travel = relative_travel(kind, d);
-    if (travel == 0)
+    if (relative_travel(kind, d) == 0)
         return 1;
-    double distance = closest_points(kind, x).distance;
-    const double required = required_distance(distance, min_distance);
-    if (travel <= distance - required)
-        return 1;
-    const double floor = required - k_floor_below_kept * (distance - required);
-    const Vec3 mean = 0.25 * (d[0] + d[1] + d[2] + d[3]);
+    MovingPair pair(kind, x, d);
+    const double required = required_distance(pair.distance(), min_distance),
+                 used_up = (1 - k_advance) * (pair.distance() - required);
     double t = 0;
     for (int i = 0; i < k_most_advances; ++i) {
-        const double advance = std::min(k_advance * (distance - floor) / travel, 1 - t);
-        for (int k = 0; k < 4; ++k)
-            x[k] += advance * (d[k] - mean);
-        distance = closest_points(kind, x).distance;
-        if (distance < required)
-            return t;
-        t += advance;
-        if (t >= 1)
+        const double free = pair.free_above(required);
+        if (free >= 1 - t)
             return 1;
+        pair.advance(k_advance * free);
+        t += k_advance * free;
+        if (pair.distance() - required <= used_up)
+            break;
     }
     return t;
 }

@@ -15,6 +15,9 @@ namespace garmentfit {
 
 enum class PairKind : unsigned char { vertex_face, edge_edge };
 
+/// unit: m; things nearer than this touch: rounding decides on which side of each other they are.
+inline constexpr double k_touching = 1e-9;
+
 /// The closest points of two primitives as weights of their four vertices. The separation is the sum of weight *
 /// position and points from the second primitive to the first. vertex_face: vertex, then triangle; edge_edge: two and
 /// two.
@@ -49,6 +52,6 @@ double relative_travel(PairKind kind, const Corners& displacements);
 double required_distance(double distance, double min_distance);
 
 /// The fraction in [0, 1] of the displacements during which the distance never falls below required_distance.
-double collision_free_fraction(PairKind kind, Corners x, const Corners& displacements, double min_distance);
+double collision_free_fraction(PairKind kind, const Corners& x, const Corners& displacements, double min_distance);
 
 }  // namespace garmentfit

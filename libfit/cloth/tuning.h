@@ -245,9 +245,6 @@ inline constexpr double k_kept_below_minimum = 0.9;
 /// vertex is: see "Rounding" in docs/cloth.md for how many motions that lasts.
 /// fitted: guess, on the house data.
 inline constexpr double k_kept_in_rounding_zone = 0.999, k_rounding_zone = 0.01;
-/// Additive CCD advances towards a distance below the one to keep, by this fraction of the distance that may be used.
-/// fitted: guess; it decides how close to the distance to keep a motion ends, and the seconds.
-inline constexpr double k_floor_below_kept = 0.25;
 /// Rounds in which step fractions are lowered. Then the vertices of a pair that still collides stand still.
 /// fitted: guess, on the house data.
 inline constexpr int k_most_fraction_rounds = 30;

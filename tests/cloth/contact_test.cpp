@@ -117,6 +117,30 @@ TEST(Proximity, ACollisionFreeFractionKeepsTheRequiredDistance)
         }
 }
 
+TEST(Proximity, AMotionStraightAtATriangleUsesMostOfTheGap)
+{
+    const Corners x { Vec3(0.002, 0.001, 0.002), Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0, 0.01) },
+        down { Vec3(0, -0.01, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero() };
+    const double usable = 0.001 - required_distance(0.001, 1e-4),
+                 used = 0.01 * collision_free_fraction(PairKind::vertex_face, x, down, 1e-4);
+    EXPECT_GT(used, 0.8 * usable);
+    EXPECT_LE(used, usable);
+}
+
+// 10 nm above the minimum distance, by the longest way alone, each advance would be about 10 nm.
+TEST(Proximity, WhatPartsWhileItSlidesIsFree)
+{
+    const double gap = 1e-4 + 1e-8;
+    const Corners vertex { Vec3(0.002, gap, 0.002), Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0, 0.01) },
+        edges { Vec3(-1, gap, 0), Vec3(1, gap, 0), Vec3(0, 0, -1), Vec3(0, 0, 1) };
+    const Vec3 aside(0.005, 1e-5, 0);
+    EXPECT_EQ(collision_free_fraction(PairKind::vertex_face, vertex,
+                                      { aside, Vec3::Zero(), Vec3::Zero(), Vec3::Zero() }, 1e-4),
+              1);
+    EXPECT_EQ(
+        collision_free_fraction(PairKind::edge_edge, edges, { aside, 2 * aside, Vec3::Zero(), Vec3::Zero() }, 1e-4), 1);
+}
+
 TEST(Proximity, CommonMotionIsFree)
 {
     Corners x { Vec3(0, 1e-7, 0), Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(0, 0, 1) };
@@ -228,6 +252,25 @@ TEST(Contact, AZoneWithAnObstacleThatStandsStillStandsStill)
     push.row(5) << 0, 0, 0.01;  // an obstacle that moves becomes a part of the zone
     contact.detect(x, push, { 1e-4, 1e-4 });
     EXPECT_FALSE(merge_impact_zones(contact.pairs(), cloth_vertices, x, push, 1e-4).isZero(0));
+}
+
+// As in mirrored clothes, whose sheets have edges in the plane of the mirror: rounding alone would say how far apart they
+// are, and hold them together for ever.
+TEST(Contact, ClothThatTouchesButForRoundingHasNoSide)
+{
+    for (const double gap : { 0.0, 1e-18, 1e-12, 1e-6 }) {
+        Positions x(8, 3);
+        x << gap, -0.1, -0.1, gap, 0.1, 0.1, 0.5, 0, 0, -0.5, 0, 0,  // two triangles on a diagonal in x = 0
+            0, -0.1, 0.1, 0, 0.1, -0.1, 0.5, 0.2, 0, -0.5, 0.2, 0;
+        Triangles cloth(4, 3);
+        cloth << 0, 1, 2, 1, 0, 3, 4, 5, 6, 5, 4, 7;
+        ContactDetector contact({ cloth, edges_of(cloth), 8 }, { Triangles(0, 3), Edges(0, 2), 0 }, 0);
+        contact.detect(x, Positions::Zero(8, 3), { 1e-3, 0 });
+        const bool has_diagonals = std::any_of(contact.pairs().begin(), contact.pairs().end(), [](const auto& pair) {
+            return pair.kind == PairKind::edge_edge && pair.vertices == std::array { 0, 1, 4, 5 };
+        });
+        EXPECT_EQ(has_diagonals, gap > 1e-9) << gap;
+    }
 }
 
 // Four triangles above each other, 1 mm apart: a layer, the body, and two of the cloth.
