@@ -154,7 +154,8 @@ void cut_loops(CurveSkeleton skeleton, const Eigen::AlignedBox3d& box, std::vect
                     cut_loops(remove_edge(skeleton, place), box, ways);
             return;
         }
-        skeleton = remove_edge(std::move(skeleton), outermost(skeleton, loop, box.center()));
+        const Edge place = outermost(skeleton, loop, box.center());
+        skeleton = remove_edge(std::move(skeleton), place);
     }
 }
 
