@@ -166,11 +166,11 @@ std::string unit_text(const Frame& frame)
 
 /// By its measures: a small garment may come to lie in the body's trunk or round a limb by chance. What is no garment,
 /// or has no measures, may be of any size.
-bool is_too_small(const Positions& metres, const Triangles& triangles, double stature)
+bool is_too_small(const Positions& metres, const Triangles& triangles, double least_wearer)
 {
     try {
         const std::optional<double> median = median_wearer(wearer_heights_of_any_size(metres, triangles));
-        return median && *median <= k_least_wearer_in_place * stature;
+        return median && *median <= least_wearer;
     } catch (const InvalidInput&) {
         return false;
     }
@@ -181,16 +181,17 @@ bool is_too_small(const Positions& metres, const Triangles& triangles, double st
 std::optional<Frame> frame_on_body(const Positions& positions, const Triangles& triangles, const Frame& body,
                                    const TriangleMesh& skin, const std::optional<double>& stature)
 {
-    const auto lies_in = [&](const Frame& frame) {
+    const auto lies_in = [&](const Frame& frame, double least_wearer) {
         const Positions metres = frame.to_metres(positions);
-        return lies_on_body({ metres, triangles }, skin) && !(stature && is_too_small(metres, triangles, *stature));
+        return lies_on_body({ metres, triangles }, skin)
+            && !(stature && is_too_small(metres, triangles, least_wearer * *stature));
     };
-    if (lies_in(body))
+    if (lies_in(body, k_least_wearer_in_place))
         return body;
     for (const double metres_per_unit : { 1.0, 0.1, 0.01, 0.001 }) {
         Frame frame = body;
         frame.metres_per_unit = metres_per_unit;
-        if (metres_per_unit != body.metres_per_unit && lies_in(frame))
+        if (metres_per_unit != body.metres_per_unit && lies_in(frame, k_least_wearer_in_other_unit))
             return frame;
     }
     return {};

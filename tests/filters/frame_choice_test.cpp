@@ -139,20 +139,38 @@ TEST(FrameChoice, OfASmallGarmentThatLiesRoundALimbByChanceIsAnother)
     }
 }
 
+/// A wide T-shirt round the chest, in decimetres, for somebody smaller. @param share  of the size of a usual one
+TriangleMesh small_t_shirt(const Person& person, double share)
+{
+    TriangleMesh shirt = garment_round(
+        person.skeleton, 0.13, [](const Vec3& p) { return p.y() > 0.95 && p.y() < 1.42 && std::abs(p.x()) < 0.3; });
+    const Eigen::RowVector3d chest(0, 1.2, 0);
+    shirt.positions = (share * (shirt.positions.rowwise() - chest)).rowwise() + chest;
+    EXPECT_TRUE(lies_on_body(shirt, person.mesh));
+    shirt.positions *= 10;
+    return shirt;
+}
+
 // In decimetres, a wide T-shirt of normalised size is for somebody little more than half as tall, and lies round the
 // chest.
 TEST(FrameChoice, OfASmallTShirtThatLiesRoundTheChestByChanceIsAnother)
 {
     const Person person = capsule_person({ .arm_angle = 45 });
-    TriangleMesh shirt = garment_round(
-        person.skeleton, 0.13, [](const Vec3& p) { return p.y() > 0.95 && p.y() < 1.42 && std::abs(p.x()) < 0.3; });
-    const Eigen::RowVector3d chest(0, 1.2, 0);
-    shirt.positions = (0.52 * (shirt.positions.rowwise() - chest)).rowwise() + chest;
-    EXPECT_TRUE(lies_on_body(shirt, person.mesh));
-    shirt.positions *= 10;
+    const TriangleMesh shirt = small_t_shirt(person, 0.52);
     for (const double body_unit : { 1.0, 0.1 }) {
         const FrameGuess guess = garment_frame(shirt.positions, shirt.triangles, { body_unit }, {}, 1.7, person.mesh);
         EXPECT_EQ(guess.why.find("lies on the body"), std::string::npos) << guess.why;
+    }
+}
+
+// The unit of the body's file explains a small garment, another unit does so by chance.
+TEST(FrameChoice, OfASmallTShirtRoundTheChestIsThatOfTheBodyOnlyInItsUnit)
+{
+    const Person person = capsule_person({ .arm_angle = 45 });
+    const TriangleMesh shirt = small_t_shirt(person, 0.62);
+    for (const double body_unit : { 1.0, 0.1 }) {
+        const FrameGuess guess = garment_frame(shirt.positions, shirt.triangles, { body_unit }, {}, 1.7, person.mesh);
+        EXPECT_EQ(guess.why.find("lies on the body") != std::string::npos, body_unit == 0.1) << guess.why;
     }
 }
 
