@@ -488,19 +488,24 @@ void take_as_given(GarmentInput& garment)
     garment.share = 1;
 }
 
+void take_size(GarmentInput& garment, double share)
+{
+    take_as_given(garment);
+    garment.as_given = garment.mesh;
+    garment.share = share;
+    garment.mesh.positions *= share;
+    garment.stand_in.reset();
+    garment.skipped = 0;
+}
+
 bool take_size_in_unit(Scene& scene)
 {
     bool any = false;
-    for (GarmentInput& garment : scene.garments) {
-        if (garment.size_in_unit <= 1)
-            continue;
-        take_as_given(garment);
-        garment.as_given = garment.mesh;
-        garment.share = garment.size_in_unit;
-        garment.mesh.positions *= garment.share;
-        garment.stand_in.reset();
-        any = true;
-    }
+    for (GarmentInput& garment : scene.garments)
+        if (garment.size_in_unit > 1) {
+            take_size(garment, garment.size_in_unit);
+            any = true;
+        }
     return any;
 }
 

@@ -249,6 +249,7 @@ void run_stages(const Filter& filter, Scene& scene, const Parameters& parameters
     const DressingSteps steps { run({ Stage::fit }), run({ Stage::drape, Stage::recover }) };
     try_size_in_unit(scene, steps, again);
     try_other_wearings(scene, steps, refused, again);
+    try_other_sizes(scene, steps, refused, again);
     take_all_as_given(scene);
     if (refusal && !final_dressing(scene))
         std::rethrow_exception(refusal);

@@ -3,17 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "attempt.h"
 #include "garment_scale.h"
 #include "garmentfit/filters/outcome.h"
+#include "garmentfit/filters/verdict.h"
 #include "stages.h"
 #include "tuning.h"
 
 namespace garmentfit {
 namespace {
+
+constexpr double k_same_direction = 0.5;  // derived: cosine; between quarter turns and noise, as in the fit
 
 // Short edges that are pinched, such as those of a button's rim, are no tears.
 bool is_torn(const Dressing& end)
@@ -142,11 +147,64 @@ void keep_better(Scene& scene, Scene&& other, std::size_t garment)
     scene.fits[garment].rejected.push_back(loser);
 }
 
+bool dress_anew(Scene& scene, const DressingSteps& steps)
+{
+    scene.draped.reset();
+    scene.recovered.reset();
+    return succeeds([&] {
+        steps.fit(scene);
+        steps.drape_and_recover(scene);
+    });
+}
+
+std::optional<std::size_t> first_slipped(const Dressing& end)
+{
+    for (std::size_t i = 0; i < end.garments.size(); ++i)
+        if (has_slipped(end, i))
+            return i;
+    return {};
+}
+
+// A garment whose size is wrong, and other sizes for it.
+struct WrongSize {
+    std::size_t garment;
+    std::span<const double> others;
+};
+
+std::optional<WrongSize> find_wrong_size(const Scene& scene, std::size_t refused)
+{
+    const End end = end_of(scene);
+    if (end == End::refused || end == End::too_small)
+        return WrongSize { garment_at_fault(scene, refused), k_larger_sizes };
+    if (end == End::not_certified)
+        return {};
+    const std::optional<std::size_t> slipped = first_slipped(*final_dressing(scene));
+    return slipped ? std::optional(WrongSize { *slipped, k_smaller_sizes }) : std::nullopt;
+}
+
+bool has_lost_a_piece(const Dressing& end)
+{
+    return std::any_of(end.garments.begin(), end.garments.end(), [&](const WornGarment& garment) {
+        return garment.piece_shift * end.to_human_size > k_piece_gone;
+    });
+}
+
+bool stays_on(const Scene& scene)
+{
+    const Dressing& end = *final_dressing(scene);
+    return furthest_slip(end) < k_stays && !first_slipped(end) && !has_lost_a_piece(end);
+}
+
+// Of skirts and the like, either side may come out in front.
+bool is_same_way(const FitResult& one, const FitResult& other)
+{
+    return one.type == other.type && one.up.dot(other.up) > k_same_direction;
+}
+
 }  // namespace
 
 bool is_within(const FitResult& way, const FitResult& other)
 {
-    constexpr double k_same_direction = 0.5;  // derived: cosine; between quarter turns and noise, as in the fit
     return way.up.dot(other.up) > k_same_direction && way.front.dot(other.front) > k_same_direction
         && std::all_of(way.covered.begin(), way.covered.end(), [&](Bone bone) {
                return std::find(other.covered.begin(), other.covered.end(), bone) != other.covered.end();
@@ -164,16 +222,26 @@ void try_size_in_unit(Scene& scene, const DressingSteps& steps, const Progress& 
     if (progress.is_late() || end_of(scene) != End::too_small)
         return;
     Scene other = scene;
-    if (!take_size_in_unit(other))
-        return;
-    other.draped.reset();
-    other.recovered.reset();
-    const bool has_ended = succeeds([&] {
-        steps.fit(other);
-        steps.drape_and_recover(other);
-    });
-    if (has_ended && end_of(other) == End::worn)
+    if (take_size_in_unit(other) && dress_anew(other, steps) && end_of(other) == End::worn)
         scene = std::move(other);
+}
+
+void try_other_sizes(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress)
+{
+    const std::optional<WrongSize> wrong = find_wrong_size(scene, refused);
+    if (!wrong || scene.garments[wrong->garment].has_unit)
+        return;
+    for (const double size : wrong->others) {
+        if (progress.is_late())
+            return;
+        Scene other = scene;
+        take_size(other.garments[wrong->garment], size);
+        if (dress_anew(other, steps) && end_of(other) == End::worn && stays_on(other)
+            && (!final_dressing(scene) || is_same_way(other.fits[wrong->garment], scene.fits[wrong->garment]))) {
+            scene = std::move(other);
+            return;
+        }
+    }
 }
 
 void try_other_wearings(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress)

@@ -41,7 +41,10 @@ bool widen_far_too_narrow(Scene& scene, const Parameters& parameters, double mos
 /// @return whether there are any
 bool take_size_in_unit(Scene& scene);
 
-/// Takes the three before back. What was made of changed garments stays.
+/// Gives a garment a size, as a share of its own. What is the most probable way of wearing it is asked anew.
+void take_size(GarmentInput& garment, double share);
+
+/// Takes the four before back. What was made of changed garments stays.
 void take_as_given(GarmentInput& garment);
 
 /// Enlarges the garments that are put on, but found too small in the end, until their fabric allows the rest. @return whether

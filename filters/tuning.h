@@ -170,6 +170,11 @@ inline constexpr double k_piece_gone = 0.05;
 /// Body metres. A garment that slipped down by more gets a warning.
 /// fitted: guess, on the twelve pairs of the house data: cloth that settles sinks by some centimetres, a coat by nine
 inline constexpr double k_slipped = 0.15;
+/// Shares of its guessed size in which a garment whose file has no unit is tried where it is too small or cannot be put
+/// on, and where it slips off; and body metres down to which it stays where it was put on. fitted: guesses, on a halter
+/// dress of a stranger
+inline constexpr std::array<double, 2> k_larger_sizes { 1.25, 1.5 }, k_smaller_sizes { 0.8, 0.65 };
+inline constexpr double k_stays = 0.05;
 
 /// Share of a radius; and for thin bones metres, or on a body less than a metre across, a share of its diagonal. A rig
 /// whose radii differ from the body's by more is another body's: files keep fewer digits than the rig was found with,

@@ -68,6 +68,8 @@ std::vector<PlaceVerdict> judge_places(const Dressing& dressing, std::size_t gar
     return places;
 }
 
+}  // namespace
+
 bool has_slipped(const Dressing& dressing, std::size_t garment)
 {
     const auto has_any
@@ -76,8 +78,6 @@ bool has_slipped(const Dressing& dressing, std::size_t garment)
         && (dressing.garments[garment].slipped * dressing.to_human_size > k_slipped || has_any(dressing.off_shoulders)
             || has_any(dressing.below_hips));
 }
-
-}  // namespace
 
 std::string_view name_of(Verdict verdict)
 {

@@ -42,6 +42,9 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
 {
     if (garment.size > 1)
         warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
+    if (garment.size < 1)
+        warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (1 - garment.size)))
+                           + "% smaller, as it slips off this body in the size guessed; to keep that, give its unit");
     if (garment.girth > 1)
         warnings.push_back(name + " was made up to " + std::to_string(std::lround(100 * (garment.girth - 1)))
                            + "% wider where it was too small, its lengths are as given");

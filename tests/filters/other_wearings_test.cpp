@@ -131,6 +131,92 @@ TEST(SizeInUnit, IsNotTriedWhereTheGarmentIsLargeEnoughOrWouldBeSmaller)
     }
 }
 
+/// A skirt whose file has no unit, how it ends, and how in each size that is tried.
+struct SkirtOfAnySize {
+    struct Attempt {
+        End end = End::worn;
+        double slipped = 0;  ///< m
+        GarmentType type = GarmentType::skirt;
+        double piece_shift = 0;  ///< m
+    };
+    Scene scene = {};
+    std::size_t fitted = 0;
+
+    explicit SkirtOfAnySize(const Attempt& first)
+    {
+        scene.garments.resize(1);
+        scene.garments[0].mesh.positions.setOnes(3, 3);
+        scene.garments[0].has_unit = false;
+        scene.garments[0].skipped = 1;
+        scene.fits.resize(1);
+        scene.fits[0].type = GarmentType::skirt;
+        end_as(scene, first);
+    }
+
+    static void end_as(Scene& s, const Attempt& attempt)
+    {
+        end_with(s, attempt.end);
+        if (!s.draped)
+            return;
+        s.draped->garments[0].positions.setZero(3, 3);
+        s.draped->garments[0].slipped = attempt.slipped;
+        s.draped->garments[0].piece_shift = attempt.piece_shift;
+    }
+
+    /// @return the size it has in the end, as a share of the one guessed
+    double size_after(const std::vector<Attempt>& attempts)
+    {
+        const auto fit = [&](Scene& s) { s.fits[0].type = attempts.at(fitted++).type; };
+        const auto drape = [&](Scene& s) {
+            end_as(s, attempts[fitted - 1]);
+            if (!s.draped)
+                throw RefusedGarment(0, "it lies across the bones");
+        };
+        try_other_sizes(scene, { fit, drape }, 0, {});
+        EXPECT_EQ(scene.garments[0].share, scene.garments[0].mesh.positions(0, 0));
+        return scene.garments[0].share;
+    }
+};
+
+TEST(OtherSizes, AreLargerWhereAGarmentWithoutUnitIsTooSmallOrCannotBePutOn)
+{
+    for (const End end : { End::too_small, End::refused }) {
+        SkirtOfAnySize skirt({ end });
+        EXPECT_EQ(skirt.size_after({ { end }, { End::worn } }), 1.5);
+        EXPECT_EQ(skirt.fitted, 2U);
+        EXPECT_EQ(skirt.scene.garments[0].skipped, 0);
+    }
+}
+
+TEST(OtherSizes, AreSmallerWhereItSlipsOff)
+{
+    SkirtOfAnySize skirt({ End::worn, 0.5 });
+    EXPECT_EQ(skirt.size_after({ { End::worn, 0.01 } }), 0.8);
+    EXPECT_EQ(skirt.scene.draped->garments[0].slipped, 0.01);
+}
+
+TEST(OtherSizes, AreNotTakenWhereItSinksLosesAPieceOrIsWornInAnotherWay)
+{
+    using Attempt = SkirtOfAnySize::Attempt;
+    for (const Attempt& last : { Attempt { End::worn, 0.1 }, Attempt { End::worn, 0, GarmentType::vest },
+                                 Attempt { End::worn, 0, GarmentType::skirt, 1 }, Attempt { End::not_certified } }) {
+        SkirtOfAnySize skirt({ End::worn, 0.5 });
+        EXPECT_EQ(skirt.size_after({ { End::too_small }, last }), 1);
+        EXPECT_EQ(skirt.fitted, 2U);
+        EXPECT_EQ(skirt.scene.draped->garments[0].slipped, 0.5);
+    }
+    SkirtOfAnySize refused({ End::refused });
+    EXPECT_EQ(refused.size_after({ { End::worn, 0, GarmentType::dress } }), 1.25) << "there was no way before";
+}
+
+TEST(OtherSizes, AreNotTriedWhereTheFileHasAUnitOrTheGarmentIsWorn)
+{
+    SkirtOfAnySize has_unit({ End::too_small }), worn({ End::worn, 0.1 }), crosses({ End::not_certified });
+    has_unit.scene.garments[0].has_unit = true;
+    for (SkirtOfAnySize* skirt : { &has_unit, &worn, &crosses })
+        EXPECT_EQ(skirt->size_after({}), 1);
+}
+
 TEST(OtherWearings, AreNotTriedWhereTheGarmentIsWorn)
 {
     Trial trial({ { 0.5, End::worn }, { 0.5, End::worn } });

@@ -133,6 +133,18 @@ TEST(Warnings, SayHowManyPiecesLieOnNoOther)
               Lines { "coat has 5 pieces, of which 2 lie on no other; they are layers of their own" });
 }
 
+TEST(Warnings, SayThatAGarmentWasMadeSmaller)
+{
+    Scene scene = worn_scene();
+    scene.draped->garments[0].size = 0.8;
+    const Lines lines = warnings_of(scene);
+    EXPECT_EQ(
+        std::count(lines.begin(), lines.end(),
+                   "skirt was made 20% smaller, as it slips off this body in the size guessed; to keep that, give "
+                   "its unit"),
+        1);
+}
+
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
 {
     Scene scene = worn_scene();

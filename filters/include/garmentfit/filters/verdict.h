@@ -47,6 +47,8 @@ std::string verdict_in_words(const Dressing& dressing, std::size_t garment);
 /// Whether the garment is too small: it is too tight in places, or the body could not get its full size in it. Never
 /// where body or cloth ends in spikes, or time ran out.
 bool is_too_small(const Dressing& dressing, std::size_t garment);
+/// Whether the garment slipped down further than warnings allow, off a shoulder, or below hips that it should cover.
+bool has_slipped(const Dressing& dressing, std::size_t garment);
 /// Whether an edge is far longer than at rest, or triangles have gained much area: cloth that is caught, and no dressing,
 /// though nothing crosses.
 bool is_drawn_out(const Dressing& dressing, std::size_t garment);
