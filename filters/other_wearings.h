@@ -49,9 +49,9 @@ struct DressingSteps {
 /// fitted anew at the size of its most probable unit, and stays so where it is worn.
 void try_size_in_unit(Scene& scene, const DressingSteps& steps, const Progress& progress);
 
-/// Where a garment whose file has no unit is too small, cannot be put on, or slips off in the end, it is tried in larger or
-/// smaller sizes, and stays so in the first in which it is worn where it was put on, with all its pieces, and in the same
-/// way if there was one.
+/// Where a garment whose file has no unit is too small, cannot be put on, or slips off in the end, it is tried in
+/// larger or smaller sizes, and stays so in the first in which it is worn where it was put on, with all its pieces, and
+/// in the same way if there was one.
 /// @param refused  as below
 void try_other_sizes(Scene& scene, const DressingSteps& steps, std::size_t refused, const Progress& progress);
 

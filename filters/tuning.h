@@ -93,8 +93,8 @@ inline constexpr double k_least_wearer = 0.45;
 /// their own body, parts of bikinis and a camisole have the least, 0.68 to 0.71; two that lay in a man by chance, in
 /// decimetres, have 0.41 and 0.56
 inline constexpr double k_least_wearer_in_place = 0.6;
-/// Likewise in another unit than the body's. fitted: guess; trousers of 6.7 units lay round a man's legs in decimetres, as
-/// those of somebody two thirds as tall
+/// Likewise in another unit than the body's. fitted: guess; trousers of 6.7 units lay round a man's legs in decimetres,
+/// as those of somebody two thirds as tall
 inline constexpr double k_least_wearer_in_other_unit = 0.75;
 
 // The size of a garment (garment_scale.h), in natural logarithms. fitted: guesses, on one half of 125 garments of a
