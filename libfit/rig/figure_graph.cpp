@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -33,8 +34,11 @@ struct Candidates {
     Eigen::MatrixXd distance;  ///< m along the curves
     std::vector<double> thickness;  ///< m
     std::vector<Vec3> places;
+    std::vector<Vec3> forks;  ///< of each three, in the order of fork()
 
     int count() const { return int(nodes.size()); }
+    /// Where the paths between three ends meet.
+    const Vec3& fork(int a, int b, int c) const { return forks[std::size_t((a * count() + b) * count() + c)]; }
     /// From `a` to where its path leaves the one from `b` to `c`, m.
     double beyond(int a, int b, int c) const { return 0.5 * (distance(a, b) + distance(a, c) - distance(b, c)); }
 };
@@ -79,16 +83,44 @@ void prune_to_few(CurveTree& tree, double size)
     }
 }
 
+/// Nodes from each end to each other one, row by row.
+std::vector<std::vector<int>> paths_between(const CurveTree& tree, const std::vector<int>& ends)
+{
+    const std::size_t n = ends.size();
+    std::vector<std::vector<int>> paths(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        paths[i * n + i] = { ends[i] };
+        for (std::size_t j = 0; j < i; ++j) {
+            paths[i * n + j] = tree.path(ends[i], ends[j]);
+            paths[j * n + i].assign(paths[i * n + j].rbegin(), paths[i * n + j].rend());
+        }
+    }
+    return paths;
+}
+
+/// The last node that two paths from one end share.
+int last_shared(const std::vector<int>& one, const std::vector<int>& other)
+{
+    return *std::prev(std::mismatch(one.begin(), one.end(), other.begin(), other.end()).first);
+}
+
 Candidates candidates_of(const CurveTree& tree, const CurveSkeleton& skeleton, const std::vector<double>& radii)
 {
     Candidates c;
     c.nodes = tree.leaves();
-    c.distance = Eigen::MatrixXd::Zero(c.count(), c.count());
-    for (int i = 0; i < c.count(); ++i) {
-        for (int j = 0; j < i; ++j)
-            c.distance(i, j) = c.distance(j, i) = tree.length(tree.path(c.nodes[i], c.nodes[j]));
-        c.thickness.push_back(thickness_of(tree.branch(c.nodes[i]), radii));
-        c.places.push_back(skeleton.nodes[c.nodes[i]]);
+    const int n = c.count();
+    const std::vector<std::vector<int>> paths = paths_between(tree, c.nodes);
+    const auto path = [&](int a, int b) -> const std::vector<int>& { return paths[std::size_t(a * n + b)]; };
+    c.distance.setZero(n, n);
+    for (int a = 0; a < n; ++a) {
+        for (int b = 0; b < a; ++b)
+            c.distance(a, b) = c.distance(b, a) = tree.length(path(a, b));
+        for (int b = 0; b < n; ++b)
+            for (int e = 0; e < n; ++e)
+                c.forks.push_back(skeleton.nodes[std::size_t(last_shared(path(a, b), path(a, e)))]);
+        const int node = c.nodes[std::size_t(a)];
+        c.thickness.push_back(thickness_of(tree.branch(node), radii));
+        c.places.push_back(skeleton.nodes[std::size_t(node)]);
     }
     return c;
 }
@@ -149,6 +181,20 @@ double cost_of_places(const Candidates& c, const int (&pair)[2], const Vec3& mid
     return std::min(squared(difference / size / k_place_spread), k_most_place_cost);
 }
 
+/// A neck may bend, but a head does not hang down from the shoulders.
+double cost_of_neck(const Candidates& c, const Choice& choice)
+{
+    const auto [h0, h1] = choice.hand;
+    const auto [f0, f1] = choice.foot;
+    const Vec3 shoulders = 0.5 * (c.fork(h0, choice.head, f0) + c.fork(h1, choice.head, f0));
+    const Vec3 neck = c.places[std::size_t(choice.head)] - shoulders, trunk = shoulders - c.fork(f0, f1, choice.head);
+    const Vec3 up = trunk.norm() > k_short_trunk * choice.size
+        ? trunk
+        : Vec3(shoulders - 0.5 * (c.places[std::size_t(f0)] + c.places[std::size_t(f1)]));
+    const double cosine = up.dot(neck) / std::max(up.norm() * neck.norm(), k_no_length);
+    return squared(std::max(k_bent_neck - cosine, 0.0) / k_neck_spread);
+}
+
 /// Fills sizes and cost; a cost of more than `most` may be left out.
 void rate(const Candidates& c, double most, Choice& choice)
 {
@@ -194,7 +240,8 @@ void rate(const Candidates& c, double most, Choice& choice)
     const double usual_head = k_head_curve_length / k_leg_curve;
     cost += choice.head < 0 ? k_no_head_cost
                             : ratio(head, choice.leg, usual_head,
-                                    head < usual_head * choice.leg ? k_small_head_spread : k_head_ratio_spread);
+                                    head < usual_head * choice.leg ? k_small_head_spread : k_head_ratio_spread)
+            + cost_of_neck(c, choice);
     const double arms_thick = c.thickness[h0] + c.thickness[h1], legs_thick = c.thickness[f0] + c.thickness[f1];
     cost += choice.covered
         ? 2 * k_covered_cost

@@ -71,4 +71,19 @@ TEST(FigureGraph, TwigsInTheMiddleAreNotHandsOfAFigureInASkirt)
     EXPECT_EQ(std::max(figure.graph.arms[0].back(), figure.graph.arms[1].back()), right);
 }
 
+/// A head and a raised arm are a better pair than the raised arm and a hanging one, but no head hangs from the shoulders.
+TEST(FigureGraph, AHangingArmIsNotTheHeadOfAFigureThatWaves)
+{
+    Curves c;
+    const int hips = c.add(-1, { 0, 0, 0 }, 0.09, { 0.12, -0.9, 0 });
+    c.add(hips, { -0.12, -0.9, 0 }, 0.09);
+    const int chest = c.add(hips, { 0, 0.5, 0 }, 0.2);
+    const int head = c.add(chest, { 0, 1.2, 0 }, 0.1), raised = c.add(chest, { 0.66, 0.81, 0 }, 0.08),
+              hanging = c.add(chest, { -0.35, 0, 0 }, 0.08);
+    const Figure figure = figure_graph(c.curves(), c.skin());
+    EXPECT_EQ(figure.graph.head.back(), head);
+    EXPECT_EQ(std::min(figure.graph.arms[0].back(), figure.graph.arms[1].back()), raised);
+    EXPECT_EQ(std::max(figure.graph.arms[0].back(), figure.graph.arms[1].back()), hanging);
+}
+
 }  // namespace
