@@ -159,8 +159,12 @@ std::vector<Bone> below_hips(const Scene& scene, const Dressing& dressing, std::
     const WornGarment& worn = dressing.garments[garment];
     std::vector<Bone> below { lhipjoint, rhipjoint };
     std::erase_if(below, [&](Bone hip) { return std::find(covered.begin(), covered.end(), hip) == covered.end(); });
+    if (below.empty())
+        return below;
+    const Skeleton& rest = scene.rig->skeleton;
     for (const Bone reached :
-         hips_under_cloth(pose_skeleton(scene.rig->skeleton, dressing.pose), worn.positions, worn.rest.triangles))
+         hips_under_cloth(pose_skeleton(rest, dressing.pose), crotch_depth(rest, scene.body->closed), worn.positions,
+                          worn.rest.triangles))
         std::erase(below, reached);
     return below;
 }
@@ -301,22 +305,6 @@ std::vector<Girth> girths_in_fit(const Scene& scene, std::size_t garment)
     const TriangleMesh body { skin(positions, rig.weights, bone_transforms(rig.skeleton, pose)), triangles };
     const GarmentMesh& mesh = scene.garments[garment].mesh;
     return girths(pose_skeleton(rig.skeleton, pose), rig.weights, body, { mesh, mesh.positions });
-}
-
-/// A garment that is too narrow for the hips slides down to where it is not. That does not make it large enough, and to
-/// stay there it must not have to stretch.
-void judge_hips(const Scene& scene, Dressing& dressing)
-{
-    for (std::size_t i = 0; i < dressing.below_hips.size(); ++i) {
-        if (!dressing.certified || dressing.below_hips[i].empty())
-            continue;
-        for (const Girth& girth : girths_in_fit(scene, i))
-            if (girth.place == "hips" && girth.ease() < 0)
-                dressing.too_tight.push_back(
-                    { int(i), girth.place, -girth.ease(),
-                      girth.body / girth.garment * given_by_larger(dressing.fabric_stretches[i]) - 1 });
-        dressing.certified = dressing.too_tight.empty();
-    }
 }
 
 void recover(Scene& scene, const Parameters& p, const Progress& progress)
@@ -476,6 +464,20 @@ void run_with_stand_ins(const DressingStage& stage, Scene& scene, const Paramete
 }
 
 }  // namespace
+
+void judge_hips(const Scene& scene, Dressing& dressing)
+{
+    for (std::size_t i = 0; i < dressing.below_hips.size(); ++i) {
+        if (!dressing.certified || dressing.below_hips[i].empty())
+            continue;
+        for (const Girth& girth : girths_in_fit(scene, i))
+            if (girth.place == "hips" && girth.ease() < 0)
+                dressing.too_tight.push_back(
+                    { int(i), girth.place, -girth.ease(),
+                      girth.body / girth.garment * given_by_larger(dressing.fabric_stretches[i]) - 1 });
+        dressing.certified = dressing.too_tight.empty();
+    }
+}
 
 void take_as_given(GarmentInput& garment)
 {

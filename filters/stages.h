@@ -27,6 +27,10 @@ void drape_on_the_way_stage(Scene& scene, const Parameters& parameters, const Pr
 /// Moves the dressed body to its input pose.
 void recover_stage(Scene& scene, const Parameters& parameters, const Progress& progress);
 
+/// A garment that is too narrow for the hips slides down to where it is not. That does not make it large enough, and to
+/// stay there it must not have to stretch.
+void judge_hips(const Scene& scene, Dressing& dressing);
+
 /// Makes the garments that are too small wider where they are, until their fabric allows the rest (widen_garment.h).
 /// @param most   share by which girths grow at most
 /// @param share  1: as far as the fabric needs; 0.5: half as far

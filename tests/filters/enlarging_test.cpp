@@ -99,6 +99,32 @@ Scene fitted_scene()
     return scene;
 }
 
+/// A dressing whose garment, so far off the skin, ended below the left hip.
+Dressing judged_below_hip(double ease)
+{
+    Scene scene = fitted_scene();
+    const TriangleMesh skirt = fixtures::garment_round(fixtures::person_skeleton({ .arm_angle = 20 }), ease,
+                                                       [](const Vec3& p) { return p.y() > 0.4 && p.y() < 1.1; });
+    scene.garments[0].mesh = make_garment(skirt.positions, skirt.triangles);
+    Dressing dressing;
+    dressing.certified = true;
+    dressing.fabric_stretches = { 0.2 };
+    dressing.below_hips = { { lhipjoint } };
+    judge_hips(scene, dressing);
+    return dressing;
+}
+
+TEST(Enlarging, AGarmentBelowHipsForWhichItIsTooNarrowIsTooSmall)
+{
+    const Dressing narrow = judged_below_hip(-0.02), wide = judged_below_hip(0.02);
+    EXPECT_FALSE(narrow.certified);
+    ASSERT_EQ(narrow.too_tight.size(), 1);
+    EXPECT_EQ(narrow.too_tight[0].part, "hips");
+    EXPECT_GT(narrow.too_tight[0].enlargement, 0.05);
+    EXPECT_TRUE(wide.certified) << "it hangs there as it is too large";
+    EXPECT_TRUE(wide.too_tight.empty());
+}
+
 TEST(Enlarging, AGarmentThatIsFarTooNarrowIsMadeWiderBeforeItIsPutOn)
 {
     Scene scene = fitted_scene();
