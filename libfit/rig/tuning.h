@@ -274,8 +274,8 @@ inline constexpr double k_place_spread = 0.1, k_most_place_cost = 4;
 /// fitted: guesses. Height of the feet above the lowest end, a share of the figure's length, and the most that it
 /// costs: a figure may lie or stand on its head.
 inline constexpr double k_lowest_spread = 0.15, k_most_lowest_cost = 9;
-/// fitted: guesses, on five strangers' figures whose heads were taken for hands. Cosine between trunk and neck from which
-/// a bent neck costs, and the standard deviation beyond it.
+/// fitted: guesses, on strangers' figures whose heads were taken for hands. Cosine between trunk and neck from which a
+/// bent neck costs, and the standard deviation beyond it.
 inline constexpr double k_bent_neck = 0.5, k_neck_spread = 0.35;
 /// fitted: guesses. Costs of a missing head, and of lying down.
 inline constexpr double k_no_head_cost = 8, k_lying_cost = 2;

@@ -71,7 +71,7 @@ TEST(FigureGraph, TwigsInTheMiddleAreNotHandsOfAFigureInASkirt)
     EXPECT_EQ(std::max(figure.graph.arms[0].back(), figure.graph.arms[1].back()), right);
 }
 
-/// A head and a raised arm are a better pair than the raised arm and a hanging one, but no head hangs from the shoulders.
+/// A head and a raised arm are a better pair than this and a hanging arm, but no head hangs from the shoulders.
 TEST(FigureGraph, AHangingArmIsNotTheHeadOfAFigureThatWaves)
 {
     Curves c;
