@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "garmentfit/error.h"
@@ -161,8 +164,87 @@ Eigen::Affine3d GltfScene::joint_from_mesh(const tinygltf::Skin& skin, std::size
     return Eigen::Affine3d(Eigen::AffineCompact3d(inverse_bind_matrix(skin, joint).topRows<3>()));
 }
 
+namespace {
+
+/// Of each skin, where it puts its meshes.
+using SkinPlaces = std::map<int, Eigen::Affine3d>;
+
+Eigen::Affine3d world_by_joint(const GltfScene& scene, const tinygltf::Skin& skin, std::size_t joint)
+{
+    return scene.world_from_node(skin.joints[joint]) * scene.joint_from_mesh(skin, joint);
+}
+
+/// Skins of the scene's meshes that have joints and a bind pose.
+std::set<int> posed_skins(const GltfScene& scene, const FileBytes& file, const tinygltf::Model& model)
+{
+    std::set<int> skins;
+    for (const int node : scene.nodes())
+        if (const int index = model.nodes[std::size_t(node)].skin;
+            model.nodes[std::size_t(node)].mesh >= 0 && index >= 0) {
+            const tinygltf::Skin& skin = checked(file, model.skins, index, "skin");
+            for (const int joint : skin.joints)
+                checked(file, model.nodes, joint, "node");
+            if (!skin.joints.empty() && scene.has_bind_pose(skin))
+                skins.insert(index);
+        }
+    return skins;
+}
+
+/// The skin that has the first joint in the tree, placed by that.
+SkinPlaces::value_type first_in_tree(const GltfScene& scene, const tinygltf::Model& model, const std::set<int>& skins)
+{
+    for (const int node : scene.nodes())
+        for (const int index : skins) {
+            const tinygltf::Skin& skin = model.skins[std::size_t(index)];
+            if (const auto joint = std::find(skin.joints.begin(), skin.joints.end(), node); joint != skin.joints.end())
+                return { index, world_by_joint(scene, skin, std::size_t(joint - skin.joints.begin())) };
+        }
+    return { *skins.begin(), world_by_joint(scene, model.skins[std::size_t(*skins.begin())], 0) };
+}
+
+/// Between the meshes of two skins that share a joint, by its node or its name: in bind pose it lies at one place.
+std::optional<Eigen::Affine3d> mesh_from_mesh(const GltfScene& scene, const tinygltf::Model& model,
+                                              const tinygltf::Skin& to, const tinygltf::Skin& from)
+{
+    for (std::size_t i = 0; i < to.joints.size(); ++i)
+        for (std::size_t k = 0; k < from.joints.size(); ++k) {
+            const std::string& name = model.nodes[std::size_t(to.joints[i])].name;
+            if (to.joints[i] != from.joints[k]
+                && (name.empty() || name != model.nodes[std::size_t(from.joints[k])].name))
+                continue;
+            const Eigen::Affine3d joined = scene.joint_from_mesh(to, i).inverse() * scene.joint_from_mesh(from, k);
+            if (joined.matrix().allFinite())
+                return joined;
+        }
+    return {};
+}
+
+/// Skins that share joints are placed by one joint. Each by its own first one, the parts of a posed avatar would lie
+/// apart.
+SkinPlaces place_skins(const GltfScene& scene, const FileBytes& file, const tinygltf::Model& model)
+{
+    std::set<int> open = posed_skins(scene, file, model);
+    SkinPlaces placed;
+    const auto next_by_others = [&]() -> std::optional<SkinPlaces::value_type> {
+        for (const int skin : open)
+            for (const auto& [other, world_from_other] : placed)
+                if (const auto joined
+                    = mesh_from_mesh(scene, model, model.skins[std::size_t(other)], model.skins[std::size_t(skin)]))
+                    return { { skin, world_from_other * *joined } };
+        return {};
+    };
+    while (open.size() > 0) {
+        const auto by_others = next_by_others();
+        open.erase(placed.insert(by_others ? *by_others : first_in_tree(scene, model, open)).first->first);
+    }
+    return placed;
+}
+
+}  // namespace
+
 Eigen::Affine3d GltfScene::world_from_mesh(int node) const
 {
+    constexpr double k_same = 1e-4;  // unit: more than the rounding of products of float matrices
     const int index = model_.nodes[std::size_t(node)].skin;
     if (index < 0)
         return world_from_node(node);
@@ -170,7 +252,14 @@ Eigen::Affine3d GltfScene::world_from_mesh(int node) const
     if (skin.joints.empty())
         return Eigen::Affine3d::Identity();
     checked(file_, model_.nodes, skin.joints[0], "node");
-    return has_bind_pose(skin) ? world_from_node(skin.joints[0]) * joint_from_mesh(skin, 0) : world_from_node(node);
+    if (!has_bind_pose(skin))
+        return world_from_node(node);
+    const Eigen::Affine3d by_first = world_by_joint(*this, skin, 0);
+    if (model_.skins.size() < 2)
+        return by_first;
+    const SkinPlaces placed = place_skins(*this, file_, model_);
+    const auto place = placed.find(index);
+    return place == placed.end() || place->second.isApprox(by_first, k_same) ? by_first : place->second;
 }
 
 std::vector<GltfSurface> GltfScene::surfaces() const

@@ -191,6 +191,29 @@ TEST_F(SkinnedParts, AreReadInTheirBindPose)
     EXPECT_LT((Vec3(MeshFile::read(glb).positions().row(0)) - Vec3(person.mesh.positions.row(0))).norm(), 1e-6);
 }
 
+TEST_F(SkinnedParts, OfAPosedFileLieTogetherThoughTheirSkinsBeginWithOtherJoints)
+{
+    edit([](json& document) {
+        json skin = document["skins"][0];
+        const json joints = skin["joints"];
+        const int arm = node_called(document, "lhumerus");
+        const auto first = std::find(joints.begin(), joints.end(), json(arm));
+        const std::size_t left_out = std::size_t(first - joints.begin());
+        json matrices = document["accessors"][skin["inverseBindMatrices"].get<std::size_t>()];
+        matrices["byteOffset"] = matrices.value("byteOffset", std::size_t(0)) + 16 * sizeof(float) * left_out;
+        matrices["count"] = joints.size() - left_out;
+        skin["joints"] = json::array_t(first, joints.end());
+        skin["inverseBindMatrices"] = document["accessors"].size();
+        document["accessors"].push_back(matrices);
+        document["nodes"][std::size_t(node_called(document, "shoes"))]["skin"] = document["skins"].size();
+        document["skins"].push_back(skin);
+        document["nodes"][std::size_t(arm)]["rotation"] = { 0, 0, 0.6, 0.8 };
+    });
+    const Positions positions = MeshFile::read(glb).positions();
+    EXPECT_LT((Vec3(positions.row(0)) - Vec3(person.mesh.positions.row(0))).norm(), 1e-5);
+    EXPECT_LT((Vec3(positions.row(body_rows())) - Vec3(shoes.positions.row(0))).norm(), 1e-5);
+}
+
 /// A GLB in which a joint of the first skin has its bind pose at the origin.
 std::string with_joint_at_origin(std::string bytes, const std::string& joint)
 {
