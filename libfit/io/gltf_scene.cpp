@@ -257,9 +257,10 @@ Eigen::Affine3d GltfScene::world_from_mesh(int node) const
     const Eigen::Affine3d by_first = world_by_joint(*this, skin, 0);
     if (model_.skins.size() < 2)
         return by_first;
-    const SkinPlaces placed = place_skins(*this, file_, model_);
-    const auto place = placed.find(index);
-    return place == placed.end() || place->second.isApprox(by_first, k_same) ? by_first : place->second;
+    if (!world_from_skin_)
+        world_from_skin_ = place_skins(*this, file_, model_);
+    const auto place = world_from_skin_->find(index);
+    return place == world_from_skin_->end() || place->second.isApprox(by_first, k_same) ? by_first : place->second;
 }
 
 std::vector<GltfSurface> GltfScene::surfaces() const

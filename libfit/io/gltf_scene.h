@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "gltf_model.h"
@@ -34,8 +36,9 @@ public:
     /// -1 for a root, and for what is not in the scene.
     int parent(int node) const { return parents_[std::size_t(node)]; }
     const Eigen::Affine3d& world_from_node(int node) const { return world_from_node_[std::size_t(node)]; }
-    /// The place of a skinned mesh is that of its joints, not of its node: here of the first one in its bind pose. So
-    /// a posed file shows its bind pose. Where a skin has none, the mesh lies at its node.
+    /// The place of a skinned mesh is that of its joints, not of its node: here of the first one in its bind pose, in the
+    /// tree for skins that share joints. So a posed file shows its bind pose. Where a skin has none, the mesh lies at its
+    /// node.
     Eigen::Affine3d world_from_mesh(int node) const;
     std::vector<GltfSurface> surfaces() const;
 
@@ -53,6 +56,7 @@ private:
     const tinygltf::Model& model_;
     std::vector<int> nodes_, parents_;
     std::vector<Eigen::Affine3d, Eigen::aligned_allocator<Eigen::Affine3d>> world_from_node_;
+    mutable std::optional<std::map<int, Eigen::Affine3d>> world_from_skin_;  // by the first call that needs it
 };
 
 }  // namespace garmentfit
