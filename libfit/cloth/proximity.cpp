@@ -117,8 +117,9 @@ namespace {
 /// Two primitives on their way.
 class MovingPair {
 public:
-    MovingPair(PairKind kind, const Corners& x, const Corners& displacements) :
-        kind_(kind), x_(x), at_(closest_points(kind, x)), travel_(relative_travel(kind, displacements))
+    /// @param travel  relative_travel of the displacements, not 0
+    MovingPair(PairKind kind, const Corners& x, const Corners& displacements, double travel) :
+        kind_(kind), x_(x), at_(closest_points(kind, x)), travel_(travel)
     {
         const Vec3 mean = 0.25 * (displacements[0] + displacements[1] + displacements[2] + displacements[3]);
         for (int k = 0; k < 4; ++k)
@@ -167,9 +168,10 @@ private:
 
 double collision_free_fraction(PairKind kind, const Corners& x, const Corners& d, double min_distance)
 {
-    if (relative_travel(kind, d) == 0)
+    const double travel = relative_travel(kind, d);
+    if (travel == 0)
         return 1;
-    MovingPair pair(kind, x, d);
+    MovingPair pair(kind, x, d, travel);
     const double required = required_distance(pair.distance(), min_distance),
                  used_up = (1 - k_advance) * (pair.distance() - required);
     double t = 0;

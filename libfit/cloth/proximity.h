@@ -4,7 +4,8 @@
 // Distances between the primitives of triangle meshes, and how far they may move before they meet.
 //
 // Closest points  [ericson_2005_collision], sec. 5.1. Degenerate primitives are allowed.
-// Step            additive continuous collision detection [li_2021_cipc], algorithm 1.
+// Step            additive continuous collision detection [li_2021_cipc], algorithm 1; where it is longer, what the gap
+//                 along the axis of the closest points allows. docs/cloth.md has the proof.
 // Units           metres.
 
 #include <array>
