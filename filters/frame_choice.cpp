@@ -145,6 +145,7 @@ void scale_to_body(FrameGuess& guess, const Positions& positions, const Triangle
                                          is_normalised(positions, triangles));
     guess.scale_probability = scale.probability;
     guess.frame.metres_per_unit *= scale.factor;
+    guess.frame.has_unit = scale.probability >= k_low_probability;
     if (scale.factor == 1)
         return;
     if (const std::optional<std::string_view> unit = name_of_unit(guess.frame.metres_per_unit)) {

@@ -114,6 +114,18 @@ TEST(GarmentScale, AGarmentOfNormalisedSizeFitsTheBody)
     }
 }
 
+// It may be as large as the body needs it, then.
+TEST(GarmentScale, AGarmentHasAUnitOnlyIfThatIsProbable)
+{
+    int doubtful = 0;
+    for (double size = 0.6; size < 1.5; size += 0.05)
+        if (const FrameGuess guess = guess_of(size); guess.scale == 1) {
+            EXPECT_EQ(guess.frame.has_unit, guess.scale_probability >= 0.8) << size << ": " << guess.scale_probability;
+            doubtful += !guess.frame.has_unit;
+        }
+    EXPECT_GT(doubtful, 0);
+}
+
 // Where the unit has lost by little, it may be the right one after all.
 TEST(GarmentScale, AGuessTellsTheSizeInTheMostProbableUnit)
 {

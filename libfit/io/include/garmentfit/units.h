@@ -19,7 +19,7 @@ constexpr double k_degrees_per_radian = 180 / 3.14159265358979323846;  // derive
 struct Frame {
     double metres_per_unit = 1;
     Vec3 up = Vec3::UnitY();  ///< one of the six axis directions, in the file's axes
-    bool has_unit = true;  ///< else the file is in no unit, and metres_per_unit is a guess by what the mesh is
+    bool has_unit = true;  ///< else the file is in no unit, or hardly: metres_per_unit is a guess by what the mesh is
     double size_in_unit
         = 1;  ///< without a unit: how many times as large the mesh is in the most probable one, if any is
 
