@@ -28,6 +28,14 @@ bool is_torn(const Dressing& end)
     });
 }
 
+bool any_garment(const Dressing& end, bool (*is)(const Dressing&, std::size_t))
+{
+    for (std::size_t i = 0; i < end.garments.size(); ++i)
+        if (is(end, i))
+            return true;
+    return false;
+}
+
 double furthest_slip(const Dressing& end)
 {
     double furthest = 0;
@@ -64,7 +72,7 @@ End end_of(const Scene& scene)
         return End::refused;
     if (outcome_of(*end) != Outcome::done)
         return outcome_of(*end) == Outcome::too_small ? End::too_small : End::not_certified;
-    return is_torn(*end) || furthest_slip(*end) > k_slipped ? End::torn_or_slipped : End::worn;
+    return is_torn(*end) || any_garment(*end, has_slipped_down) ? End::torn_or_slipped : End::worn;
 }
 
 // The garment with the tightest part, or the one that was put on last; without an end, the one that was refused.
@@ -182,17 +190,10 @@ std::optional<WrongSize> find_wrong_size(const Scene& scene, std::size_t refused
     return slipped ? std::optional(WrongSize { *slipped, k_smaller_sizes }) : std::nullopt;
 }
 
-bool has_lost_a_piece(const Dressing& end)
-{
-    return std::any_of(end.garments.begin(), end.garments.end(), [&](const WornGarment& garment) {
-        return garment.piece_shift * end.to_human_size > k_piece_gone;
-    });
-}
-
 bool stays_on(const Scene& scene)
 {
     const Dressing& end = *final_dressing(scene);
-    return furthest_slip(end) < k_stays && !first_slipped(end) && !has_lost_a_piece(end);
+    return furthest_slip(end) < k_stays && !any_garment(end, has_slipped) && !any_garment(end, has_lost_a_piece);
 }
 
 // Of skirts and the like, either side may come out in front.

@@ -70,13 +70,22 @@ std::vector<PlaceVerdict> judge_places(const Dressing& dressing, std::size_t gar
 
 }  // namespace
 
+bool has_slipped_down(const Dressing& dressing, std::size_t garment)
+{
+    return dressing.garments[garment].slipped * dressing.to_human_size > k_slipped;
+}
+
 bool has_slipped(const Dressing& dressing, std::size_t garment)
 {
     const auto has_any
         = [&](const std::vector<std::vector<Bone>>& off) { return garment < off.size() && !off[garment].empty(); };
     return dressing.is_worn(garment)
-        && (dressing.garments[garment].slipped * dressing.to_human_size > k_slipped || has_any(dressing.off_shoulders)
-            || has_any(dressing.below_hips));
+        && (has_slipped_down(dressing, garment) || has_any(dressing.off_shoulders) || has_any(dressing.below_hips));
+}
+
+bool has_lost_a_piece(const Dressing& dressing, std::size_t garment)
+{
+    return dressing.garments[garment].piece_shift * dressing.to_human_size > k_piece_gone;
 }
 
 std::string_view name_of(Verdict verdict)

@@ -37,9 +37,10 @@ void warn_of_guesses(std::vector<std::string>& warnings, const std::string& name
                            + "; if it is worn upside down or on its side, " + set("garment_up"));
 }
 
-void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const WornGarment& garment,
-                     const Dressing& end)
+void warn_of_garment(std::vector<std::string>& warnings, const std::string& name, const Dressing& end,
+                     std::size_t index)
 {
+    const WornGarment& garment = end.garments[index];
     if (garment.size > 1)
         warnings.push_back(name + " was made " + std::to_string(std::lround(100 * (garment.size - 1))) + "% larger");
     if (garment.size < 1)
@@ -57,11 +58,11 @@ void warn_of_garment(std::vector<std::string>& warnings, const std::string& name
                            + std::to_string(pieces.free)
                            + (pieces.free == 1 ? " lies on no other; it is a layer of its own"
                                                : " lie on no other; they are layers of their own"));
-    if (garment.piece_shift * end.to_human_size > k_piece_gone)
+    if (has_lost_a_piece(end, index))
         warnings.push_back(
             "a piece of " + name + " went " + length_text(garment.piece_shift, end.unit)
             + " away from the cloth that it lay on; join its border to that cloth in the garment's file");
-    if (garment.slipped * end.to_human_size > k_slipped)
+    if (has_slipped_down(end, index))
         warnings.push_back(name + " slipped down by " + length_text(garment.slipped, end.unit)
                            + ": it is too wide for this body to stay where it is worn");
 }
@@ -90,7 +91,7 @@ std::string hips_in_words(const std::vector<Bone>& hips)
 /// Of one that is worn; whether it is tight, too.
 void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, const Dressing& end, std::size_t garment)
 {
-    warn_of_garment(warnings, name, end.garments[garment], end);
+    warn_of_garment(warnings, name, end, garment);
     if (garment < end.off_shoulders.size() && !end.off_shoulders[garment].empty())
         warnings.push_back(name + " slipped off " + shoulders_in_words(end.off_shoulders[garment])
                            + ": it is too wide there for this body to stay where it is worn");

@@ -35,8 +35,7 @@ struct FitVerdict {
 /// tight      pressure over 1.96 kPa, or stretched by more than half of what the fabric gives;
 /// roomy      14 % of ease or more;
 /// fits       otherwise.
-/// A garment that slipped down further than warnings allow, off a shoulder or below a hip, is too large. One that is roomy
-/// is so everywhere.
+/// A garment that does not stay where it is worn (has_slipped) is too large. One that is roomy is so everywhere.
 /// None for a garment that is not worn for another reason than being too small.
 /// Cost O(parts).
 std::optional<FitVerdict> fit_verdict(const Dressing& dressing, std::size_t garment);
@@ -47,8 +46,12 @@ std::string verdict_in_words(const Dressing& dressing, std::size_t garment);
 /// Whether the garment is too small: it is too tight in places, or the body could not get its full size in it. Never
 /// where body or cloth ends in spikes, or time ran out.
 bool is_too_small(const Dressing& dressing, std::size_t garment);
-/// Whether the garment slipped down further than warnings allow, off a shoulder, or below hips that it should cover.
+/// Whether the garment slipped down further than cloth sinks that settles.
+bool has_slipped_down(const Dressing& dressing, std::size_t garment);
+/// Whether it does not stay where it is worn: it slipped down, off a shoulder, or below hips that it should cover.
 bool has_slipped(const Dressing& dressing, std::size_t garment);
+/// Whether a piece of the garment went away from the cloth on which it lay.
+bool has_lost_a_piece(const Dressing& dressing, std::size_t garment);
 /// Whether an edge is far longer than at rest, or triangles have gained much area: cloth that is caught, and no dressing,
 /// though nothing crosses.
 bool is_drawn_out(const Dressing& dressing, std::size_t garment);
