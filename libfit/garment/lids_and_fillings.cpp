@@ -175,34 +175,48 @@ bool spans_opening(const TriangleMesh& mesh, const std::vector<int>& others, con
     return steep > k_lid_steep * all;
 }
 
-/// Whether all vertices but a patch's own lie on one side of a plane.
-bool are_on_one_side(const Positions& positions, const std::vector<int>& all, const std::vector<int>& own,
-                     const Frame& plane)
+/// Every so many-th one.
+std::vector<int> spread_among(const std::vector<int>& vertices)
+{
+    constexpr std::size_t k_many = 500;  // unit: bounds the work on patches that lie amid the others
+    std::vector<int> result;
+    for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / k_many)
+        result.push_back(vertices[i]);
+    return result;
+}
+
+/// Whether vertices beside a patch's own lie on both sides of a plane.
+bool are_on_both_sides(const Positions& positions, const std::vector<int>& vertices, const std::vector<int>& own,
+                       const Frame& plane)
 {
     bool any_above = false, any_below = false;
-    for (const int v : all) {
+    for (const int v : vertices) {
         if (std::binary_search(own.begin(), own.end(), v))
             continue;
         const double height = (positions.row(v) - plane.mean).dot(plane.axes.col(0));
         (height > 0 ? any_above : any_below) = true;
         if (any_above && any_below)
-            return false;
+            return true;
     }
-    return any_above || any_below;
+    return false;
 }
 
 /// Whether all else lies on one side of a flat patch, apart from it, and is not much larger along it: the floor below a
 /// garment, or its shadow. Nothing holds it.
-/// @param all  used vertices of the mesh. There may be thousands of flat patches: most lie amid the others.
-bool is_floor(const TriangleMesh& mesh, const std::vector<int>& all, const std::vector<int>& patch)
+/// @param all  used vertices of the mesh
+/// @param probes  some of them, from everywhere. There may be thousands of flat patches: most lie amid the others
+bool is_floor(const TriangleMesh& mesh, const std::vector<int>& all, const std::vector<int>& probes,
+              const std::vector<int>& patch)
 {
     const std::vector<int> own = used_vertices(mesh.triangles(patch, Eigen::all));
     const Positions flat = mesh.positions(own, Eigen::all);
     const Frame frame = frame_of(flat);
-    if (!are_on_one_side(mesh.positions, all, own, frame))
+    if (are_on_both_sides(mesh.positions, probes, own, frame) || are_on_both_sides(mesh.positions, all, own, frame))
         return false;
     std::vector<int> rest;
     std::set_difference(all.begin(), all.end(), own.begin(), own.end(), std::back_inserter(rest));
+    if (rest.empty())
+        return false;
     const Positions others = (mesh.positions(rest, Eigen::all).rowwise() - frame.mean) * frame.axes,
                     along = (flat.rowwise() - frame.mean) * frame.axes;
     const auto length = [](const Positions& positions, int axis) {
@@ -313,12 +327,12 @@ std::vector<std::vector<int>> find_backdrops(const TriangleMesh& mesh, const std
     }
     if (others.isEmpty())
         return {};
-    const std::vector<int> all = used_vertices(mesh.triangles);
+    const std::vector<int> all = used_vertices(mesh.triangles), probes = spread_among(all);
     std::vector<std::vector<int>> floors;
     for (const std::vector<int>& patch : flat)
         if (box_of(mesh, patch).diagonal().norm() >= k_backdrop_size * others.diagonal().norm())
             backdrops.push_back(patch);
-        else if (is_floor(mesh, all, patch))
+        else if (is_floor(mesh, all, probes, patch))
             floors.push_back(patch);
     if (backdrops.empty() && floors.size() == 1)  // more are panels that lie round a body
         return floors;
