@@ -26,10 +26,10 @@ Triangles simplify(const TriangleMesh& mesh)
     const Floats places = mesh.positions.cast<float>();
     const Indices given = mesh.triangles.cast<unsigned>();
     const std::size_t vertices = std::size_t(places.rows()), stride = sizeof(float) * 3;
+    const std::size_t fewest = std::min(k_indices * k_coarse_body_vertices, std::size_t(given.size()));
     Indices left(given.rows(), 3);
     const std::size_t count = meshopt_simplify(
-        left.data(), given.data(), std::size_t(given.size()), places.data(), vertices, stride,
-        k_indices * k_coarse_body_vertices,
+        left.data(), given.data(), std::size_t(given.size()), places.data(), vertices, stride, fewest,
         float(k_coarse_body_error / meshopt_simplifyScale(places.data(), vertices, stride)), 0, nullptr);
     return left.topRows(Eigen::Index(count / 3)).cast<int>();
 }

@@ -62,6 +62,24 @@ TEST(CoarseBody, OfFewVerticesStaysAsItIs)
     EXPECT_FALSE(CoarseBody(person.rig, person.body).is_other());
 }
 
+// Files keep vertices that no face uses, and each face's own.
+TEST(CoarseBody, OfMoreVerticesThanTrianglesNeedIsRead)
+{
+    Person person(capsule_person().mesh);
+    const auto repeat_first = [](auto& rows) {
+        const Eigen::Index used = rows.rows();
+        rows.conservativeResize(used + 40000, rows.cols());
+        rows.bottomRows(rows.rows() - used).rowwise() = rows.row(0).eval();
+    };
+    const Eigen::Index used = person.body.surface.positions.rows();
+    repeat_first(person.body.surface.positions);
+    repeat_first(person.rig.weights.bones);
+    repeat_first(person.rig.weights.weights);
+    const CoarseBody coarse(person.rig, person.body);
+    ASSERT_TRUE(coarse.is_other());
+    EXPECT_LE(coarse.body().surface.positions.rows(), used);
+}
+
 TEST(CoarseBody, WithDetailsEverywhereStaysAsItIs)
 {
     Person person = fine_person();
