@@ -329,6 +329,7 @@ ContentPtr read_gltf(FileBytes file, const std::filesystem::path& folder)
         name_materials(scene.parts, content->container.json, content->named_parts);
         content->look
             = gltf_appearance(file, model, content->container.json, scene.parts, content->triangles, content->warnings);
+        fill_missing_pictures(content->container.json);
         content->buffers = std::move(model.buffers);
         read_values(file, *content, scene.rows());
     } catch (const InvalidInput&) {

@@ -226,7 +226,11 @@ TEST_F(Look, OfPicturesBesideAGltfIsKept)
     const Appearance without = MeshFile::read(folder / "other.glb").appearance();
     EXPECT_TRUE(without.pictures.empty());
     EXPECT_EQ(without.materials.size(), 2u);
-    EXPECT_TRUE(mentions(MeshFile::read(folder / "other.glb").warnings(), "tex/my weave.png cannot be read"));
+    const MeshFile other = MeshFile::read(folder / "other.glb");
+    EXPECT_TRUE(mentions(other.warnings(), "tex/my weave.png cannot be read"));
+    other.write(folder / "moved.glb", 2 * other.positions());
+    EXPECT_EQ(file_of_picture(read_gltf_container(read_file(folder / "moved.glb")).json["images"][0]), "")
+        << "viewers refuse a file whose pictures are missing";
 }
 
 TEST_F(Look, OfMangledUvsIsAWarningForEachMaterial)
