@@ -566,6 +566,20 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
     return true;
 }
 
+bool is_caught(const Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    return end && outcome_of(*end) != Outcome::done && any_garment(*end, is_torn);
+}
+
+Parameters in_smaller_steps(Parameters parameters)
+{
+    parameters.drape.growing_steps *= k_slower;
+    parameters.recover.largest_steps *= k_slower;
+    parameters.recover.step_length /= k_slower;
+    return parameters;
+}
+
 bool loosen(Scene& scene, double size)
 {
     const Dressing* end = final_dressing(scene);

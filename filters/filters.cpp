@@ -164,6 +164,7 @@ void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameter
     for (const double size : k_looser_sizes)
         run_changed([&](Scene& other) { return loosen(other, size); }, stages, scene, parameters, progress,
                     Outcome::done);
+    run_changed(is_caught, stages, scene, in_smaller_steps(parameters), progress, Outcome::done);
 }
 
 void run_larger(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)

@@ -20,22 +20,6 @@ namespace {
 
 constexpr double k_same_direction = 0.5;  // derived: cosine; between quarter turns and noise, as in the fit
 
-// Short edges that are pinched, such as those of a button's rim, are no tears.
-bool is_torn(const Dressing& end)
-{
-    return std::any_of(end.overstretches.begin(), end.overstretches.end(), [&](const Overstretch& stretch) {
-        return stretch.largest > k_torn && stretch.longer * end.to_human_size > k_torn_length;
-    });
-}
-
-bool any_garment(const Dressing& end, bool (*is)(const Dressing&, std::size_t))
-{
-    for (std::size_t i = 0; i < end.garments.size(); ++i)
-        if (is(end, i))
-            return true;
-    return false;
-}
-
 double furthest_slip(const Dressing& end)
 {
     double furthest = 0;
@@ -72,7 +56,7 @@ End end_of(const Scene& scene)
         return End::refused;
     if (outcome_of(*end) != Outcome::done)
         return outcome_of(*end) == Outcome::too_small ? End::too_small : End::not_certified;
-    return is_torn(*end) || any_garment(*end, has_slipped_down) ? End::torn_or_slipped : End::worn;
+    return any_garment(*end, is_torn) || any_garment(*end, has_slipped_down) ? End::torn_or_slipped : End::worn;
 }
 
 // The garment with the tightest part, or the one that was put on last; without an end, the one that was refused.
@@ -116,7 +100,7 @@ std::string reason_against(const Scene& scene, std::size_t garment)
         return explain(end, names_of(scene));
     if (const double size = size_of(scene, garment); is_another_size(size))
         return "it has to be " + std::to_string(std::lround(100 * (size - 1))) + "% larger";
-    return is_torn(end) ? "the cloth is stretched too far" : "it slips down";
+    return any_garment(end, is_torn) ? "the cloth is stretched too far" : "it slips down";
 }
 
 // Both then count for the second one, which keeps the more probable name.

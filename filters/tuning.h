@@ -164,6 +164,10 @@ inline constexpr double k_step = 0.01;
 /// absolute values count was chosen with both halves in view.
 inline constexpr double k_openings_up_weight = 1;
 
+/// How many times as many steps, each as much shorter, cloth is given that was caught on the way. fitted: guess, on three
+/// clothes of strangers that cross themselves
+inline constexpr int k_slower = 2;
+
 /// Body metres. A piece that went further from the cloth that it lay on gets a warning.
 /// fitted: guess.
 inline constexpr double k_piece_gone = 0.05;

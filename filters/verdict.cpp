@@ -94,6 +94,22 @@ std::string_view name_of(Verdict verdict)
     return k_names[static_cast<std::size_t>(verdict)];
 }
 
+bool is_torn(const Dressing& dressing, std::size_t garment)
+{
+    if (garment >= dressing.overstretches.size())
+        return false;
+    const Overstretch& stretch = dressing.overstretches[garment];
+    return stretch.largest > k_torn && stretch.longer * dressing.to_human_size > k_torn_length;
+}
+
+bool any_garment(const Dressing& dressing, bool (*is)(const Dressing&, std::size_t))
+{
+    for (std::size_t i = 0; i < dressing.garments.size(); ++i)
+        if (is(dressing, i))
+            return true;
+    return false;
+}
+
 bool is_drawn_out(const Dressing& dressing, std::size_t garment)
 {
     if (garment >= dressing.overstretches.size())

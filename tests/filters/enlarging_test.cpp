@@ -45,6 +45,30 @@ TEST(Enlarging, AGarmentThatIsTooSmallInTheEndIsEnlargedWhereThatIsAllowed)
     EXPECT_FALSE(enlarge_too_small(fits, parameters));
 }
 
+TEST(SmallerSteps, AreTakenWhereClothIsDrawnOutAtOnePlace)
+{
+    Scene scene = tight_scene(1, 0.1);
+    EXPECT_FALSE(is_caught(scene)) << "it is too small everywhere";
+    Overstretch torn;
+    torn.largest = 5;
+    torn.longer = 0.05;
+    scene.recovered->overstretches = { torn };
+    EXPECT_TRUE(is_caught(scene));
+    scene.recovered->too_tight.clear();
+    EXPECT_TRUE(is_caught(scene)) << "not certified";
+    scene.recovered->certified = true;
+    EXPECT_FALSE(is_caught(scene));
+    scene.recovered.reset();
+    EXPECT_FALSE(is_caught(scene));
+
+    const Parameters given, smaller = in_smaller_steps(given);
+    EXPECT_GT(smaller.drape.growing_steps, given.drape.growing_steps);
+    EXPECT_LT(smaller.recover.step_length, given.recover.step_length);
+    EXPECT_NEAR(smaller.recover.step_length * smaller.recover.largest_steps,
+                given.recover.step_length * given.recover.largest_steps, 1e-12)
+        << "they lead as far";
+}
+
 TEST(Enlarging, AGarmentWithoutAUnitThatHoldsTheBodyBackIsLoosened)
 {
     Scene scene = tight_scene(1, 0);
