@@ -235,6 +235,8 @@ Ends find_ends(const WithoutCaps& found)
     HollowEnds hollows = find_hollow_ends(found.opened.garment);
     if (hollows.faces.empty() && found.caps.size() == 1)
         return find_sleeves_with(found.caps[0], found.opened.garment);
+    if (hollows.faces.empty() && found.caps.size() == k_least_ends)
+        hollows = find_closed_neck(found.opened.garment);
     const int count = int(hollows.faces.size());
     return { std::move(hollows), count };
 }

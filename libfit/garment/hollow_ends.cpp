@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -219,14 +220,13 @@ bool are_mirrored(const Place& a, const Place& b, const Vec3& across)
     return std::max(a.area, b.area) < k_pair_areas * std::min(a.area, b.area) && mirrored.dot(b.axis) > k_pair_mirrored;
 }
 
-/// Where the trunk of a top is, by both sleeves and the hem. None if the hollows are not these three.
-std::optional<Trunk> trunk_between(const std::vector<Hollow>& hollows, const TriangleMesh& surface)
+/// Where the trunk of a top is, by both sleeves and the hem. None if the places are not these three.
+std::optional<Trunk> trunk_between(const std::vector<Place>& ends)
 {
-    if (hollows.size() != 3)
+    if (ends.size() != 3)
         return {};
     for (int hem = 0; hem < 3; ++hem) {
-        const Place low = place_of(hollows[hem], surface), left = place_of(hollows[(hem + 1) % 3], surface),
-                    right = place_of(hollows[(hem + 2) % 3], surface);
+        const Place &low = ends[hem], &left = ends[(hem + 1) % 3], &right = ends[(hem + 2) % 3];
         const Vec3 between = (left.middle + right.middle) / 2, across = (right.middle - left.middle).stableNormalized();
         const double width = (right.middle - left.middle).norm();
         if (low.area > std::max(left.area, right.area) && are_mirrored(left, right, across)
@@ -236,6 +236,24 @@ std::optional<Trunk> trunk_between(const std::vector<Hollow>& hollows, const Tri
                            across,     width,   low.opening };
     }
     return {};
+}
+
+std::optional<Trunk> trunk_between(const std::vector<Hollow>& hollows, const TriangleMesh& surface)
+{
+    std::vector<Place> ends;
+    for (const Hollow& hollow : hollows)
+        ends.push_back(place_of(hollow, surface));
+    return trunk_between(ends);
+}
+
+std::optional<Trunk> trunk_between(const std::vector<Opening>& openings)
+{
+    std::vector<Place> ends;
+    for (const Opening& opening : openings) {
+        const double disc = opening.roundness * opening.girth * opening.girth / (4 * std::numbers::pi);
+        ends.push_back({ opening.centre, opening.facing, disc, disc });
+    }
+    return trunk_between(ends);
 }
 
 /// The faces of a surface that lie at some faces of the cloth in it.
@@ -355,6 +373,20 @@ HollowEnds find_closed_sleeves(const GarmentMesh& garment)
     return kept.of(garment, [&] {
         const PlainReading plain = read_plainly(garment);
         return plain.serves && !plain.is_sealed ? search_sleeves(garment, plain) : HollowEnds();
+    });
+}
+
+HollowEnds find_closed_neck(const GarmentMesh& garment)
+{
+    static KeptResults<HollowEnds> kept;
+    return kept.of(garment, [&]() -> HollowEnds {
+        const PlainReading plain = read_plainly(garment);
+        if (!plain.serves || plain.is_sealed)
+            return {};
+        const std::optional<Trunk> trunk = trunk_between(openings_of_passages(plain.outer));
+        if (!trunk)
+            return {};
+        return { faces_on({ { find_shut_neck(plain.outer, *trunk), {} } }, plain.outer, garment), {} };
     });
 }
 

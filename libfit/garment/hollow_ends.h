@@ -26,4 +26,8 @@ HollowEnds find_hollow_ends(const GarmentMesh& opened);
 /// wrap.
 HollowEnds find_closed_sleeves(const GarmentMesh& garment);
 
+/// The neck of a top that is open at the hem and both sleeves and nowhere else; none for others. Cost: as above, without
+/// a wrap.
+HollowEnds find_closed_neck(const GarmentMesh& garment);
+
 }  // namespace garmentfit

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
 #include <Eigen/Eigenvalues>
 
+#include "nearest.h"
 #include "surface_measures.h"
 #include "topology.h"
 #include "tuning.h"
@@ -20,6 +22,7 @@ using namespace garment_tuning;
 
 constexpr int k_rounds = 3;  // unit: in which a patch finds its axis
 constexpr std::size_t k_seeds = 40;  // unit: places from which patches are grown
+constexpr double k_off = 1e-4;  // unit: share of the trunk's width, so that a ray does not start on its own face
 
 /// Connected faces that look nearly alike.
 struct Patch {
@@ -33,7 +36,7 @@ struct Patch {
 class TopOfTrunk {
 public:
     TopOfTrunk(const TriangleMesh& cloth, const Trunk& trunk) :
-        trunk_(trunk), topology_(cloth.triangles, int(cloth.positions.rows())),
+        trunk_(trunk), tree_(cloth), topology_(cloth.triangles, int(cloth.positions.rows())),
         seen_(std::size_t(cloth.triangles.rows()), 0)
     {
         for (Eigen::Index f = 0; f < cloth.triangles.rows(); ++f) {
@@ -42,13 +45,15 @@ public:
         }
     }
 
+    /// In a hood that stands up it is the floor, most of which is below the hood's crown.
     std::vector<int> neck()
     {
-        Patch neck;
-        for (const int seed : seeds())
-            if (auto patch = stable_patch(seed); patch && patch->area > neck.area)
-                neck = *std::move(patch);
-        return neck.faces;
+        std::vector<int> middle = faces_in_the_middle(), below;
+        const auto is_below = [&](int f) { return is_below_cloth(f); };
+        std::copy_if(middle.begin(), middle.end(), std::back_inserter(below), is_below);
+        std::vector<int> floor = largest_neck(std::move(below));
+        const bool is_in_hood = 2 * std::count_if(floor.begin(), floor.end(), is_below) > std::ssize(floor);
+        return is_in_hood ? floor : largest_neck(std::move(middle));
     }
 
 private:
@@ -57,23 +62,36 @@ private:
         return std::abs((place - trunk_.shoulders).dot(trunk_.across)) / trunk_.width;
     }
 
-    /// Faces that look up, in the middle of the top, evenly.
-    std::vector<int> seeds() const
+    double height_of(int f) const { return (middles_[f] - trunk_.hem).dot(trunk_.up); }
+
+    /// Those that look up.
+    std::vector<int> faces_in_the_middle() const
     {
         std::vector<int> middle;
-        double highest = 0;  // m, above the hem
         for (int f = 0; f < int(areas_.size()); ++f)
             if (off_middle(middles_[f]) < k_neck_off_middle
-                && areas_[f].stableNormalized().dot(trunk_.up) > k_neck_facing) {
+                && areas_[f].stableNormalized().dot(trunk_.up) > k_neck_facing)
                 middle.push_back(f);
-                highest = std::max(highest, (middles_[f] - trunk_.hem).dot(trunk_.up));
-            }
-        std::erase_if(middle,
-                      [&](int f) { return (middles_[f] - trunk_.hem).dot(trunk_.up) < k_neck_height * highest; });
-        std::vector<int> result;
-        for (std::size_t i = 0; i < middle.size(); i += 1 + middle.size() / k_seeds)
-            result.push_back(middle[i]);
-        return result;
+        return middle;
+    }
+
+    bool is_below_cloth(int f) const
+    {
+        return tree_.first_hit(middles_[f] + k_off * trunk_.width * trunk_.up, trunk_.up).has_value();
+    }
+
+    /// The largest patch like a neck that grows from the highest of some faces; empty without any.
+    std::vector<int> largest_neck(std::vector<int> seeds)
+    {
+        double highest = 0;  // m, above the hem
+        for (const int f : seeds)
+            highest = std::max(highest, height_of(f));
+        std::erase_if(seeds, [&](int f) { return height_of(f) < k_neck_height * highest; });
+        Patch neck;
+        for (std::size_t i = 0; i < seeds.size(); i += 1 + seeds.size() / k_seeds)
+            if (auto patch = stable_patch(seeds[i]); patch && patch->area > neck.area)
+                neck = *std::move(patch);
+        return neck.faces;
     }
 
     /// Faces connected with one whose directions are within an angle of their mean.
@@ -144,6 +162,7 @@ private:
     }
 
     const Trunk& trunk_;
+    TriangleTree tree_;
     MeshTopology topology_;
     std::vector<int> seen_;  // by face, the last patch that has it
     int mark_ = 0;

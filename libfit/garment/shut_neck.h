@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The neck of a top that is modelled as a solid and filled flush there.
+// The neck of a top that is modelled as a solid and filled there.
 
 #include <vector>
 
@@ -17,8 +17,8 @@ struct Trunk {
     double hem_area = 0;  ///< m^2, of a disc that closes the hem
 };
 
-/// The cloth that closes a neck: at the top of the trunk, a smooth round patch inside a crease, a collar or a groove. No
-/// body passes there, and no pit or flat end shows where one should. Patches are grown from places in the middle, over
+/// The cloth that closes a neck: at the top of the trunk, or below a hood, a smooth round patch inside a crease, a collar
+/// or a groove. No body passes there, and no pit or flat end shows where one should. Patches are grown from places in the middle, over
 /// faces less and less alike; where one hardly grows from one limit to the next, a crease holds it (maximally stable
 /// regions [matas_2004_mser], of directions in place of grey values). Of these the largest round one is the neck; empty
 /// without any, as of shoulders without a collar.

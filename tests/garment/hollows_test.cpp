@@ -188,6 +188,40 @@ TEST(ShutNeck, IsTheSmoothPatchInACollar)
 
 TEST(ShutNeck, IsNoneOfShouldersWithoutACollar) { EXPECT_TRUE(shut_neck_of(tshirt_with_filled_neck(0)).empty()); }
 
+/// m, to all places within a distance of an upright line through the origin.
+double capsule(const Vec3& p, double from, double to, double distance)
+{
+    return (p - Vec3(0, std::clamp(p.y(), from, to), 0)).norm() - distance;
+}
+
+/// A T-shirt as a solid with flat ends and a hood that stands up, open in front, and filled at the neck by a dome.
+TriangleMesh tshirt_with_filled_hood()
+{
+    const auto solid = [](const Vec3& p) {
+        const Vec3 along_sleeves(p.z(), std::abs(p.x()), p.y() - 0.45);
+        const double trunk = std::max(cylinder(p, 0, 0, 0.7, 0.2, 0.12), 0.85 * (p.y() + 0.6 * std::abs(p.x()) - 0.6));
+        const double shirt = std::min(trunk, cylinder(along_sleeves, 0, 0, 0.4, 0.075, 0.075));
+        const double face = std::max({ std::abs(p.x()) - 0.07, p.y() - 0.78, -p.z() });
+        const double below_dome = 0.6 - 2 * (p.x() * p.x() + p.z() * p.z()) - p.y();
+        const double inside = std::max(std::min(capsule(p, 0.5, 0.74, 0.1), face), below_dome);
+        return std::max(std::min(shirt, capsule(p, 0.5, 0.74, 0.12)), -inside);
+    };
+    return fixtures::polygonise(solid, Vec3(-0.44, -0.06, -0.18), Vec3(0.44, 0.9, 0.18), 0.01);
+}
+
+TEST(ShutNeck, IsTheFloorOfAHood)
+{
+    const TriangleMesh tshirt = tshirt_with_filled_hood();
+    const std::vector<int> neck = shut_neck_of(tshirt);
+    double covered = 0;  // m^2
+    for (const int f : neck) {
+        const Vec3 middle = tshirt.positions(tshirt.triangles.row(f), Eigen::all).colwise().mean();
+        EXPECT_LT(middle.y(), 0.61);
+        covered += area_vector(tshirt.positions, tshirt.triangles, f).y();
+    }
+    EXPECT_NEAR(covered, 3.14 * 0.1 * 0.1, 0.15 * 3.14 * 0.1 * 0.1);
+}
+
 TEST(SolidEnds, AreNoneOfACylinder)
 {
     const TriangleMesh solid = meshed([](const Vec3& p) { return cylinder(p, 0, 0, 0.9, 0.2, 0.12); });
@@ -204,6 +238,37 @@ TriangleMesh between(double low, double high, const TriangleMesh& mesh)
             kept.push_back(f);
     }
     return weld_vertices({ mesh.positions, mesh.triangles(kept, Eigen::all) });
+}
+
+/// Without its hem and the ends of its sleeves.
+TriangleMesh open_tshirt_with_filled_hood()
+{
+    TriangleMesh tshirt = between(0.02, 1, tshirt_with_filled_hood());
+    tshirt.positions.col(0).swap(tshirt.positions.col(1));
+    tshirt = between(-0.38, 0.38, tshirt);
+    tshirt.positions.col(0).swap(tshirt.positions.col(1));
+    return tshirt;
+}
+
+TEST(ClosedNeck, IsLeftOutWhereHemAndSleevesAreOpen)
+{
+    const TriangleMesh tshirt = open_tshirt_with_filled_hood();
+    ASSERT_EQ(count_openings(tshirt), 3u);
+    EXPECT_EQ(find_closed_neck(garment_of(tshirt)).faces.size(), 1u);
+}
+
+TEST(ClosedNeck, IsLeftOutWhereHemAndSleevesAreCapped)
+{
+    const TriangleMesh tshirt = fill_openings(open_tshirt_with_filled_hood());
+    EXPECT_EQ(open_ends(garment_of(tshirt)).closed_ends, 4);
+    EXPECT_EQ(count_openings(outward_cloth(garment_of(tshirt))), 4u);
+}
+
+TEST(ClosedNeck, IsNoneOfTrousers)
+{
+    const TriangleMesh cloth = between(0.02, 0.78, meshed([](const Vec3& p) { return solid_trousers(p, 0); }));
+    ASSERT_EQ(count_openings(cloth), 3u);
+    EXPECT_TRUE(find_closed_neck(garment_of(cloth)).faces.empty());
 }
 
 TEST(HollowEnds, OfClothThatIsOpenElsewhereAreLeftOut)
