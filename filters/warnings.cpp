@@ -277,9 +277,9 @@ std::vector<std::string> warnings_about_dressing(const Dressing& end, const std:
         warnings.push_back("the cloth is not at rest: forces on it are out of balance by "
                            + share_of_weight(end.residual->mean) + " on the mean; "
                            + (end.out_of_time ? "give more time as time_limit: it was reached"
-                                              : "quality draft does not look for rest, and cloth that passes through "
-                                                "itself, is far too tight, or has small pieces on it, such as buttons, "
-                                                "may have none"));
+                                              : "cloth that passes through itself, is far too tight, or has small "
+                                                "pieces on it, such as buttons, may have no rest, and quality draft "
+                                                "looks for none"));
     for (std::size_t i = 0; i < names.size(); ++i)
         if (end.is_worn(i))
             warn_of_worn(warnings, names[i], end, i);

@@ -158,8 +158,8 @@ TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
     EXPECT_EQ(
         warnings_of(scene),
         (Lines { "the cloth is not at rest: forces on it are out of balance by 35 % of its weight on the mean; "
-                 "quality draft does not look for rest, and cloth that passes through itself, is far too tight, or "
-                 "has small pieces on it, such as buttons, may have none",
+                 "cloth that passes through itself, is far too tight, or has small pieces on it, such as buttons, may "
+                 "have no rest, and quality draft looks for none",
                  "skirt was made 8% larger",
                  "a piece of skirt went 120 mm away from the cloth that it lay on; join its border to that cloth "
                  "in the garment's file",
