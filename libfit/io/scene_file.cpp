@@ -14,6 +14,7 @@
 #include <assimp/scene.h>
 
 #include "bind_spaces.h"
+#include "geometric_transforms.h"
 #include "gltf_model.h"
 #include "run_apart.h"
 
@@ -47,17 +48,25 @@ bool is_collada(std::string_view bytes)
 }
 
 /// Throws what Assimp throws, and its messages as std::runtime_error.
-std::string convert(const FileBytes& file)
+std::unique_ptr<aiScene> read(const FileBytes& file, bool with_pivots)
 {
     Assimp::Importer importer;
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // else each joint is a chain of nodes
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, with_pivots);  // each joint is a chain of nodes
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.ReadFileFromMemory(file.bytes.data(), file.bytes.size(),
                                 aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_LimitBoneWeights,
                                 is_fbx(file.bytes) ? "fbx" : "dae");
-    const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+    std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
     if (!scene)
         throw std::runtime_error(importer.GetErrorString());
+    return scene;
+}
+
+std::string convert(const FileBytes& file)
+{
+    const std::unique_ptr<aiScene> scene = read(file, false);
+    if (is_fbx(file.bytes))
+        apply_geometric_transforms(*read(file, true), *scene);
     restore_bind_shapes(*scene);
     unify_bind_spaces(*scene);
     Assimp::Exporter exporter;

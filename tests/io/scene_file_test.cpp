@@ -67,6 +67,91 @@ const std::string k_collada = R"(<?xml version="1.0" encoding="utf-8"?>
  <scene><instance_visual_scene url="#s"/></scene>
 </COLLADA>)";
 
+/// A triangle whose node is turned, and which lies beside the origin of that node.
+std::string fbx(const std::string& objects, const std::string& connections)
+{
+    return R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+ FBXHeaderVersion: 1003
+ FBXVersion: 7400
+}
+Objects:  {
+ Geometry: 1000, "Geometry::triangle", "Mesh" {
+  Vertices: *9 {
+   a: 0,0,0,1,0,0,0,0,1
+  }
+  PolygonVertexIndex: *3 {
+   a: 0,1,-3
+  }
+ }
+ Model: 2000, "Model::beside", "Mesh" {
+  Version: 232
+  Properties70:  {
+   P: "GeometricTranslation", "Vector3D", "Vector", "",10,0,0
+   P: "Lcl Rotation", "Lcl Rotation", "", "A",-90,0,0
+  }
+ }
+)" + objects
+        + R"(}
+Connections:  {
+ C: "OO",2000,0
+ C: "OO",1000,2000
+)" + connections
+        + "}\n";
+}
+
+TEST_F(SceneFile, TheGeometricTransformOfFbxMovesTheMeshAndNoChild)
+{
+    const std::string child = R"( Model: 3000, "Model::child", "Mesh" {
+  Version: 232
+  Properties70:  {
+   P: "Lcl Translation", "Lcl Translation", "", "A",0,0,5
+  }
+ }
+)";
+    const std::string connections = " C: \"OO\",3000,2000\n C: \"OO\",1000,3000\n";
+    const Positions shown = MeshFile::read(save("child.fbx", fbx(child, connections))).positions();
+    Positions expected(6, 3);
+    expected << 0, 5, 0, 1, 5, 0, 0, 6, 0, 10, 0, 0, 11, 0, 0, 10, 1, 0;
+    ASSERT_EQ(shown.rows(), expected.rows());
+    EXPECT_LT((shown - expected).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST_F(SceneFile, TheGeometricTransformOfFbxMovesASkinnedMesh)
+{
+    const std::string skin = R"( Model: 3000, "Model::joint", "LimbNode" {
+  Version: 232
+ }
+ Deformer: 4000, "Deformer::", "Skin" {
+  Version: 101
+ }
+ Deformer: 5000, "SubDeformer::", "Cluster" {
+  Version: 100
+  Indexes: *3 {
+   a: 0,1,2
+  }
+  Weights: *3 {
+   a: 1,1,1
+  }
+  Transform: *16 {
+   a: 1,0,0,0,0,0,-1,0,0,1,0,0,0,0,0,1
+  }
+  TransformLink: *16 {
+   a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1
+  }
+ }
+)";
+    const std::string connections = " C: \"OO\",3000,0\n C: \"OO\",4000,1000\n C: \"OO\",5000,4000\n"
+                                    " C: \"OO\",3000,5000\n";
+    const std::filesystem::path file = save("skin.fbx", fbx(skin, connections));
+    ASSERT_TRUE(has_skin(file));
+    Positions expected(3, 3);
+    expected << 10, 0, 0, 11, 0, 0, 10, 1, 0;
+    const Positions shown = MeshFile::read(file).positions();
+    ASSERT_EQ(shown.rows(), expected.rows());
+    EXPECT_LT((shown - expected).cwiseAbs().maxCoeff(), 1e-5) << shown;
+}
+
 TEST_F(SceneFile, ColladaIsReadWithItsNodesAndWrittenAsGlb)
 {
     const MeshFile mesh = MeshFile::read(save("square.dae", k_collada));
