@@ -48,7 +48,7 @@ inline Vec3 separation(const std::array<double, 4>& weights, const Corners& x)
 /// Longest travel of one primitive against the other, without their common motion.
 double relative_travel(PairKind kind, const Corners& displacements);
 
-/// What a single motion must leave of a distance: a fifth of what exceeds the minimum; below the minimum nine tenths,
+/// What a single motion must leave of a distance: half of what exceeds the minimum; below the minimum nine tenths,
 /// and nearly everything below a hundredth of it. The table in docs/cloth.md says the same.
 double required_distance(double distance, double min_distance);
 
