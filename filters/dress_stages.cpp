@@ -569,7 +569,7 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
 bool is_caught(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
-    return end && outcome_of(*end) != Outcome::done && any_garment(*end, is_torn);
+    return end && outcome_of(*end) != Outcome::done && first_garment(*end, is_torn);
 }
 
 Parameters in_smaller_steps(Parameters parameters)

@@ -56,7 +56,7 @@ End end_of(const Scene& scene)
         return End::refused;
     if (outcome_of(*end) != Outcome::done)
         return outcome_of(*end) == Outcome::too_small ? End::too_small : End::not_certified;
-    return any_garment(*end, is_torn) || any_garment(*end, has_slipped_down) ? End::torn_or_slipped : End::worn;
+    return first_garment(*end, is_torn) || first_garment(*end, has_slipped_down) ? End::torn_or_slipped : End::worn;
 }
 
 // The garment with the tightest part, or the one that was put on last; without an end, the one that was refused.
@@ -100,7 +100,7 @@ std::string reason_against(const Scene& scene, std::size_t garment)
         return explain(end, names_of(scene));
     if (const double size = size_of(scene, garment); is_another_size(size))
         return "it has to be " + std::to_string(std::lround(100 * (size - 1))) + "% larger";
-    return any_garment(end, is_torn) ? "the cloth is stretched too far" : "it slips down";
+    return first_garment(end, is_torn) ? "the cloth is stretched too far" : "it slips down";
 }
 
 // Both then count for the second one, which keeps the more probable name.
@@ -149,14 +149,6 @@ bool dress_anew(Scene& scene, const DressingSteps& steps)
     });
 }
 
-std::optional<std::size_t> first_slipped(const Dressing& end)
-{
-    for (std::size_t i = 0; i < end.garments.size(); ++i)
-        if (has_slipped(end, i))
-            return i;
-    return {};
-}
-
 // A garment whose size is wrong, and other sizes for it.
 struct WrongSize {
     std::size_t garment;
@@ -170,14 +162,14 @@ std::optional<WrongSize> find_wrong_size(const Scene& scene, std::size_t refused
         return WrongSize { garment_at_fault(scene, refused), k_larger_sizes };
     if (end == End::not_certified)
         return {};
-    const std::optional<std::size_t> slipped = first_slipped(*final_dressing(scene));
+    const std::optional<std::size_t> slipped = first_garment(*final_dressing(scene), has_slipped);
     return slipped ? std::optional(WrongSize { *slipped, k_smaller_sizes }) : std::nullopt;
 }
 
 bool stays_on(const Scene& scene)
 {
     const Dressing& end = *final_dressing(scene);
-    return furthest_slip(end) < k_stays && !any_garment(end, has_slipped) && !any_garment(end, has_lost_a_piece);
+    return furthest_slip(end) < k_stays && !first_garment(end, has_slipped) && !first_garment(end, has_lost_a_piece);
 }
 
 // Of skirts and the like, either side may come out in front.

@@ -57,7 +57,7 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters);
 
 /// Whether what did not end well was caught on the way: what is too small is drawn out evenly.
 bool is_caught(const Scene& scene);
-/// In them cloth may not be caught.
+/// Of putting on and moving, in which cloth may not be caught.
 Parameters in_smaller_steps(Parameters parameters);
 /// Enlarges the garments whose size is a guess, as their files have no unit, where cloth holds parts of the body back.
 /// @param size  DrapeOptions::size

@@ -102,12 +102,12 @@ bool is_torn(const Dressing& dressing, std::size_t garment)
     return stretch.largest > k_torn && stretch.longer * dressing.to_human_size > k_torn_length;
 }
 
-bool any_garment(const Dressing& dressing, bool (*is)(const Dressing&, std::size_t))
+std::optional<std::size_t> first_garment(const Dressing& dressing, bool (*is)(const Dressing&, std::size_t))
 {
     for (std::size_t i = 0; i < dressing.garments.size(); ++i)
         if (is(dressing, i))
-            return true;
-    return false;
+            return i;
+    return {};
 }
 
 bool is_drawn_out(const Dressing& dressing, std::size_t garment)

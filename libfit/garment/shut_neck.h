@@ -18,10 +18,10 @@ struct Trunk {
 };
 
 /// The cloth that closes a neck: at the top of the trunk, or below a hood, a smooth round patch inside a crease, a collar
-/// or a groove. No body passes there, and no pit or flat end shows where one should. Patches are grown from places in the middle, over
-/// faces less and less alike; where one hardly grows from one limit to the next, a crease holds it (maximally stable
-/// regions [matas_2004_mser], of directions in place of grey values). Of these the largest round one is the neck; empty
-/// without any, as of shoulders without a collar.
+/// or a groove. No body passes there, and no pit or flat end shows where one should. Patches are grown from places in the
+/// middle, over faces less and less alike; where one hardly grows from one limit to the next, a crease holds it
+/// (maximally stable regions [matas_2004_mser], of directions in place of grey values). Of these the largest round one
+/// is the neck; empty without any, as of shoulders without a collar.
 /// Cost: some hundred walks over the top of the cloth.
 /// @param cloth  oriented outwards
 std::vector<int> find_shut_neck(const TriangleMesh& cloth, const Trunk& trunk);

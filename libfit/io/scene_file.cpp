@@ -51,7 +51,8 @@ bool is_collada(std::string_view bytes)
 std::unique_ptr<aiScene> read(const FileBytes& file, bool with_pivots)
 {
     Assimp::Importer importer;
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, with_pivots);  // each joint is a chain of nodes
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
+                             with_pivots);  // with them, a joint is a chain of nodes
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.ReadFileFromMemory(file.bytes.data(), file.bytes.size(),
                                 aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_LimitBoneWeights,

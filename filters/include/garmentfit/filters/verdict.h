@@ -55,8 +55,8 @@ bool has_lost_a_piece(const Dressing& dressing, std::size_t garment);
 /// Whether an edge is drawn out to several times its length: it is caught on something. Short ones are pinched, such as
 /// those of a button's rim.
 bool is_torn(const Dressing& dressing, std::size_t garment);
-/// Whether any garment is.
-bool any_garment(const Dressing& dressing, bool (*is)(const Dressing&, std::size_t));
+/// The first garment of which one of these is true; none where it is true of none.
+std::optional<std::size_t> first_garment(const Dressing& dressing, bool (*is)(const Dressing&, std::size_t));
 /// Whether an edge is far longer than at rest, or triangles have gained much area: cloth that is caught, and no dressing,
 /// though nothing crosses.
 bool is_drawn_out(const Dressing& dressing, std::size_t garment);
