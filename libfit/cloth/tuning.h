@@ -237,9 +237,7 @@ inline constexpr int k_most_obstacle_motions = 20, k_most_converging_steps = 30,
 
 /// Fraction that a motion must leave of what a distance exceeds the minimum by. Where it is small, cloth that comes
 /// straight at other cloth is pinched at once, and caught there; where it is large, everything takes more motions.
-/// fitted: guess; of seven clothes of strangers that get caught, 3, 5, 5, 6 and 4 are worn with 0.2, 0.35, 0.5, 0.65 and
-/// 0.8, of 14 of one collection on a heavy man 8, 9 and 7 with 0.2, 0.5 and 0.65, on a muscular one 12 and 14 with 0.2
-/// and 0.5.
+/// fitted: guess, on clothes of strangers that get caught (docs/decisions/0056-half-a-distance.md).
 inline constexpr double k_kept_above_minimum = 0.5;
 /// Fraction that a motion must leave of a distance below the minimum.
 /// fitted: guess, on the house data.
