@@ -569,12 +569,19 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
 bool is_caught(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
-    return end && outcome_of(*end) != Outcome::done && first_garment(*end, is_torn);
+    if (!end || outcome_of(*end) == Outcome::done)
+        return false;
+    return first_garment(*end, is_torn) || (is_held_back(*end) && end->overlaps.empty());
 }
 
-Parameters in_smaller_steps(Parameters parameters)
+Parameters growing_slowly(Parameters parameters)
 {
     parameters.drape.growing_steps *= k_slower;
+    return parameters;
+}
+
+Parameters moving_slowly(Parameters parameters)
+{
     parameters.recover.largest_steps *= k_slower;
     parameters.recover.step_length /= k_slower;
     return parameters;
@@ -583,7 +590,7 @@ Parameters in_smaller_steps(Parameters parameters)
 bool loosen(Scene& scene, double size)
 {
     const Dressing* end = final_dressing(scene);
-    if (!end || outcome_of(*end) != Outcome::not_certified || end->out_of_time || end->held_back.empty())
+    if (!end || !is_held_back(*end))
         return false;
     bool any = false;
     for (GarmentInput& garment : scene.garments)

@@ -161,10 +161,14 @@ void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameter
     run_changed(give_up_stand_ins, stages, scene, parameters, progress);
     run_changed(find_linings, stages, scene, parameters, progress,
                 is_too_small(scene) ? Outcome::done : Outcome::too_small);
+    const Parameters slowly = growing_slowly(parameters);
+    if (stages.front() <= Stage::drape)
+        run_changed(is_caught, stages, scene, slowly, progress, Outcome::done);
+    if (stages.back() == Stage::recover)
+        run_changed(is_caught, stages, scene, moving_slowly(slowly), progress, Outcome::done);
     for (const double size : k_looser_sizes)
         run_changed([&](Scene& other) { return loosen(other, size); }, stages, scene, parameters, progress,
                     Outcome::done);
-    run_changed(is_caught, stages, scene, in_smaller_steps(parameters), progress, Outcome::done);
 }
 
 void run_larger(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)

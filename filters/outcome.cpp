@@ -201,6 +201,11 @@ Outcome outcome_of(const Dressing& end)
 
 bool is_pressed(const Dressing& end) { return end.certified && !end.held_back.empty(); }
 
+bool is_held_back(const Dressing& end)
+{
+    return outcome_of(end) == Outcome::not_certified && !end.out_of_time && !end.held_back.empty();
+}
+
 std::string explain(const Dressing& end, const std::vector<std::string>& names)
 {
     return outcome_of(end) == Outcome::too_small ? why_too_small(end, names) : why_not_certified(end, names);

@@ -55,10 +55,12 @@ void take_as_given(GarmentInput& garment);
 /// there are any, and all may be enlarged so far
 bool enlarge_too_small(Scene& scene, const Parameters& parameters);
 
-/// Whether what did not end well was caught on the way: what is too small is drawn out evenly.
+/// Whether what did not end well was caught on the way: it is drawn out at one place, as what is too small is not, or
+/// holds back a body that does not cross itself.
 bool is_caught(const Scene& scene);
-/// Of putting on and moving, in which cloth may not be caught.
-Parameters in_smaller_steps(Parameters parameters);
+/// Putting on, or moving, in smaller steps, in which cloth may not be caught.
+Parameters growing_slowly(Parameters parameters);
+Parameters moving_slowly(Parameters parameters);
 /// Enlarges the garments whose size is a guess, as their files have no unit, where cloth holds parts of the body back.
 /// @param size  DrapeOptions::size
 /// @return whether there are any

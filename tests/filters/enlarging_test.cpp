@@ -45,7 +45,7 @@ TEST(Enlarging, AGarmentThatIsTooSmallInTheEndIsEnlargedWhereThatIsAllowed)
     EXPECT_FALSE(enlarge_too_small(fits, parameters));
 }
 
-TEST(SmallerSteps, AreTakenWhereClothIsDrawnOutAtOnePlace)
+TEST(SmallerSteps, AreTakenWhereClothIsCaught)
 {
     Scene scene = tight_scene(1, 0.1);
     EXPECT_FALSE(is_caught(scene)) << "it is too small everywhere";
@@ -56,13 +56,21 @@ TEST(SmallerSteps, AreTakenWhereClothIsDrawnOutAtOnePlace)
     EXPECT_TRUE(is_caught(scene));
     scene.recovered->too_tight.clear();
     EXPECT_TRUE(is_caught(scene)) << "not certified";
+    scene.recovered->overstretches.clear();
+    EXPECT_FALSE(is_caught(scene)) << "the cloth crosses itself, say";
+    scene.recovered->held_back = { { "chest", 0.02 } };
+    EXPECT_TRUE(is_caught(scene)) << "it holds the body back";
+    scene.recovered->overlaps = { { "chest", "left upper arm", 0.02 } };
+    EXPECT_FALSE(is_caught(scene)) << "no cloth fits between them";
     scene.recovered->certified = true;
     EXPECT_FALSE(is_caught(scene));
     scene.recovered.reset();
     EXPECT_FALSE(is_caught(scene));
 
-    const Parameters given, smaller = in_smaller_steps(given);
-    EXPECT_GT(smaller.drape.growing_steps, given.drape.growing_steps);
+    const Parameters given, slowly = growing_slowly(given), smaller = moving_slowly(slowly);
+    EXPECT_GT(slowly.drape.growing_steps, given.drape.growing_steps);
+    EXPECT_EQ(slowly.recover.step_length, given.recover.step_length);
+    EXPECT_EQ(smaller.drape.growing_steps, slowly.drape.growing_steps);
     EXPECT_LT(smaller.recover.step_length, given.recover.step_length);
     EXPECT_NEAR(smaller.recover.step_length * smaller.recover.largest_steps,
                 given.recover.step_length * given.recover.largest_steps, 1e-12)

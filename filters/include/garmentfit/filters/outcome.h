@@ -22,6 +22,8 @@ bool all_put_on(const Scene& scene);
 Outcome outcome_of(const Dressing& dressing);
 /// Whether it is certified on skin that cloth presses in (RecoverOptions::press): the parts are in `held_back`.
 bool is_pressed(const Dressing& dressing);
+/// Whether it is not certified, though there was time, and cloth keeps parts of the body from their places.
+bool is_held_back(const Dressing& dressing);
 /// Flat caps at the ends of a garment, which are taken for openings; 0 before it is fitted or put on.
 int closed_ends(const Scene& scene, std::size_t garment);
 
