@@ -566,6 +566,24 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
     return true;
 }
 
+bool may_be_worn_in_the_end(const Scene& scene)
+{
+    const Dressing* end = final_dressing(scene);
+    return end && outcome_of(*end) != Outcome::done && !(is_held_back(*end) && !end->overlaps.empty());
+}
+
+Parameters putting_on_softly(Parameters parameters)
+{
+    const Material soft = material_of(k_put_on_as);
+    ClothOptions& cloth = parameters.drape.cloth;
+    cloth.stretch_stiffness = soft.stretch_stiffness;
+    cloth.weft_to_warp = soft.weft_to_warp;
+    cloth.shear_stiffness = soft.shear_stiffness;
+    cloth.bend_stiffness = soft.bend_stiffness;
+    cloth.largest_stretch = soft.largest_stretch;
+    return parameters;
+}
+
 bool is_caught(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);

@@ -158,13 +158,16 @@ void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters&
 
 void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
+    const bool puts_on = stages.front() <= Stage::drape, moves = stages.back() == Stage::recover;
     run_changed(give_up_stand_ins, stages, scene, parameters, progress);
+    if (puts_on && moves)
+        run_changed(may_be_worn_in_the_end, stages, scene, putting_on_softly(parameters), progress, Outcome::done);
     run_changed(find_linings, stages, scene, parameters, progress,
                 is_too_small(scene) ? Outcome::done : Outcome::too_small);
     const Parameters slowly = growing_slowly(parameters);
-    if (stages.front() <= Stage::drape)
+    if (puts_on)
         run_changed(is_caught, stages, scene, slowly, progress, Outcome::done);
-    if (stages.back() == Stage::recover)
+    if (moves)
         run_changed(is_caught, stages, scene, moving_slowly(slowly), progress, Outcome::done);
     for (const double size : k_looser_sizes)
         run_changed([&](Scene& other) { return loosen(other, size); }, stages, scene, parameters, progress,

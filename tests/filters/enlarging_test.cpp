@@ -77,6 +77,24 @@ TEST(SmallerSteps, AreTakenWhereClothIsCaught)
         << "they lead as far";
 }
 
+TEST(SoftCloth, IsPutOnWhereAGarmentMayStillBeWorn)
+{
+    Scene scene = tight_scene(1, 0.1);
+    EXPECT_TRUE(may_be_worn_in_the_end(scene)) << "it is too small in this pose";
+    scene.recovered->too_tight.clear();
+    scene.recovered->held_back = { { "chest", 0.02 } };
+    EXPECT_TRUE(may_be_worn_in_the_end(scene));
+    scene.recovered->overlaps = { { "chest", "left upper arm", 0.02 } };
+    EXPECT_FALSE(may_be_worn_in_the_end(scene)) << "no cloth fits between them";
+    scene.recovered->certified = true;
+    EXPECT_FALSE(may_be_worn_in_the_end(scene)) << "it is worn";
+
+    const Parameters given, soft = putting_on_softly(given);
+    EXPECT_LT(material_of(soft.drape.cloth).stretch_stiffness, material_of(given.drape.cloth).stretch_stiffness);
+    EXPECT_EQ(material_of(soft.recover.cloth).stretch_stiffness, material_of(given.recover.cloth).stretch_stiffness);
+    EXPECT_EQ(material_of(soft.recover.cloth).largest_stretch, material_of(given.recover.cloth).largest_stretch);
+}
+
 TEST(Enlarging, AGarmentWithoutAUnitThatHoldsTheBodyBackIsLoosened)
 {
     Scene scene = tight_scene(1, 0);
