@@ -16,6 +16,7 @@
 #include "bind_spaces.h"
 #include "geometric_transforms.h"
 #include "gltf_model.h"
+#include "levels_of_detail.h"
 #include "run_apart.h"
 
 namespace garmentfit {
@@ -70,6 +71,7 @@ std::string convert(const FileBytes& file)
         apply_geometric_transforms(*read(file, true), *scene);
     restore_bind_shapes(*scene);
     unify_bind_spaces(*scene);
+    keep_finest_levels(*scene);
     Assimp::Exporter exporter;
     const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2");
     if (!glb)

@@ -117,6 +117,34 @@ TEST_F(SceneFile, TheGeometricTransformOfFbxMovesTheMeshAndNoChild)
     EXPECT_LT((shown - expected).cwiseAbs().maxCoeff(), 1e-5);
 }
 
+TEST_F(SceneFile, OfLevelsOfDetailTheFinestIsRead)
+{
+    // the triangle of `fbx`, four times more: a shirt of three levels, and trousers of which only the second is there
+    std::string objects, connections;
+    const std::vector<std::string> names { "shirt_LOD0", "shirt_LOD1", "shirt_lod2", "trousers_LOD1" };
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string node = std::to_string(3000 + i), mesh = std::to_string(4000 + i);
+        objects += " Geometry: " + mesh + ", \"Geometry::" + names[i] + R"(", "Mesh" {
+  Vertices: *9 {
+   a: 0,0,)" + std::to_string(i)
+            + R"(,1,0,0,0,0,1
+  }
+  PolygonVertexIndex: *3 {
+   a: 0,1,-3
+  }
+ }
+ Model: )" + node
+            + ", \"Model::" + names[i] + "\", \"Mesh\" {\n  Version: 232\n }\n";
+        connections += " C: \"OO\"," + node + ",0\n C: \"OO\"," + mesh + "," + node + "\n";
+    }
+    const MeshFile file = MeshFile::read(save("levels.fbx", fbx(objects, connections)));
+    std::vector<std::string> shown;
+    for (const MeshPart& part : file.parts())
+        shown.push_back(part.node);
+    EXPECT_EQ(file.triangles().rows(), 3);
+    EXPECT_EQ(shown, (std::vector<std::string> { "beside_geometry", "shirt_LOD0", "trousers_LOD1" }));
+}
+
 TEST_F(SceneFile, TheGeometricTransformOfFbxMovesASkinnedMesh)
 {
     const std::string skin = R"( Model: 3000, "Model::joint", "LimbNode" {
