@@ -14,6 +14,7 @@
 #include "quantile.h"
 #include "surface_measures.h"
 #include "tuning.h"
+#include "used_vertices.h"
 #include "weld.h"
 
 namespace garmentfit {
@@ -54,10 +55,17 @@ std::vector<std::vector<int>> Caps::find_fans()
     for (int f = 0; f < int(faces_.rows()); ++f)
         for (const int v : faces_.row(f))
             faces_at[v].push_back(f);
-    for (const std::vector<int>& faces : faces_at) {
-        if (faces.size() < k_fan_faces)
+    for (int v = 0; v < int(faces_at.size()); ++v) {
+        const std::vector<int>& faces = faces_at[v];
+        if (faces.size() < k_funnel_faces)
             continue;
         const Region fan = region_with(faces);
+        if (is_funnel(fan, v)) {
+            fans.push_back(faces);
+            continue;
+        }
+        if (faces.size() < k_fan_faces)
+            continue;
         const bool is_even = std::all_of(faces.begin(), faces.end(), [&](int f) {
             return std::abs(areas_[f].stableNormalized().dot(fan.area.stableNormalized())) > k_fan_cosine;
         });
@@ -66,6 +74,29 @@ std::vector<std::vector<int>> Caps::find_fans()
             fans.push_back(faces);
     }
     return fans;
+}
+
+bool Caps::is_funnel(const Region& fan, int apex) const
+{
+    if (!is_hole(fan, k_funnel_depth) || roundness_of(fan) < k_funnel_roundness)
+        return false;
+    const std::vector<int> vertices = used_vertices(faces_(fan.faces, Eigen::all));
+    const Vec3 middle = (positions_(vertices, Eigen::all).colwise().sum() - positions_.row(apex)).transpose()
+        / double(vertices.size() - 1);
+    const Vec3 down = positions_.row(apex).transpose() - middle;
+    const double depth = down.dot(fan.area.normalized());
+    if (std::abs(depth) < k_funnel_sunk * std::sqrt(fan.area.norm()))
+        return false;
+    const Vec3 inwards = depth * fan.area;  // of which only the direction counts
+    int near = 0, inside = 0;  // vertices of the cloth around
+    for (Eigen::Index v = 0; v < positions_.rows(); ++v) {
+        const Vec3 away = positions_.row(v).transpose() - middle;
+        if (away.norm() > k_funnel_reach * fan.girth || std::binary_search(vertices.begin(), vertices.end(), int(v)))
+            continue;
+        ++near;
+        inside += away.dot(inwards) > 0;
+    }
+    return inside > k_funnel_inside * near;
 }
 
 std::vector<std::vector<int>> Caps::find_filled(const std::vector<std::vector<int>>& caps)

@@ -44,6 +44,9 @@ private:
     /// may be as flat as at a neck.
     std::vector<std::vector<int>> find_fans();
 
+    /// A fan that is sunk into the tube which it closes: cloth that goes in is a fold, and has cloth on both sides.
+    bool is_funnel(const Region& fan, int apex) const;
+
     /// Holes that were filled with triangles from rim to rim: discs of long edges in which no vertex lies. Large flat
     /// parts of open cloth may look the same, but are neither as round nor of as many triangles.
     std::vector<std::vector<int>> find_filled(const std::vector<std::vector<int>>& caps);

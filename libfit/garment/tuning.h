@@ -74,6 +74,14 @@ inline constexpr double k_cap_border = 0.05;
 inline constexpr std::size_t k_fan_faces = 16;
 /// fitted: guess. Cosine between each face of a fan and the whole. A corner of a cap has faces of the tube, too.
 inline constexpr double k_fan_cosine = 0.5;
+/// fitted: guesses, on eleven ends of six clothes of an avatar maker and of a viewer. Faces of a fan that is sunk into
+/// its tube, at least (12 to 28), and its area as a share of a disc of the same girth (.71 to .97). Depth, as a share of
+/// the root of its area: at most (.96), and that of the middle below the rim, at least (.13 to .93).
+inline constexpr std::size_t k_funnel_faces = 12;
+inline constexpr double k_funnel_roundness = 0.6, k_funnel_depth = 1.2, k_funnel_sunk = 0.1;
+/// fitted: likewise. Vertices as far from the middle of the rim, in girths, are the cloth around, and at least this
+/// share of them is on the side to which the fan is sunk (.68 to 1).
+inline constexpr double k_funnel_reach = 0.5, k_funnel_inside = 0.65;
 /// fitted: guess. Sum over the outline of a cap, signed by the side on which the cloth around it is, as a share.
 inline constexpr double k_fan_outline = 0.6;
 /// fitted: guess, on two T-shirts and trousers whose openings were filled. Edges in a filled hole, from rim to rim, and

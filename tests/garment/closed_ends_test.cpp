@@ -84,6 +84,41 @@ TEST(ClosedEnds, AreOpenedHoweverTheirHolesWereFilled)
         }
 }
 
+TEST(ClosedEnds, AreOpenedWhereAFanIsSunkIntoTheTube)
+{
+    const TriangleMesh open = tube(Cap::none, Cap::none, 0, 12);
+    for (const double depth : { 0.03, 0.1, 0.18 }) {
+        TriangleMesh capped = tube(Cap::none, Cap::around_centre, 0, 12);
+        const Eigen::Index centre = 12 * k_rows + 1;
+        capped.positions(centre, 1) -= depth;
+        EXPECT_EQ(opened(capped).garment.triangles, open.triangles) << depth;
+        capped.positions(centre, 1) += 2 * depth;  // the tip of a hood, say
+        EXPECT_EQ(opened(capped).closed_ends, 0) << depth;
+    }
+}
+
+TEST(ClosedEnds, AStarOfTrianglesInTheClothIsNone)
+{
+    // a sheet with a star of twelve triangles in a pit, around which the cloth goes on to all sides
+    constexpr int around = 12, rings = 6;
+    TriangleMesh sheet { Positions(around * rings + 1, 3), Triangles(around * (2 * rings - 1), 3) };
+    int f = 0;
+    sheet.positions.row(0) << 0, -0.03, 0;
+    for (int i = 0; i < rings; ++i)
+        for (int k = 0; k < around; ++k) {
+            const double angle = 2 * std::numbers::pi * k / around, radius = 0.1 * (i + 1);
+            const int here = 1 + i * around + k, next = 1 + i * around + (k + 1) % around;
+            sheet.positions.row(here) << radius * std::cos(angle), 0, radius * std::sin(angle);
+            if (i == 0)
+                sheet.triangles.row(f++) << 0, here, next;
+            else
+                sheet.triangles.row(f++) << here - around, here, next;
+            if (i > 0)
+                sheet.triangles.row(f++) << here - around, next, next - around;
+        }
+    EXPECT_EQ(opened(sheet).closed_ends, 0);
+}
+
 TEST(ClosedEnds, OfAnOpenGarmentAreNone)
 {
     const TriangleMesh open = tube(Cap::none, Cap::none);
