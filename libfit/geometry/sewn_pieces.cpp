@@ -34,11 +34,17 @@ struct Piece {
     int garment = 0;
     int euler_characteristic = 0;
     double thickness = 0;  // m, of a panel whose border is a rim; 0 for a single sheet
+    double area = 0;  // m^2
 
     /// Whether it is a disc, through which no limb can pass: nothing of that kind and size is worn by itself.
     bool is_patch() const { return euler_characteristic == 1 && size() <= k_patch; }
     /// Whether cloth may pass through it.
     bool is_ring() const { return euler_characteristic <= 0; }
+    /// Whether it hangs on what it touches, as drawstrings, ribbons and pulls of zips do: nobody wears it by itself.
+    bool is_pendant() const
+    {
+        return !is_ring() && (size() <= k_largest_detail || area < k_strand_area * size() * size());
+    }
     double size() const { return box.diagonal().norm(); }
 };
 
@@ -111,6 +117,9 @@ std::vector<Piece> collect_pieces(const GarmentMesh& rest, const MeshTopology& t
         is_open[row_of[sets.root(topology.edges()(edge, 0))]] = 1;
     for (std::size_t p = 0; p < pieces.size(); ++p)
         pieces[p].thickness = panel_thickness(pieces[p], rest, is_open[p]);
+    for (Piece& piece : pieces)
+        for (const int f : piece.triangles)
+            piece.area += area_vector(rest.positions, rest.triangles, f).norm();
     for (int edge = 0; edge < int(topology.edges().rows()); ++edge) {
         const int a = topology.edges()(edge, 0), b = topology.edges()(edge, 1);
         Piece& piece = pieces[row_of[sets.root(a)]];
@@ -456,7 +465,8 @@ std::vector<Tie> find_hold(const Piece& piece, const std::vector<Foot>& feet, co
         if (rule.applies && !border.empty() && double(border.size()) >= rule.share * double(piece.border.size()))
             return border;
     }
-    return {};
+    const std::vector<Tie> touching = lies_within(k_along_distance, false);
+    return !is_seamed && piece.is_pendant() && touching.size() >= k_least_seam ? touching : std::vector<Tie>();
 }
 
 bool is_held_by_back(const std::vector<Tie>& hold, const Piece& piece)

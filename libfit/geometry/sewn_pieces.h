@@ -11,6 +11,7 @@
 // Held  its border lies on the surface of the other, or its back does: nearly all of a piece that is small, or all of a
 //       larger one much closer. What lies on the other is tied. Patches (discs, such as pockets) are
 //       held by half of their border, and from further away: no limb passes through them, so nothing else holds them.
+//       A drawstring or a pull, which would fall off, hangs where it touches.
 //
 // The border of a panel with thickness, which is closed, is its rim: the sharp edges between and about its two sheets.
 //

@@ -162,6 +162,10 @@ inline constexpr double k_along_distance = 3e-3, k_along_share = 0.6;
 /// fitted: guess; all pieces of the wild data of that kind are small ones.
 inline constexpr double k_patch = 0.6, k_patch_share = 0.5;
 
+/// Dimensionless, area of a strand as a share of the square of its length. fitted: guess; a drawstring has 0.05, a
+/// sleeve that is not sewn on 0.7, a square 0.5.
+inline constexpr double k_strand_area = 0.15;
+
 /// m; what lies further from a larger piece is not beside it.
 /// fitted: guess.
 inline constexpr double k_beside = 0.05;

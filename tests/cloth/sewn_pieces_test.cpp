@@ -243,6 +243,34 @@ TEST(SewnPieces, SmallOnesAreTiedHoweverFarTheVerticesUnderThemAre)
 
 TEST(SewnPieces, FarFromAnyClothAreFree) { expect_counts(sheet_with_button(0.03), 2, 0, 0, 1); }
 
+/// A sheet of 38 cm on whose middle a strip of 30 cm stands on one end.
+GarmentMesh sheet_with_strip(double width, double gap)
+{
+    constexpr int rows = 31, columns = 3;
+    TriangleMesh strip { Positions(rows * columns, 3), Triangles(2 * (rows - 1) * (columns - 1), 3) };
+    int f = 0;
+    for (int i = 0; i < rows; ++i)
+        for (int k = 0; k < columns; ++k) {
+            const int here = i * columns + k;
+            strip.positions.row(here) << 0.19 + width * (0.5 * k - 0.5), gap + 0.01 * i, 0.19;
+            if (i + 1 < rows && k + 1 < columns) {
+                strip.triangles.row(f++) << here, here + 1, here + columns;
+                strip.triangles.row(f++) << here + 1, here + columns + 1, here + columns;
+            }
+        }
+    return garment_of({ flat(20, 0.02, Vec3::Zero()), strip });
+}
+
+TEST(SewnPieces, StrandsHangWhereTheyTouch)
+{
+    const GarmentMesh garment = sheet_with_strip(0.01, 0.002);
+    expect_counts(garment, 2, 0, 1, 0);
+    for (const int v : tied_vertices(sewn(garment)))
+        EXPECT_LT(garment.positions(v, 1), 0.003);
+    expect_counts(sheet_with_strip(0.01, 0.005), 2, 0, 0, 1);  // too far
+    expect_counts(sheet_with_strip(0.2, 0.002), 2, 0, 0, 1);  // no strand
+}
+
 TEST(PieceShift, IsHowFarAPieceWentFromTheClothThatItLayOn)
 {
     const GarmentMesh garment = sheet_with_button(0.004);
