@@ -55,7 +55,8 @@ void take_as_given(GarmentInput& garment);
 /// there are any, and all may be enlarged so far
 bool enlarge_too_small(Scene& scene, const Parameters& parameters);
 
-/// Whether what did not end well may do so if it is put on otherwise: nothing helps where the body crosses itself.
+/// Whether what did not end well may do so if it is put on otherwise: nothing helps where the body crosses itself, or far
+/// too much girth is missing.
 bool may_be_worn_in_the_end(const Scene& scene);
 /// Putting on as if the garments were of soft cloth that gives far. How far their own fabric gives is asked in the pose in
 /// which they are worn: in that in which they are put on, arms may hang, and pull at narrow shoulders.

@@ -81,6 +81,7 @@ TEST(SoftCloth, IsPutOnWhereAGarmentMayStillBeWorn)
 {
     Scene scene = tight_scene(1, 0.1);
     EXPECT_TRUE(may_be_worn_in_the_end(scene)) << "it is too small in this pose";
+    EXPECT_FALSE(may_be_worn_in_the_end(tight_scene(1, 0.5))) << "it is so in any";
     scene.recovered->too_tight.clear();
     scene.recovered->held_back = { { "chest", 0.02 } };
     EXPECT_TRUE(may_be_worn_in_the_end(scene));
