@@ -2,8 +2,10 @@
 #include "scenery.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "garmentfit/error.h"
+#include "garmentfit/units.h"
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
 #include "nearest.h"
@@ -36,7 +38,12 @@ std::vector<int> corners_of(const Triangles& triangles, const MeshPart& part)
     return corners;
 }
 
-/// How far parts are from what joints move.
+Eigen::AlignedBox3d box_of(const Positions& points)
+{
+    return { Vec3(points.colwise().minCoeff()), Vec3(points.colwise().maxCoeff()) };
+}
+
+/// Where parts lie beside what joints move.
 class Surroundings {
 public:
     Surroundings(const MeshFile& avatar, const std::vector<char>& is_moved) :
@@ -45,6 +52,7 @@ public:
     {
     }
 
+    /// Whether a part is away from what joints move.
     bool hold(const MeshPart& part) const
     {
         const std::vector<int> corners = corners_of(triangles_, part);
@@ -54,7 +62,55 @@ public:
             && 2 * std::count_if(corners.begin(), corners.end(), is_far) > std::ptrdiff_t(corners.size());
     }
 
+    /// Takes back what rests on the body, and what rests on that: a head that no joint moves, its eyes and its hat.
+    void take_back_resting(const std::vector<MeshPart>& parts, std::vector<char>& is_scenery) const
+    {
+        for (bool is_any_new = std::count(is_scenery.begin(), is_scenery.end(), 1) > 0; is_any_new;) {
+            is_any_new = false;
+            const std::vector<int> kept = corners_of_kept(parts, is_scenery);
+            const NearestPoint nearest(positions_(kept, Eigen::all));
+            const Vec3 up = guess_body_frame(positions_, triangles_about(kept)).frame.up;
+            for (std::size_t i = 0; i < parts.size(); ++i)
+                if (is_scenery[i] && rests_on(nearest, up, positions_(corners_of(triangles_, parts[i]), Eigen::all))) {
+                    is_scenery[i] = 0;
+                    is_any_new = true;
+                }
+        }
+    }
+
 private:
+    /// Three by three those of the triangles that are not scenery.
+    std::vector<int> corners_of_kept(const std::vector<MeshPart>& parts, const std::vector<char>& is_scenery) const
+    {
+        std::vector<int> corners;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (!is_scenery[i]) {
+                const std::vector<int> more = corners_of(triangles_, parts[i]);
+                corners.insert(corners.end(), more.begin(), more.end());
+            }
+        return corners;
+    }
+
+    static Triangles triangles_about(const std::vector<int>& corners)
+    {
+        return Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+            corners.data(), Eigen::Index(corners.size() / 3), 3);
+    }
+
+    /// Whether a part is no wider than what joints move, lies in the upper half of it or above, and touches what is kept.
+    bool rests_on(const NearestPoint& kept, const Vec3& up, const Positions& part) const
+    {
+        const Vec3 sideways = (up.array() == 0).select(Vec3::Constant(far_), Vec3::Constant(INFINITY));
+        const Eigen::AlignedBox3d body = box_of(moved_);
+        if (!Eigen::AlignedBox3d(body.min() - sideways, body.max() + sideways).contains(box_of(part))
+            || (part * up).minCoeff() < up.dot(body.center()))
+            return false;
+        for (Eigen::Index v = 0; v < part.rows(); ++v)
+            if (kept.distance(part.row(v)) < far_)
+                return true;
+        return false;
+    }
+
     std::vector<int> rows_of_moved() const
     {
         std::vector<int> rows;
@@ -109,6 +165,7 @@ std::vector<char> find_scenery(const MeshFile& avatar, const std::vector<MeshPar
         const Surroundings surroundings(avatar, is_moved);
         std::transform(parts.begin(), parts.end(), is_scenery.begin(),
                        [&](const MeshPart& part) { return char(surroundings.hold(part)); });
+        surroundings.take_back_resting(parts, is_scenery);
     } catch (const InvalidInput&) {
         // see the header
     }

@@ -148,6 +148,15 @@ TEST_F(Scenery, IsNotWhatLiesOnTheSkin)
     EXPECT_FALSE(find_body(write_with_ball(person.skeleton.tips[head_top], 0.08), Wears::keep)) << "a hat";
 }
 
+TEST_F(Scenery, IsNotWhatRestsOnTheBody)
+{
+    const double radius = 0.2;  // most of it is far from the skin
+    const Vec3 crown = person.skeleton.tips[head_top], beside(1, 0, 0);
+    EXPECT_FALSE(find_body(write_with_ball(crown + Vec3(0, 0.9 * radius, 0), radius), Wears::keep)) << "a head";
+    for (const Vec3& elsewhere : { Vec3(crown + Vec3(0, 3 * radius, 0)), Vec3(crown + beside) })
+        EXPECT_TRUE(find_body(write_with_ball(elsewhere, radius), Wears::keep)) << elsewhere.transpose();
+}
+
 /// A square in any plane.
 TriangleMesh panel(const Vec3& centre, const Vec3& side, const Vec3& other)
 {
