@@ -199,7 +199,8 @@ public:
             rename(JointKind::shoulder, "shoulder", JointKind::clavicle);
         if (count(JointKind::hip) == 0)  // "Left leg" above "Left knee", or the only bone of the leg
             rename(JointKind::knee, "leg", JointKind::hip);
-        leave_out_roots();
+        leave_out_beside_others(JointKind::pelvis, "root");  // it lies on the floor
+        leave_out_beside_others(JointKind::hip, "hip");  // "Hip.L" leads from the pelvis to where "Thigh.L" begins
         for (const JointKind kind : { JointKind::wrist, JointKind::ankle })
             if (count(kind) == 0)
                 name_stand_ins(kind);
@@ -254,15 +255,15 @@ private:
                 joints_[i]->kind = to;
     }
 
-    /// Beside hips or a pelvis, a root lies on the floor.
-    void leave_out_roots()
+    /// Names with that word mean something else beside other joints of their kind.
+    void leave_out_beside_others(JointKind kind, std::string_view token)
     {
-        std::vector<std::size_t> roots;
+        std::vector<std::size_t> named;
         for (std::size_t i = 0; i < joints_.size(); ++i)
-            if (is(i, JointKind::pelvis) && has_token(names_[i], "root"))
-                roots.push_back(i);
-        if (int(roots.size()) < count(JointKind::pelvis))
-            for (const std::size_t i : roots)
+            if (is(i, kind) && has_token(names_[i], token))
+                named.push_back(i);
+        if (int(named.size()) < count(kind))
+            for (const std::size_t i : named)
                 joints_[i].reset();
     }
 
