@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -138,7 +139,34 @@ float distance_from_joints(const std::vector<HeldSkin>& held, aiVector3D HeldSki
     return sum;
 }
 
+void list_nodes_without_mesh(const aiNode& node, std::set<std::string>& names)
+{
+    if (node.mNumMeshes == 0)
+        names.insert(node.mName.C_Str());
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        list_nodes_without_mesh(*node.mChildren[i], names);
+}
+
+void rename_meshes(const std::set<std::string>& names, aiNode& node)
+{
+    if (node.mNumMeshes > 0 && names.contains(node.mName.C_Str()))
+        node.mName = std::string(node.mName.C_Str()) + "_mesh";
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        rename_meshes(names, *node.mChildren[i]);
+}
+
 }  // namespace
+
+void rename_meshes_called_as_joints(aiScene& scene)
+{
+    std::set<std::string> others, joints;
+    list_nodes_without_mesh(*scene.mRootNode, others);
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (const aiBone* bone : bones_of(*scene.mMeshes[m]))
+            if (others.contains(bone->mName.C_Str()))
+                joints.insert(bone->mName.C_Str());
+    rename_meshes(joints, *scene.mRootNode);
+}
 
 void restore_bind_shapes(aiScene& scene)
 {

@@ -5,6 +5,10 @@ struct aiScene;
 
 namespace garmentfit {
 
+/// Gives other names to nodes of meshes that are called as a joint is: Assimp finds joints by name, and took a mesh "Arm"
+/// for the joint "Arm" that moves it.
+void rename_meshes_called_as_joints(aiScene& scene);
+
 /// Shows skinned meshes where their nodes are whose bind matrices put them far from their joints: some exporters
 /// (Blender's of COLLADA) leave the turn and scale of an armature out of them, so that a body lies, or is 100 times as
 /// large as its skeleton.

@@ -69,6 +69,7 @@ std::string convert(const FileBytes& file)
     const std::unique_ptr<aiScene> scene = read(file, false);
     if (is_fbx(file.bytes))
         apply_geometric_transforms(*read(file, true), *scene);
+    rename_meshes_called_as_joints(*scene);
     restore_bind_shapes(*scene);
     unify_bind_spaces(*scene);
     keep_finest_levels(*scene);

@@ -145,9 +145,10 @@ TEST_F(SceneFile, OfLevelsOfDetailTheFinestIsRead)
     EXPECT_EQ(shown, (std::vector<std::string> { "beside_geometry", "shirt_LOD0", "trousers_LOD1" }));
 }
 
-TEST_F(SceneFile, TheGeometricTransformOfFbxMovesASkinnedMesh)
+/// For fbx(): a joint at the origin that holds the triangle.
+std::string joint_called(const std::string& name)
 {
-    const std::string skin = R"( Model: 3000, "Model::joint", "LimbNode" {
+    return " Model: 3000, \"Model::" + name + R"(", "LimbNode" {
   Version: 232
  }
  Deformer: 4000, "Deformer::", "Skin" {
@@ -169,15 +170,31 @@ TEST_F(SceneFile, TheGeometricTransformOfFbxMovesASkinnedMesh)
   }
  }
 )";
-    const std::string connections = " C: \"OO\",3000,0\n C: \"OO\",4000,1000\n C: \"OO\",5000,4000\n"
-                                    " C: \"OO\",3000,5000\n";
-    const std::filesystem::path file = save("skin.fbx", fbx(skin, connections));
+}
+
+const std::string k_joint_connections = " C: \"OO\",3000,0\n C: \"OO\",4000,1000\n C: \"OO\",5000,4000\n"
+                                        " C: \"OO\",3000,5000\n";
+
+TEST_F(SceneFile, TheGeometricTransformOfFbxMovesASkinnedMesh)
+{
+    const std::filesystem::path file = save("skin.fbx", fbx(joint_called("joint"), k_joint_connections));
     ASSERT_TRUE(has_skin(file));
     Positions expected(3, 3);
     expected << 10, 0, 0, 11, 0, 0, 10, 1, 0;
     const Positions shown = MeshFile::read(file).positions();
     ASSERT_EQ(shown.rows(), expected.rows());
     EXPECT_LT((shown - expected).cwiseAbs().maxCoeff(), 1e-5) << shown;
+}
+
+TEST_F(SceneFile, AMeshIsNotTakenForTheJointOfItsName)
+{
+    const auto shown_by = [&](const std::string& joint) {
+        std::string file = fbx(joint_called(joint), k_joint_connections);
+        const std::string_view geometric = "GeometricTranslation";
+        file.replace(file.find(geometric), geometric.size(), "Lcl Translation");
+        return MeshFile::read(save("named.fbx", file)).positions();
+    };
+    EXPECT_EQ(shown_by("beside"), shown_by("joint"));  // "beside" is what the mesh is called
 }
 
 TEST_F(SceneFile, ColladaIsReadWithItsNodesAndWrittenAsGlb)
