@@ -150,6 +150,23 @@ Scene fitted_scene()
     return scene;
 }
 
+TEST(SoftCloth, IsWornWhereItsOwnFabricGivesEnoughInTheEnd)
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 20 });
+    const TriangleMesh tight
+        = fixtures::garment_round(person.skeleton, -0.002, [](const Vec3& p) { return p.y() > 0.7 && p.y() < 1.1; });
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    scene.garments = { { make_garment(tight.positions, tight.triangles), GarmentType::skirt, "skirt.obj" } };
+    Parameters parameters;
+    parameters.recover.quality = Quality::draft;
+    parameters.drape.cloth.largest_stretch = 0.05;  // too small for the pose in which it is put on
+    filter_of("dress").run(scene, parameters);
+    ASSERT_TRUE(scene.recovered);
+    EXPECT_EQ(outcome_of(*scene.recovered), Outcome::done);
+    EXPECT_EQ(scene.recovered->garments[0].size, 1);
+}
+
 /// A dressing whose garment, so far off the skin, ended below the left hip.
 Dressing judged_below_hip(double ease)
 {
