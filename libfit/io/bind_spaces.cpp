@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <assimp/scene.h>
-
+#include "scene_nodes.h"
 #include "tuning.h"
 
 namespace garmentfit {
@@ -139,33 +138,23 @@ float distance_from_joints(const std::vector<HeldSkin>& held, aiVector3D HeldSki
     return sum;
 }
 
-void list_nodes_without_mesh(const aiNode& node, std::set<std::string>& names)
-{
-    if (node.mNumMeshes == 0)
-        names.insert(node.mName.C_Str());
-    for (unsigned i = 0; i < node.mNumChildren; ++i)
-        list_nodes_without_mesh(*node.mChildren[i], names);
-}
-
-void rename_meshes(const std::set<std::string>& names, aiNode& node)
-{
-    if (node.mNumMeshes > 0 && names.contains(node.mName.C_Str()))
-        node.mName = std::string(node.mName.C_Str()) + "_mesh";
-    for (unsigned i = 0; i < node.mNumChildren; ++i)
-        rename_meshes(names, *node.mChildren[i]);
-}
-
 }  // namespace
 
 void rename_meshes_called_as_joints(aiScene& scene)
 {
     std::set<std::string> others, joints;
-    list_nodes_without_mesh(*scene.mRootNode, others);
+    visit_nodes(*scene.mRootNode, [&](const aiNode& node) {
+        if (node.mNumMeshes == 0)
+            others.insert(node.mName.C_Str());
+    });
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         for (const aiBone* bone : bones_of(*scene.mMeshes[m]))
             if (others.contains(bone->mName.C_Str()))
                 joints.insert(bone->mName.C_Str());
-    rename_meshes(joints, *scene.mRootNode);
+    visit_nodes(*scene.mRootNode, [&](aiNode& node) {
+        if (node.mNumMeshes > 0 && joints.contains(node.mName.C_Str()))
+            node.mName = std::string(node.mName.C_Str()) + "_mesh";
+    });
 }
 
 void restore_bind_shapes(aiScene& scene)

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <assimp/scene.h>
+#include "scene_nodes.h"
 
 namespace garmentfit {
 namespace {
@@ -33,7 +33,7 @@ struct Placement {
 /// Of nodes with a geometric transform, by name.
 using Placements = std::map<std::string, Placement>;
 
-void list_placements(const aiNode& node, Placements& placements)
+void add_placement(const aiNode& node, Placements& placements)
 {
     Placement placement;
     const aiNode* pivot = node.mParent;
@@ -44,8 +44,6 @@ void list_placements(const aiNode& node, Placements& placements)
         placement.parent_from_node = pivot->mTransformation * placement.parent_from_node;
     if (is_geometric && !is(node, k_pivot))
         placements.emplace(node.mName.C_Str(), placement);
-    for (unsigned c = 0; c < node.mNumChildren; ++c)
-        list_placements(*node.mChildren[c], placements);
 }
 
 /// Its meshes move to a child of their own.
@@ -69,7 +67,7 @@ void place(const Placement& placement, const aiScene& scene, aiNode& node)
 void apply_geometric_transforms(const aiScene& exact, aiScene& scene)
 {
     Placements placements;
-    list_placements(*exact.mRootNode, placements);
+    visit_nodes(*exact.mRootNode, [&](const aiNode& node) { add_placement(node, placements); });
     for (const auto& [name, placement] : placements)
         if (aiNode* const node = scene.mRootNode->FindNode(name.c_str()))
             place(placement, scene, *node);

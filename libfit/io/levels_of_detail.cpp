@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <assimp/scene.h>
+#include "scene_nodes.h"
 
 namespace garmentfit {
 namespace {
@@ -30,19 +30,11 @@ Level level_of(const aiNode& node)
     return { match[1], std::stoi(match[2]) };
 }
 
-template <class Visitor>
-void visit(aiNode& node, const Visitor& visitor)
-{
-    visitor(node);
-    for (unsigned i = 0; i < node.mNumChildren; ++i)
-        visit(*node.mChildren[i], visitor);
-}
-
 /// Assimp writes skins of meshes that no node shows at a node that is not there.
 void drop_unused_meshes(aiScene& scene)
 {
     std::vector<char> is_used(scene.mNumMeshes, 0);
-    visit(*scene.mRootNode, [&](const aiNode& node) {
+    visit_nodes(*scene.mRootNode, [&](const aiNode& node) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i)
             is_used[node.mMeshes[i]] = 1;
     });
@@ -56,7 +48,7 @@ void drop_unused_meshes(aiScene& scene)
         }
     }
     scene.mNumMeshes = used;
-    visit(*scene.mRootNode, [&](aiNode& node) {
+    visit_nodes(*scene.mRootNode, [&](aiNode& node) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i)
             node.mMeshes[i] = number[node.mMeshes[i]];
     });
@@ -67,7 +59,7 @@ void drop_unused_meshes(aiScene& scene)
 void keep_finest_levels(aiScene& scene)
 {
     std::map<std::string, int> finest;
-    visit(*scene.mRootNode, [&](const aiNode& node) {
+    visit_nodes(*scene.mRootNode, [&](const aiNode& node) {
         if (const Level level = level_of(node); level.number >= 0) {
             const auto [known, is_new] = finest.emplace(level.of, level.number);
             known->second = std::min(known->second, level.number);
@@ -75,7 +67,7 @@ void keep_finest_levels(aiScene& scene)
     });
     if (finest.empty())
         return;
-    visit(*scene.mRootNode, [&](aiNode& node) {
+    visit_nodes(*scene.mRootNode, [&](aiNode& node) {
         if (const Level level = level_of(node); level.number > 0 && level.number > finest[level.of]) {
             delete[] std::exchange(node.mMeshes, nullptr);
             node.mNumMeshes = 0;

@@ -9,6 +9,7 @@
 #include "gltf_skin.h"
 #include "gltf_unpack.h"
 #include "nearest.h"
+#include "part_of_mesh.h"
 #include "surface_measures.h"
 #include "tuning.h"
 
@@ -36,11 +37,6 @@ std::vector<int> corners_of(const Triangles& triangles, const MeshPart& part)
         for (int k = 0; k < 3; ++k)
             corners.push_back(triangles(f, k));
     return corners;
-}
-
-Eigen::AlignedBox3d box_of(const Positions& points)
-{
-    return { Vec3(points.colwise().minCoeff()), Vec3(points.colwise().maxCoeff()) };
 }
 
 /// Where parts lie beside what joints move.
@@ -101,8 +97,8 @@ private:
     bool rests_on(const NearestPoint& kept, const Vec3& up, const Positions& part) const
     {
         const Vec3 sideways = (up.array() == 0).select(Vec3::Constant(far_), Vec3::Constant(INFINITY));
-        const Eigen::AlignedBox3d body = box_of(moved_);
-        if (!Eigen::AlignedBox3d(body.min() - sideways, body.max() + sideways).contains(box_of(part))
+        const Box body = box_of(moved_);
+        if (!Box(body.min() - sideways, body.max() + sideways).contains(box_of(part))
             || (part * up).minCoeff() < up.dot(body.center()))
             return false;
         for (Eigen::Index v = 0; v < part.rows(); ++v)
