@@ -61,11 +61,23 @@ Vec3 level_between(const Opening& a, const Opening& b)
     return across;
 }
 
-/// Whether two openings have equal girths and equal heights, on two sides of the piece.
+bool is_long_tube(const Opening& opening) { return opening.tube_length > k_long_sleeve * opening.tube_girth; }
+
+bool are_similar(double x, double y) { return std::max(x, y) < k_pair_girths * std::min(x, y); }
+
+/// Whether two openings have equal girths, or end tubes that do: the edge of one cuff may be folded in, that of the other
+/// not.
+bool are_as_wide(const Opening& a, const Opening& b)
+{
+    return are_similar(a.girth, b.girth)
+        || (is_long_tube(a) && is_long_tube(b) && are_similar(a.tube_girth, b.tube_girth)
+            && are_similar(a.tube_waist, b.tube_waist) && are_similar(a.tube_length, b.tube_length));
+}
+
+/// Whether two openings are as wide and as high as each other, on two sides of the piece.
 bool are_alike(const Opening& a, const Opening& b)
 {
-    return std::max(a.girth, b.girth) < k_pair_girths * std::min(a.girth, b.girth)
-        && std::abs(b.centre.y() - a.centre.y()) < k_pair_lift * a.piece_height
+    return are_as_wide(a, b) && std::abs(b.centre.y() - a.centre.y()) < k_pair_lift * a.piece_height
         && level_between(a, b).norm() > k_pair_distance * std::max(a.girth, b.girth);
 }
 
@@ -159,8 +171,6 @@ bool are_beside(const Opening& a, const Opening& b, const Piece& piece)
 
 bool is_sleeve(const Opening& opening) { return opening.tube_length > k_armhole_length * opening.tube_girth; }
 
-bool is_long_tube(const Opening& opening) { return opening.tube_length > k_long_sleeve * opening.tube_girth; }
-
 /// Sleeves that hang may face anywhere; long ones come down beside the hem, and may be fused with the trunk above it.
 bool are_hanging_sleeves(const Opening& a, const Opening& b, const Piece& piece)
 {
@@ -179,7 +189,6 @@ bool are_sleeves(const Opening& a, const Opening& b, const Piece& piece)
 /// a waist only.
 bool are_posed_sleeves(const Opening& a, const Opening& b, const Piece& piece)
 {
-    const auto are_similar = [](double x, double y) { return std::max(x, y) < k_pair_girths * std::min(x, y); };
     Vec3 apart = b.tube_end - a.tube_end;
     apart.y() = 0;
     const auto is_tall = [&](const Opening& opening) {
@@ -187,7 +196,7 @@ bool are_posed_sleeves(const Opening& a, const Opening& b, const Piece& piece)
     };
     const bool has_neck_and_hem
         = piece.others.size() >= 4 || std::any_of(piece.others.begin(), piece.others.end(), is_tall);
-    return has_neck_and_hem && is_long_tube(a) && is_long_tube(b) && are_similar(a.girth, b.girth)
+    return has_neck_and_hem && is_long_tube(a) && is_long_tube(b) && are_as_wide(a, b)
         && are_similar(a.tube_length, b.tube_length) && are_narrow(a, b, piece)
         && std::min(a.tube_end.y(), b.tube_end.y()) > piece.middle
         && apart.norm() > k_shoulders_apart * std::max(a.tube_girth, b.tube_girth);

@@ -96,6 +96,21 @@ TEST(Coverage, ForearmsAreBareInShortSleevesOfWhateverType)
     EXPECT_TRUE(covers_forearms(with_cuffs(with_cuffs(k_tube, 0.1), 0.45))) << "slits in sleeves are no cuffs";
 }
 
+TEST(Coverage, CuffsArePairsWhereTheirSleevesAreAsWide)
+{
+    const auto type_with = [](double girth, double waist) {
+        std::vector<Opening> openings = k_tube;
+        openings.push_back(cuff_at(-0.5, 0.45));
+        openings.push_back(cuff_at(0.5, 0.45));
+        openings.back().girth = girth;
+        openings.back().tube_waist = waist;
+        return resolve_type(GarmentType::automatic, openings);
+    };
+    EXPECT_EQ(type_with(0.3, 0.3), GarmentType::longsleeve);
+    EXPECT_EQ(type_with(0.55, 0.3), GarmentType::longsleeve) << "the edge of one is folded in";
+    EXPECT_NE(type_with(0.55, 0.55), GarmentType::longsleeve) << "it is another tube";
+}
+
 TEST(Coverage, ACoarseWordLeavesTheKindsOfItsGroup)
 {
     using enum CoverageKind;
