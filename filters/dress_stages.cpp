@@ -569,7 +569,7 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters)
 bool may_be_worn_in_the_end(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
-    if (!end || outcome_of(*end) == Outcome::done || (is_held_back(*end) && !end->overlaps.empty()))
+    if (!end || outcome_of(*end) == Outcome::done || is_held_where_body_crosses_itself(*end))
         return false;
     return std::none_of(end->too_tight.begin(), end->too_tight.end(), [&](const TooTight& part) {
         return part.enlargement > k_hopelessly_small * end->fabric_stretches[std::size_t(part.garment)];
@@ -591,9 +591,9 @@ Parameters putting_on_softly(Parameters parameters)
 bool is_caught(const Scene& scene)
 {
     const Dressing* end = final_dressing(scene);
-    if (!end || outcome_of(*end) == Outcome::done)
+    if (!end || outcome_of(*end) == Outcome::done || is_held_where_body_crosses_itself(*end))
         return false;
-    return first_garment(*end, is_torn) || (is_held_back(*end) && end->overlaps.empty());
+    return first_garment(*end, is_torn) || is_held_back(*end);
 }
 
 Parameters growing_slowly(Parameters parameters)

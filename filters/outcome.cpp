@@ -206,6 +206,15 @@ bool is_held_back(const Dressing& end)
     return outcome_of(end) == Outcome::not_certified && !end.out_of_time && !end.held_back.empty();
 }
 
+bool is_held_where_body_crosses_itself(const Dressing& end)
+{
+    if (end.held_back.empty())
+        return false;
+    const std::string& furthest = end.held_back.front().part;
+    return std::any_of(end.overlaps.begin(), end.overlaps.end(),
+                       [&](const Overlap& overlap) { return overlap.part == furthest || overlap.other == furthest; });
+}
+
 std::string explain(const Dressing& end, const std::vector<std::string>& names)
 {
     return outcome_of(end) == Outcome::too_small ? why_too_small(end, names) : why_not_certified(end, names);

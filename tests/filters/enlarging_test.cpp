@@ -62,6 +62,10 @@ TEST(SmallerSteps, AreTakenWhereClothIsCaught)
     EXPECT_TRUE(is_caught(scene)) << "it holds the body back";
     scene.recovered->overlaps = { { "chest", "left upper arm", 0.02 } };
     EXPECT_FALSE(is_caught(scene)) << "no cloth fits between them";
+    scene.recovered->overstretches = { torn };
+    EXPECT_FALSE(is_caught(scene)) << "nor where the cloth is torn";
+    scene.recovered->overlaps = { { "left thigh", "right thigh", 0.02 } };
+    EXPECT_TRUE(is_caught(scene)) << "the body crosses itself elsewhere";
     scene.recovered->certified = true;
     EXPECT_FALSE(is_caught(scene));
     scene.recovered.reset();
@@ -87,6 +91,8 @@ TEST(SoftCloth, IsPutOnWhereAGarmentMayStillBeWorn)
     EXPECT_TRUE(may_be_worn_in_the_end(scene));
     scene.recovered->overlaps = { { "chest", "left upper arm", 0.02 } };
     EXPECT_FALSE(may_be_worn_in_the_end(scene)) << "no cloth fits between them";
+    scene.recovered->overlaps = { { "left thigh", "right thigh", 0.02 } };
+    EXPECT_TRUE(may_be_worn_in_the_end(scene)) << "the body crosses itself elsewhere";
     scene.recovered->certified = true;
     EXPECT_FALSE(may_be_worn_in_the_end(scene)) << "it is worn";
 

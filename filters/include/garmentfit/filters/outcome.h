@@ -24,6 +24,9 @@ Outcome outcome_of(const Dressing& dressing);
 bool is_pressed(const Dressing& dressing);
 /// Whether it is not certified, though there was time, and cloth keeps parts of the body from their places.
 bool is_held_back(const Dressing& dressing);
+/// Whether the part that cloth keeps furthest from its place crosses another part of the body there: no cloth fits between
+/// them, however it is put on.
+bool is_held_where_body_crosses_itself(const Dressing& dressing);
 /// Flat caps at the ends of a garment, which are taken for openings; 0 before it is fitted or put on.
 int closed_ends(const Scene& scene, std::size_t garment);
 
