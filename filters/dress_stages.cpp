@@ -175,6 +175,7 @@ void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& clo
 {
     dressing.unit = scene.unit;
     dressing.fabrics.clear();
+    dressing.guessed_fabrics.clear();
     dressing.fabric_stretches.clear();
     dressing.off_shoulders.clear();
     for (std::size_t i = 0; i < scene.garments.size(); ++i)
@@ -184,8 +185,16 @@ void write_given(const Scene& scene, Dressing& dressing, const ClothOptions& clo
         dressing.below_hips.push_back(below_hips(scene, dressing, i));
     for (const GarmentInput& garment : scene.garments) {
         dressing.fabrics.push_back(garment.fabric.value_or(cloth.fabric));
+        dressing.guessed_fabrics.push_back(garment.fabric_is_guessed);
         dressing.fabric_stretches.push_back(material_of(cloth, dressing.fabrics.back()).largest_stretch);
     }
+}
+
+/// Whether the cloth has figures that are not its fabric's.
+bool has_own_figures(const ClothOptions& cloth)
+{
+    return cloth.density || cloth.stretch_stiffness || cloth.bend_stiffness || cloth.friction || cloth.largest_stretch
+        || cloth.weft_to_warp || cloth.shear_stiffness;
 }
 
 /// The options of one garment among several.
@@ -481,6 +490,8 @@ void judge_hips(const Scene& scene, Dressing& dressing)
 
 void take_as_given(GarmentInput& garment)
 {
+    if (std::exchange(garment.fabric_is_guessed, false))
+        garment.fabric.reset();
     if (!garment.as_given)
         return;
     garment.mesh = std::move(*garment.as_given);
@@ -574,6 +585,37 @@ bool may_be_worn_in_the_end(const Scene& scene)
     return std::none_of(end->too_tight.begin(), end->too_tight.end(), [&](const TooTight& part) {
         return part.enlargement > k_hopelessly_small * end->fabric_stretches[std::size_t(part.garment)];
     });
+}
+
+void take_usual_knits(Scene& scene, const Parameters& parameters)
+{
+    const ClothOptions& cloth = parameters.recover.cloth;
+    const Dressing* end = final_dressing(scene);
+    if (!end || cloth.fabric != ClothOptions().fabric || has_own_figures(cloth))
+        return;
+    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+        GarmentInput& garment = scene.garments[i];
+        const auto usual = std::find_if(k_usual_knits.begin(), k_usual_knits.end(), [&](const UsualKnit& knit) {
+            return i < scene.fits.size() && knit.type == scene.fits[i].type;
+        });
+        if (garment.fabric || usual == k_usual_knits.end() || !is_too_small(*end, i))
+            continue;
+        garment.fabric = usual->fabric;
+        garment.fabric_is_guessed = true;
+    }
+}
+
+bool is_knit_stretched_all_over(const Scene& scene)
+{
+    const Dressing& end = *final_dressing(scene);
+    const double cotton = material_of(ClothOptions()).largest_stretch;
+    for (std::size_t i = 0; i < end.loads.size(); ++i) {
+        const auto stretched = std::count_if(end.loads[i].begin(), end.loads[i].end(),
+                                             [&](const PartLoad& load) { return load.stretch > cotton; });
+        if (scene.garments[i].fabric_is_guessed && 2 * stretched > std::ptrdiff_t(end.loads[i].size()))
+            return true;
+    }
+    return false;
 }
 
 Parameters putting_on_softly(Parameters parameters)

@@ -156,12 +156,26 @@ void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters&
     }
 }
 
+/// Puts clothes on once more as soft cloth that did not end well, and those that were too small as the knit that is usual
+/// for their type, where nothing was said of their fabric.
+void run_softly(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
+{
+    if (!may_be_worn_in_the_end(scene))
+        return;
+    Scene soft = scene;
+    take_usual_knits(soft, parameters);
+    const auto nothing = [](Scene&) { return true; };
+    if (run_changed(nothing, stages, soft, putting_on_softly(parameters), progress, Outcome::done)
+        && !is_knit_stretched_all_over(soft))
+        scene = std::move(soft);
+}
+
 void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
     const bool puts_on = stages.front() <= Stage::drape, moves = stages.back() == Stage::recover;
     run_changed(give_up_stand_ins, stages, scene, parameters, progress);
     if (puts_on && moves)
-        run_changed(may_be_worn_in_the_end, stages, scene, putting_on_softly(parameters), progress, Outcome::done);
+        run_softly(stages, scene, parameters, progress);
     run_changed(find_linings, stages, scene, parameters, progress,
                 is_too_small(scene) ? Outcome::done : Outcome::too_small);
     const Parameters slowly = growing_slowly(parameters);

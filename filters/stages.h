@@ -58,6 +58,12 @@ bool enlarge_too_small(Scene& scene, const Parameters& parameters);
 /// Whether what did not end well may do so if it is put on otherwise: nothing helps where the body crosses itself, or far
 /// too much girth is missing.
 bool may_be_worn_in_the_end(const Scene& scene);
+/// Takes garments that are too small, and of whose fabric nothing was said, to be of the knit that is usual for their type,
+/// if one is. @param parameters  as given
+void take_usual_knits(Scene& scene, const Parameters& parameters);
+/// Whether one of these is stretched by more than cotton gives round most parts of the body that it goes round: it is made
+/// for a smaller person, whatever it is of.
+bool is_knit_stretched_all_over(const Scene& scene);
 /// Putting on as if the garments were of soft cloth that gives far. How far their own fabric gives is asked in the pose in
 /// which they are worn: in that in which they are put on, arms may hang, and pull at narrow shoulders.
 Parameters putting_on_softly(Parameters parameters);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "garmentfit/cloth.h"
+#include "garmentfit/garment_type.h"
 
 namespace garmentfit {
 
@@ -169,6 +170,22 @@ inline constexpr double k_openings_up_weight = 1;
 /// The fabric that clothes are put on as, where they do not end well as their own. fitted: guess, the softest one that
 /// gives most; of nine dressings of strangers' clothes that were called too small or not certified six are worn with it
 inline constexpr Fabric k_put_on_as = Fabric::rib;
+
+/// Knits of which garments of a type mostly are. fitted: guess; nothing was counted. A top with long sleeves may be a
+/// sweater or a shirt, so it has that of the two knits which gives least.
+struct UsualKnit {
+    GarmentType type;
+    Fabric fabric;
+};
+inline constexpr std::array<UsualKnit, 9> k_usual_knits { { { GarmentType::tshirt, Fabric::jersey },
+                                                            { GarmentType::vest, Fabric::jersey },
+                                                            { GarmentType::tanktop, Fabric::jersey },
+                                                            { GarmentType::camisole, Fabric::jersey },
+                                                            { GarmentType::strapless, Fabric::jersey },
+                                                            { GarmentType::halter, Fabric::jersey },
+                                                            { GarmentType::longsleeve, Fabric::fleece },
+                                                            { GarmentType::hoodie, Fabric::fleece },
+                                                            { GarmentType::leggings, Fabric::swimwear } } };
 
 /// Times what its fabric gives: a garment that has to be larger by more is not put on once more. fitted: guess; those that
 /// are worn then had to be larger by up to 29 %, three that are too small in truth by 38 to 48 %

@@ -88,10 +88,19 @@ std::string hips_in_words(const std::vector<Bone>& hips)
     return hips.size() == 2 ? "the hips" : hips[0] == lhipjoint ? "the left hip" : "the right hip";
 }
 
+std::string warning_about_guessed_fabric(const std::string& name, Fabric fabric)
+{
+    const auto name_of = [](Fabric f) { return std::string(fabric_names()[static_cast<int>(f)]); };
+    return name + " is too small in " + name_of(ClothOptions().fabric) + ", so it was taken to be of " + name_of(fabric)
+        + ", as most clothes of its type are; if it is not, give its fabric";
+}
+
 /// Of one that is worn; whether it is tight, too.
 void warn_of_worn(std::vector<std::string>& warnings, const std::string& name, const Dressing& end, std::size_t garment)
 {
     warn_of_garment(warnings, name, end, garment);
+    if (garment < end.guessed_fabrics.size() && end.guessed_fabrics[garment])
+        warnings.push_back(warning_about_guessed_fabric(name, end.fabrics[garment]));
     if (garment < end.off_shoulders.size() && !end.off_shoulders[garment].empty())
         warnings.push_back(name + " slipped off " + shoulders_in_words(end.off_shoulders[garment])
                            + ": it is too wide there for this body to stay where it is worn");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -171,6 +173,88 @@ TEST(SoftCloth, IsWornWhereItsOwnFabricGivesEnoughInTheEnd)
     ASSERT_TRUE(scene.recovered);
     EXPECT_EQ(outcome_of(*scene.recovered), Outcome::done);
     EXPECT_EQ(scene.recovered->garments[0].size, 1);
+}
+
+TEST(UsualKnits, AreTakenForGarmentsThatAreTooSmallAndOfWhichNothingElseWasSaid)
+{
+    const auto fabric_of
+        = [](GarmentType type, double missing, const Parameters& parameters, std::optional<Fabric> given = {}) {
+              Scene scene = tight_scene(1, missing);
+              if (missing == 0)
+                  scene.recovered->too_tight.clear();
+              scene.fits.resize(1);
+              scene.fits[0].type = type;
+              scene.garments[0].fabric = given;
+              take_usual_knits(scene, parameters);
+              EXPECT_EQ(scene.garments[0].fabric_is_guessed, scene.garments[0].fabric != given);
+              return scene.garments[0].fabric;
+          };
+    EXPECT_EQ(fabric_of(GarmentType::tshirt, 0.2, {}), Fabric::jersey);
+    EXPECT_EQ(fabric_of(GarmentType::hoodie, 0.2, {}), Fabric::fleece);
+    EXPECT_EQ(fabric_of(GarmentType::trousers, 0.2, {}), std::nullopt) << "most are woven";
+    EXPECT_EQ(fabric_of(GarmentType::tshirt, 0, {}), std::nullopt) << "it is not too small";
+    EXPECT_EQ(fabric_of(GarmentType::tshirt, 0.2, {}, Fabric::cotton), Fabric::cotton) << "the user says so";
+    Parameters denim, drill;
+    denim.recover.cloth.fabric = Fabric::denim;
+    EXPECT_EQ(fabric_of(GarmentType::tshirt, 0.2, denim), std::nullopt);
+    drill.recover.cloth.largest_stretch = 0.1;
+    EXPECT_EQ(fabric_of(GarmentType::tshirt, 0.2, drill), std::nullopt) << "its figures are given";
+}
+
+TEST(UsualKnits, AreForgottenInAnotherWayOfWearing)
+{
+    Scene scene = tight_scene(1, 0.2);
+    scene.fits.resize(1);
+    scene.fits[0].type = GarmentType::tshirt;
+    take_usual_knits(scene, {});
+    ASSERT_TRUE(scene.garments[0].fabric);
+    take_as_given(scene.garments[0]);
+    EXPECT_FALSE(scene.garments[0].fabric);
+    EXPECT_FALSE(scene.garments[0].fabric_is_guessed);
+}
+
+TEST(UsualKnits, AreNoReasonToWearWhatIsStretchedAllOver)
+{
+    Scene scene = tight_scene(1, 0.2);
+    scene.recovered->loads = { { { "chest", 1, 0.2, 0 }, { "waist", 1, 0.2, 0 }, { "neck", 0.5, 0.1, 0 } } };
+    EXPECT_FALSE(is_knit_stretched_all_over(scene)) << "its fabric was given";
+    scene.garments[0].fabric_is_guessed = true;
+    EXPECT_TRUE(is_knit_stretched_all_over(scene));
+    scene.recovered->loads[0][0].stretch = 0.1;
+    EXPECT_FALSE(is_knit_stretched_all_over(scene)) << "cotton gives as much at two of three parts";
+}
+
+/// A tube round the trunk that is too narrow for cotton at the waist alone, or everywhere.
+Scene dressed_in_tube(double narrowest, bool is_narrow_everywhere, std::optional<Fabric> fabric = {})
+{
+    const fixtures::Person person = fixtures::capsule_person({ .arm_angle = 20 });
+    TriangleMesh tube = fixtures::garment_round(
+        person.skeleton, 0.01, [](const Vec3& p) { return p.y() > 0.7 && p.y() < 1.1 && std::abs(p.x()) < 0.26; });
+    for (Eigen::Index v = 0; v < tube.positions.rows(); ++v) {
+        const double from_waist = (tube.positions(v, 1) - 0.9) / 0.05,
+                     factor = 1 - (1 - narrowest) * (is_narrow_everywhere ? 1 : std::exp(-from_waist * from_waist));
+        tube.positions(v, 0) *= factor;
+        tube.positions(v, 2) *= factor;
+    }
+    Scene scene;
+    scene.body = make_body(person.mesh.positions, person.mesh.triangles);
+    scene.garments = { { make_garment(tube.positions, tube.triangles), GarmentType::strapless, "tube.obj" } };
+    scene.garments[0].fabric = fabric;
+    Parameters parameters;
+    parameters.recover.quality = Quality::draft;
+    filter_of("dress").run(scene, parameters);
+    return scene;
+}
+
+TEST(UsualKnits, LetAGarmentBeWornThatIsTooNarrowForCottonAtOnePlace)
+{
+    const Scene knitted = dressed_in_tube(0.84, false);
+    EXPECT_EQ(outcome_of(*final_dressing(knitted)), Outcome::done);
+    EXPECT_EQ(final_dressing(knitted)->fabrics, std::vector { Fabric::jersey });
+    EXPECT_EQ(final_dressing(knitted)->guessed_fabrics, std::vector { true });
+    const Scene woven = dressed_in_tube(0.84, false, Fabric::cotton);
+    EXPECT_EQ(outcome_of(*final_dressing(woven)), Outcome::too_small);
+    EXPECT_EQ(final_dressing(woven)->guessed_fabrics, std::vector { false });
 }
 
 /// A dressing whose garment, so far off the skin, ended below the left hip.

@@ -145,6 +145,17 @@ TEST(Warnings, SayThatAGarmentWasMadeSmaller)
         1);
 }
 
+TEST(Warnings, SayThatAFabricWasGuessed)
+{
+    Scene scene = worn_scene();
+    scene.draped->fabrics = { Fabric::jersey, Fabric::cotton };
+    scene.draped->guessed_fabrics = { true, false };
+    EXPECT_EQ(
+        warnings_of(scene),
+        (Lines { "skirt is too small in cotton, so it was taken to be of jersey, as most clothes of its type are; if "
+                 "it is not, give its fabric" }));
+}
+
 TEST(Warnings, SayWhatCameOutOtherThanAskedFor)
 {
     Scene scene = worn_scene();

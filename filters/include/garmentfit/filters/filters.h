@@ -49,6 +49,7 @@ struct GarmentInput {
     std::optional<bool> as_placed = {};  ///< empty: as in Parameters
     int skipped = 0;  ///< FitOptions::skipped
     std::optional<Fabric> fabric = {};  ///< empty: as in Parameters
+    bool fabric_is_guessed = false;  ///< by its type, as nothing was said of it and cotton gives too little
     /// Moves in its place (stand_in.h). Draping looks for one where there is none; without a mesh: it needs none.
     std::optional<std::optional<StandIn>> stand_in = {};
     double size = 1;  ///< DrapeOptions::size
@@ -88,6 +89,7 @@ struct Dressing : DressedBody {
     /// The same, of the hips (lhipjoint, rhipjoint) that it covers in its fit and does not reach.
     std::vector<std::vector<Bone>> below_hips;
     std::vector<Fabric> fabrics;  ///< of each of the scene's garments
+    std::vector<bool> guessed_fabrics;  ///< GarmentInput::fabric_is_guessed
     std::vector<double> fabric_stretches;  ///< what each of them gives: Material::largest_stretch
     Overstretch spikes;  ///< of the body: edges that cloth draws out far beyond their length
     double spiked_share = 0;  ///< of all edges of the body
