@@ -115,15 +115,22 @@ std::array<NamedRatio, 7> ratios_of(const Skeleton& s)
                { "collarbone to leg", collarbone / leg, k_collarbone_to_leg } } };
 }
 
-/// How far the tip of a foot lies before its shin, as a share of the shin's length; the front is carried along the leg
-/// without twist.
-double foot_forwards(const Skeleton& s, bool is_right, const Vec3& up, const Vec3& front)
+/// The direction in which a foot points; the front is carried along the leg without twist.
+Vec3 before_shin(const Skeleton& s, bool is_right)
 {
+    const Vec3 up = s.tail(thorax) - s.root, front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(up).normalized();
     const int thigh = is_right ? rfemur : lfemur, shin = is_right ? rtibia : ltibia;
     const Vec3 along_thigh = s.tail(thigh) - s.head(thigh), along_shin = s.tail(shin) - s.head(shin);
     const Vec3 before_thigh = Eigen::Quaterniond::FromTwoVectors(-up, along_thigh) * front;
-    const Vec3 before_shin = Eigen::Quaterniond::FromTwoVectors(along_thigh, along_shin) * before_thigh;
-    return (s.tips[is_right ? rfoot_tip : lfoot_tip] - s.tail(shin)).dot(before_shin) / along_shin.norm();
+    return Eigen::Quaterniond::FromTwoVectors(along_thigh, along_shin) * before_thigh;
+}
+
+/// How far the tip of a foot lies before its shin, as a share of the shin's length.
+double foot_forwards(const Skeleton& s, bool is_right)
+{
+    const int shin = is_right ? rtibia : ltibia;
+    const Vec3 along_shin = s.tail(shin) - s.head(shin);
+    return (s.tips[is_right ? rfoot_tip : lfoot_tip] - s.tail(shin)).dot(before_shin(s, is_right)) / along_shin.norm();
 }
 
 /// How far each foot points backwards, as foot_forwards(); negative where it points forwards.
@@ -134,11 +141,7 @@ struct FeetBackwards {
     bool are_both() const { return std::min(left, right) > k_most_foot_backwards; }
 };
 
-FeetBackwards feet_backwards(const Skeleton& s)
-{
-    const Vec3 up = s.tail(thorax) - s.root, front = (s.tail(lhipjoint) - s.tail(rhipjoint)).cross(up).normalized();
-    return { -foot_forwards(s, false, up, front), -foot_forwards(s, true, up, front) };
-}
+FeetBackwards feet_backwards(const Skeleton& s) { return { -foot_forwards(s, false), -foot_forwards(s, true) }; }
 
 constexpr const char* k_foot_backwards_text = "a foot points backwards";
 
@@ -190,6 +193,32 @@ bool is_arm_too_early(const BodyMesh& body, const Skeleton& skeleton, const Skin
         && hand_length(body, skeleton, weights, lower) > skeleton.length(upper) + skeleton.length(lower);
 }
 
+/// Whether the skin of a foot reaches much further behind the middle of its shin than before it. Files often have no
+/// joint for the toes, and the ankle may lie anywhere in the foot.
+bool is_foot_skin_backwards(const BodyMesh& body, const Skeleton& skeleton, const SkinWeights& weights, bool is_right)
+{
+    const int shin = is_right ? rtibia : ltibia;
+    const double length = skeleton.length(shin);
+    const Vec3 along = skeleton.direction(shin), forwards = before_shin(skeleton, is_right);
+    double before = -std::numeric_limits<double>::infinity(), behind = before, sum = 0;
+    int count = 0;
+    for (Eigen::Index v = 0; v < weights.weights.rows(); ++v)
+        for (int k = 0; k < 4; ++k)
+            if (weights.bones(v, k) == shin && weights.weights(v, k) > 0.5) {
+                const Vec3 way = Vec3(body.surface.positions.row(v)) - skeleton.tail(shin);
+                const double depth = way.dot(along) / length, ahead = way.dot(forwards) / length;
+                if (depth > -k_beyond_shin) {
+                    before = std::max(before, ahead);
+                    behind = std::max(behind, -ahead);
+                } else if (depth < -k_within_shin) {
+                    sum += ahead;
+                    ++count;
+                }
+            }
+    const double middle = count > 0 ? sum / count : 0;
+    return count > 0 && behind + middle > k_foot_behind && behind + middle > k_behind_to_before * (before - middle);
+}
+
 /// Isoperimetric quotient: 1 for a ball.
 double compactness(const TriangleMesh& closed)
 {
@@ -230,9 +259,12 @@ void check_skeleton(const BodyMesh& body, const Skeleton& skeleton, const SkinWe
         refuse("the hands are longer than the arms, so the elbows seem to be taken for wrists");
     if (is_pelvis_far(skeleton))
         refuse("the pelvis does not lie at the hips");
-    if (const FeetBackwards feet = feet_backwards(skeleton); feet.is_one())
-        refuse(feet.are_both() ? "the feet point backwards, so left and right seem to be exchanged"
-                               : k_foot_backwards_text);
+    const bool is_skin_backwards = weights.weights.rows() == skin.rows()
+        && is_foot_skin_backwards(body, skeleton, weights, false)
+        && is_foot_skin_backwards(body, skeleton, weights, true);
+    if (const FeetBackwards feet = feet_backwards(skeleton); feet.is_one() || is_skin_backwards)
+        refuse(feet.are_both() || is_skin_backwards ? "the feet point backwards, so left and right seem to be exchanged"
+                                                    : k_foot_backwards_text);
     for (int bone = 0; bone < bone_count; ++bone)
         if (const double off = distance_from_body(body, tree, skeleton.tail(bone), height);
             !(off < (is_placed_evenly(bone) ? k_farthest_placed_joint : k_farthest_own_joint)))

@@ -169,4 +169,27 @@ TEST(RigValidation, ASkeletonOfAnotherBodyIsRefused)
     expect_invalid([&] { check_skeleton(body, folded.skeleton); }, "hardly any length");
 }
 
+/// As in files without a joint for the toes: what goes on beyond the ankle says nothing of the front.
+Person without_toes(Person person)
+{
+    Skeleton& s = person.skeleton;
+    for (const auto& [shin, tip] : { std::pair(ltibia, lfoot_tip), { rtibia, rfoot_tip } })
+        s.tips[tip] = s.tail(shin) + 0.5 * (s.tail(shin) - s.head(shin));
+    return person;
+}
+
+TEST(RigValidation, SidesAreExchangedWhereTheSkinOfBothFeetLiesBehindTheShins)
+{
+    const Person person = without_toes(capsule_person());
+    const BodyMesh body = body_of(person);
+    EXPECT_NO_THROW(check_skeleton(body, person.skeleton, fixtures::nearest_rig(person).weights));
+    Person exchanged = person;
+    for (const int left : { lhipjoint, lfemur, ltibia, lclavicle, lhumerus, lradius })
+        std::swap(exchanged.skeleton.tails[left], exchanged.skeleton.tails[mirror_of(left)]);
+    exchanged = without_toes(exchanged);
+    EXPECT_NO_THROW(check_skeleton(body, exchanged.skeleton)) << "without weights nothing tells";
+    expect_invalid([&] { check_skeleton(body, exchanged.skeleton, fixtures::nearest_rig(exchanged).weights); },
+                   "exchanged");
+}
+
 }  // namespace
