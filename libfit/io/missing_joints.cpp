@@ -164,6 +164,29 @@ void divide_skin(FileSkin& skin, int row, int beyond, const Vec3& whole)
     }
 }
 
+/// Whether the last joint lies where the middle of the limb is usual, with nothing between it and the first: the limb
+/// has two bones, and the lower one is called a hand or foot.
+bool is_middle_called_last(const FileSkin& skin, const NamedJoints& joints, const LimbKinds& limb, int side)
+{
+    const int first = row_of(joints, limb.first, side), last = row_of(joints, limb.last, side);
+    if (first < 0 || last < 0 || skin.parents[std::size_t(last)] != first)
+        return false;
+    const Vec3 start = skin.places[std::size_t(first)], way = skin.places[std::size_t(last)] - start;
+    const std::vector<Vec3> beyond = skin_of(skin, joints, last);
+    return way.norm() > 0
+        && way.norm() < k_middle_called_last * limb.last_share * extent_along(beyond, start, way.normalized());
+}
+
+/// "Arm.L" and "Hand.L", or "Leg.L" and "Foot.L", as figures of games have. On both sides, as what one hand holds is no
+/// forearm.
+void name_middles_called_last(const FileSkin& skin, NamedJoints& joints, const LimbKinds& limb)
+{
+    if (!is_middle_called_last(skin, joints, limb, 1) || !is_middle_called_last(skin, joints, limb, 2))
+        return;
+    for (const int side : { 1, 2 })
+        joints[std::size_t(row_of(joints, limb.last, side))] = NamedJoint { limb.middle, side };
+}
+
 /// "thigh.L.001" is no second hip where no joint is called a knee.
 void forget_repeated(NamedJoints& joints, int first)
 {
@@ -232,6 +255,8 @@ int row_of(const NamedJoints& joints, JointKind kind, int side)
 
 void add_missing_joints(FileSkin& skin, NamedJoints& joints)
 {
+    for (const LimbKinds& limb : { k_arm, k_leg })
+        name_middles_called_last(skin, joints, limb);
     for (const int side : { 1, 2 }) {
         add_middle_of_limb(skin, joints, k_arm, side);
         add_middle_of_limb(skin, joints, k_leg, side);

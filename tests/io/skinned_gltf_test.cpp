@@ -530,6 +530,33 @@ TEST_F(SkinnedGltf, DividesLimbsOfOneBone)
     EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
 }
 
+/// Joints for shoulder and elbow, hip and knee, as in "Arm.L" and "Hand.L" of figures of games.
+void call_middles_ends(json& document)
+{
+    for (const char* end : k_limb_ends) {
+        take_out(document, end);
+        document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
+    }
+    for (const auto& [middle, end] : std::map<std::string, std::string> {
+             { "lradius", "lhand" }, { "rradius", "rhand" }, { "ltibia", "lfoot" }, { "rtibia", "rfoot" } })
+        document["nodes"][std::size_t(node_called(document, middle))]["name"] = end;
+}
+
+TEST_F(SkinnedGltf, TakesWhatIsCalledAHandOrFootInTheMiddleOfALimbForItsElbowOrKnee)
+{
+    const Rig near = fixtures::nearest_rig(person);
+    write_outfit_glb(glb, near, { { "body", person.mesh, near.weights } }, { BoneNames::garmentfit });
+    save("rigged.glb", edited(load(glb), call_middles_ends));
+    const ForeignRig read = read_skinned_gltf(glb);
+    EXPECT_FALSE(read.by_tree);
+    for (const auto& [bone, name] : k_lower_limbs) {
+        EXPECT_LT((read.skeleton.head(bone) - rig.skeleton.head(bone)).norm(), 1e-5) << name;
+        EXPECT_LT((read.skeleton.tail(bone) - rig.skeleton.tail(bone)).norm(), 0.06) << name;
+        EXPECT_TRUE((read.weights.bones.col(0).array() == bone).any()) << name << " moves skin";
+    }
+    EXPECT_NO_THROW(check_skeleton(make_body(person.mesh.positions, person.mesh.triangles), read.skeleton));
+}
+
 TEST_F(SkinnedGltf, TakesJointsWithoutAKnownNameForElbowsAndKneesThatAreMissing)
 {
     const Rig near = fixtures::nearest_rig(person);
