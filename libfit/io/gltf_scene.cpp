@@ -255,8 +255,6 @@ Eigen::Affine3d GltfScene::world_from_mesh(int node) const
     if (!has_bind_pose(skin))
         return world_from_node(node);
     const Eigen::Affine3d by_first = world_by_joint(*this, skin, 0);
-    if (model_.skins.size() < 2)
-        return by_first;
     if (!world_from_skin_)
         world_from_skin_ = place_skins(*this, file_, model_);
     const auto place = world_from_skin_->find(index);

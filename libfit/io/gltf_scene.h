@@ -36,9 +36,9 @@ public:
     /// -1 for a root, and for what is not in the scene.
     int parent(int node) const { return parents_[std::size_t(node)]; }
     const Eigen::Affine3d& world_from_node(int node) const { return world_from_node_[std::size_t(node)]; }
-    /// The place of a skinned mesh is that of its joints, not of its node: here of the first one in its bind pose, in the
-    /// tree for skins that share joints. So a posed file shows its bind pose. Where a skin has none, the mesh lies at its
-    /// node.
+    /// The place of a skinned mesh is that of its joints, not of its node: here of the first one in the tree in its bind
+    /// pose, of all skins that share joints. So a posed file shows its bind pose. Where a skin has none, the mesh lies at
+    /// its node.
     Eigen::Affine3d world_from_mesh(int node) const;
     std::vector<GltfSurface> surfaces() const;
 

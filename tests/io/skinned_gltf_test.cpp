@@ -214,6 +214,29 @@ TEST_F(SkinnedParts, OfAPosedFileLieTogetherThoughTheirSkinsBeginWithOtherJoints
     EXPECT_LT((Vec3(positions.row(body_rows())) - Vec3(shoes.positions.row(0))).norm(), 1e-5);
 }
 
+/// The skin lists an arm and then the root, which is above it. The root gets the matrix that follows the arm's.
+void list_arm_before_root(json& document)
+{
+    json& skin = document["skins"][0];
+    const json joints = skin["joints"];
+    const int arm = node_called(document, "lhumerus");
+    const auto left_out = std::size_t(std::find(joints.begin(), joints.end(), json(arm)) - joints.begin());
+    json& matrices = document["accessors"][skin["inverseBindMatrices"].get<std::size_t>()];
+    matrices["byteOffset"] = matrices.value("byteOffset", std::size_t(0)) + 16 * sizeof(float) * left_out;
+    matrices["count"] = 2;
+    skin["joints"] = { arm, joints[0] };
+}
+
+TEST_F(SkinnedParts, OfAPosedFileLieByTheFirstJointInTheTreeNotInTheList)
+{
+    edit(list_arm_before_root);
+    const Positions before = MeshFile::read(glb).positions();
+    edit([](json& document) {
+        document["nodes"][std::size_t(node_called(document, "lhumerus"))]["rotation"] = { 0, 0, 0.6, 0.8 };
+    });
+    EXPECT_EQ(MeshFile::read(glb).positions(), before);
+}
+
 /// A GLB in which a joint of the first skin has its bind pose at the origin.
 std::string with_joint_at_origin(std::string bytes, const std::string& joint)
 {
