@@ -20,6 +20,10 @@ ordered_json geometry_of(const ordered_json& json)
          { "asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene", "skins" })
         if (json.contains(key))
             geometry[key] = json[key];
+    if (geometry.contains("skins") && geometry["skins"].is_array())
+        for (ordered_json& skin : geometry["skins"])
+            if (skin.is_object() && !skin.contains("inverseBindMatrices"))
+                skin["inverseBindMatrices"] = -1;  // optional in glTF, as all may be identities; not for tinygltf
     return geometry;
 }
 

@@ -214,6 +214,15 @@ TEST_F(SkinnedParts, OfAPosedFileLieTogetherThoughTheirSkinsBeginWithOtherJoints
     EXPECT_LT((Vec3(positions.row(body_rows())) - Vec3(shoes.positions.row(0))).norm(), 1e-5);
 }
 
+TEST_F(SkinnedParts, MayHaveASkinWithoutInverseBindMatrices)
+{
+    edit([](json& document) { document["skins"].push_back({ { "joints", document["skins"][0]["joints"] } }); });
+    EXPECT_LT((Vec3(MeshFile::read(glb).positions().row(0)) - Vec3(person.mesh.positions.row(0))).norm(), 1e-6);
+    edit([](json& document) { document["skins"][0].erase("inverseBindMatrices"); });  // so all are identities
+    const Vec3 moved = Vec3(MeshFile::read(glb).positions().row(0)) - Vec3(person.mesh.positions.row(0));
+    EXPECT_LT((moved - rig.skeleton.root).norm(), 1e-5) << moved.transpose();
+}
+
 /// The skin lists an arm and then the root, which is above it. The root gets the matrix that follows the arm's.
 void list_arm_before_root(json& document)
 {
