@@ -39,8 +39,7 @@ struct DrapeStart {
 std::optional<PreparedCloth> retract_sleeves(const SleeveRetraction& retraction, const PreparedCloth& given)
 {
     const Triangles& triangles = given.rest.triangles;
-    UntangleResult retracted
-        = untangle({ given.weld.gather(retraction.positions()), triangles }, given.topology.edges());
+    UntangleResult retracted = untangle({ retraction.positions(), triangles }, given.topology.edges());
     if (!retracted.left.empty())
         if (const std::vector<Crossing> crossed = self_crossings({ given.rest.positions, triangles });
             !std::includes(crossed.begin(), crossed.end(), retracted.left.begin(), retracted.left.end()))
@@ -62,7 +61,8 @@ DrapeStart make_start(PreparedCloth cloth, GrowingBody inside, double scale)
 std::optional<DrapeStart> find_start(const Wearer& wearer, const GarmentMesh& garment)
 {
     const PreparedCloth given = prepare_cloth(garment, garment.positions);
-    if (const SleeveRetraction retraction(wearer.joints, garment); retraction.is_any())
+    if (const SleeveRetraction retraction(wearer.joints, { given.positions, given.rest.triangles }, given.sewn.ties);
+        retraction.is_any())
         if (const auto retracted = retract_sleeves(retraction, given)) {
             const TriangleMesh cloth { given.weld.place(retracted->positions), garment.triangles };
             GrowingBody inside = make_growing_body(wearer, { cloth.positions, cloth.triangles }, &retraction);

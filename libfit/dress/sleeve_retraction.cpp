@@ -95,13 +95,13 @@ private:
 };
 
 /// Connected pieces of the vertices with the wanted mark, by their roots.
-std::map<int, std::vector<int>> pieces_of(const Triangles& triangles, const std::vector<int>& marks, int wanted)
+std::map<int, std::vector<int>> pieces_of(const std::vector<std::array<int, 2>>& links, const std::vector<int>& marks,
+                                          int wanted)
 {
     DisjointSets joined(int(marks.size()));
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            if (const int a = triangles(f, k), b = triangles(f, (k + 1) % 3); marks[a] == marks[b])
-                joined.join(a, b);
+    for (const auto& [a, b] : links)
+        if (marks[a] == marks[b])
+            joined.join(a, b);
     std::map<int, std::vector<int>> pieces;
     for (int v = 0; v < int(marks.size()); ++v)
         if (marks[v] == wanted)
@@ -109,21 +109,37 @@ std::map<int, std::vector<int>> pieces_of(const Triangles& triangles, const std:
     return pieces;
 }
 
-/// A garment's vertices told apart by limbs.
-struct LimbMap {
-    const GarmentMesh& garment;
-    std::vector<int> limbs;  // of each vertex, from limb_of
-    std::vector<char> is_border;  // has an edge to a vertex of another limb
+/// Pairs of vertices that hang together: by an edge, or by a seam.
+std::vector<std::array<int, 2>> links_of(const Triangles& triangles, const std::vector<Tie>& ties)
+{
+    std::vector<std::array<int, 2>> links;
+    for (const auto& corners : triangles.rowwise())
+        for (int k = 0; k < 3; ++k)
+            links.push_back({ corners[k], corners[(k + 1) % 3] });
+    for (const Tie& tie : ties)
+        if (tie.is_seam)
+            for (int k = 0; k < 3; ++k)
+                if (tie.weights[k] > 0)
+                    links.push_back({ tie.vertex, tie.corners[k] });
+    return links;
+}
 
-    LimbMap(const Skeleton& joints, const GarmentMesh& given) :
-        garment(given), limbs(given.positions.rows()), is_border(limbs.size(), 0)
+/// The cloth's vertices told apart by limbs.
+struct LimbMap {
+    const Positions& positions;
+    std::vector<std::array<int, 2>> links;
+    std::vector<int> limbs;  // of each vertex, from limb_of
+    std::vector<char> is_border;  // linked with a vertex of another limb
+
+    LimbMap(const Skeleton& joints, const TriangleMesh& cloth, const std::vector<Tie>& ties) :
+        positions(cloth.positions), links(links_of(cloth.triangles, ties)), limbs(cloth.positions.rows()),
+        is_border(limbs.size(), 0)
     {
         for (std::size_t v = 0; v < limbs.size(); ++v)
-            limbs[v] = limb_of(garment.positions.row(Eigen::Index(v)), joints);
-        for (const auto& corners : garment.triangles.rowwise())
-            for (int k = 0; k < 3; ++k)
-                if (limbs[corners[k]] != limbs[corners[(k + 1) % 3]])
-                    is_border[corners[k]] = is_border[corners[(k + 1) % 3]] = 1;
+            limbs[v] = limb_of(positions.row(Eigen::Index(v)), joints);
+        for (const auto& [a, b] : links)
+            if (limbs[a] != limbs[b])
+                is_border[a] = is_border[b] = 1;
     }
 };
 
@@ -139,13 +155,13 @@ struct Sleeve {
 Sleeve find_sleeve(const LimbMap& map, const Limb& limb, Extremity end)
 {
     Sleeve result;
-    for (const auto& [root, piece] : pieces_of(map.garment.triangles, map.limbs, end))
-        if (limb.is_enclosed_by(map.garment.positions, piece))
+    for (const auto& [root, piece] : pieces_of(map.links, map.limbs, end))
+        if (limb.is_enclosed_by(map.positions, piece))
             result.vertices.insert(result.vertices.end(), piece.begin(), piece.end());
         else
             result.beside.push_back(piece);
     for (const int v : result.vertices) {
-        const double at = limb.at(map.garment.positions.row(v));
+        const double at = limb.at(map.positions.row(v));
         result.reach = std::max(result.reach, at);
         if (map.is_border[v])
             result.begin = std::max(result.begin, at);
@@ -179,9 +195,10 @@ void retract(Sleeve sleeve, const Limb& limb, const Positions& given, Positions&
 
 }  // namespace
 
-SleeveRetraction::SleeveRetraction(const Skeleton& joints, const GarmentMesh& garment) : positions_(garment.positions)
+SleeveRetraction::SleeveRetraction(const Skeleton& joints, const TriangleMesh& cloth, const std::vector<Tie>& ties) :
+    positions_(cloth.positions)
 {
-    const LimbMap map(joints, garment);
+    const LimbMap map(joints, cloth, ties);
     for (const Extremity end : k_ends) {
         if (ExtremityBend(joints, end).is_stump)
             continue;
@@ -189,7 +206,7 @@ SleeveRetraction::SleeveRetraction(const Skeleton& joints, const GarmentMesh& ga
         const Sleeve sleeve = find_sleeve(map, limb, end);
         retracted_[end] = sleeve.reach > limb.length() && sleeve.begin < k_latest_sleeve_begin * limb.length();
         if (retracted_[end])
-            retract(sleeve, limb, garment.positions, positions_);
+            retract(sleeve, limb, cloth.positions, positions_);
     }
 }
 

@@ -10,17 +10,20 @@
 
 #include "garmentfit/mesh.h"
 #include "garmentfit/skeleton.h"
+#include "sewn_pieces.h"
 
 namespace garmentfit {
 
 class SleeveRetraction {
 public:
     /// @param joints  in the garment's pose
-    SleeveRetraction(const Skeleton& joints, const GarmentMesh& garment);
+    /// @param cloth   welded: what is open along a seam goes round no limb
+    /// @param ties    of the cloth; a sleeve may be sewn from several pieces
+    SleeveRetraction(const Skeleton& joints, const TriangleMesh& cloth, const std::vector<Tie>& ties = {});
 
     /// Whether any sleeve or leg was retracted.
     bool is_any() const;
-    /// The garment's vertices with sleeves and legs retracted, n x 3. Along each limb the map has no folds. Cloth in
+    /// The cloth's vertices with sleeves and legs retracted, n x 3. Along each limb the map has no folds. Cloth in
     /// narrow folds may cross all the same, because triangles stay flat.
     const Positions& positions() const { return positions_; }
     /// For each vertex of skin (m x 3, in the garment's pose) the least body scale: 1 on hands and feet that are free

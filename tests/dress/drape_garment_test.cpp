@@ -211,6 +211,28 @@ TEST(DrapeGarment, SaysWhereATooSmallGarmentIsTooTight)
     EXPECT_TRUE(result.garments[0].certificate.clean());  // as far as it came, nothing crosses
 }
 
+/// Each triangle with vertices of its own, as if seams of UVs ran along all edges.
+GarmentMesh in_own_vertices(const GarmentMesh& garment)
+{
+    Triangles own(garment.triangles.rows(), 3);
+    for (Eigen::Index k = 0; k < own.size(); ++k)
+        own.data()[k] = int(k);
+    const std::vector<int> corners(garment.triangles.data(), garment.triangles.data() + garment.triangles.size());
+    return { garment.positions(corners, Eigen::all), own };
+}
+
+TEST(DrapeGarment, FeetLeaveLegsThatSeamsOfUVsCutOpen)
+{
+    const Dressing d = person();
+    const GarmentMesh leg = sleeve_round(d.rig.skeleton, ltibia, 0.06, 0.05, d.rig.skeleton.length(ltibia) + 0.1);
+    for (const GarmentMesh& garment : { leg, in_own_vertices(leg) }) {
+        const DrapeResult result = drape_garment(d.rig, d.body, {}, garment, short_settling());
+        EXPECT_TRUE(result.certified);
+        EXPECT_EQ(result.scale_reached, 1);
+        EXPECT_LT(result.garments[0].certificate.strain.max, 0.3) << "a foot that grows inside stretches it by 1.5";
+    }
+}
+
 TEST(DrapeGarment, MakesATooSmallGarmentLargerWhereThatIsAllowed)
 {
     const Dressing d = person();

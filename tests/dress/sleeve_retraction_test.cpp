@@ -5,6 +5,9 @@
 
 #include "fixtures.h"
 #include "nearest.h"
+#include "sewn_pieces.h"
+#include "topology.h"
+#include "weld.h"
 
 namespace garmentfit {
 namespace {
@@ -27,16 +30,17 @@ struct Sleeve : testing::Test {
             result = std::max(result, along(positions, v));
         return result;
     }
-    GarmentMesh sleeve(double to, double radius = 0.06) const
+    TriangleMesh sleeve(double to, double radius = 0.06) const
     {
-        return sleeve_round(joints, lradius, radius, 0.05, to);
+        const GarmentMesh garment = sleeve_round(joints, lradius, radius, 0.05, to);
+        return { garment.positions, garment.triangles };
     }
 };
 
 // A square of 1 cm, so far from the forearm's line.
-GarmentMesh with_button(const GarmentMesh& sleeve, const Vec3& middle, const Vec3& u, const Vec3& v)
+TriangleMesh with_button(const TriangleMesh& sleeve, const Vec3& middle, const Vec3& u, const Vec3& v)
 {
-    GarmentMesh result = sleeve;
+    TriangleMesh result = sleeve;
     const Eigen::Index first = sleeve.positions.rows(), faces = sleeve.triangles.rows();
     result.positions.conservativeResize(first + 4, 3);
     for (int corner = 0; corner < 4; ++corner)
@@ -48,7 +52,7 @@ GarmentMesh with_button(const GarmentMesh& sleeve, const Vec3& middle, const Vec
 
 TEST_F(Sleeve, ThatReachesBeyondTheWristIsRetractedBehindIt)
 {
-    const GarmentMesh given = sleeve(wrist + 0.1);
+    const TriangleMesh given = sleeve(wrist + 0.1);
     const SleeveRetraction retraction(joints, given);
     ASSERT_TRUE(retraction.is_any());
     EXPECT_LT(furthest(retraction.positions()), 0.8 * wrist);
@@ -61,7 +65,7 @@ TEST_F(Sleeve, ThatReachesBeyondTheWristIsRetractedBehindIt)
 
 TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
 {
-    GarmentMesh given = sleeve(wrist + 0.15);
+    TriangleMesh given = sleeve(wrist + 0.15);
     const Vec3 side = joints.direction(lradius).unitOrthogonal();
     for (Eigen::Index v = 0; v < given.positions.rows(); ++v)
         if (const double beyond = along(given.positions, v) - wrist; beyond > 0)
@@ -74,7 +78,7 @@ TEST_F(Sleeve, ThatLeadsOffTheBonesLineComesBackToIt)
 
 TEST_F(Sleeve, ThatEndsBeforeTheWristStays)
 {
-    const GarmentMesh given = sleeve(wrist - 0.02);
+    const TriangleMesh given = sleeve(wrist - 0.02);
     const SleeveRetraction retraction(joints, given);
     EXPECT_FALSE(retraction.is_any());
     EXPECT_EQ(retraction.positions(), given.positions);
@@ -82,7 +86,7 @@ TEST_F(Sleeve, ThatEndsBeforeTheWristStays)
 
 TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
 {
-    GarmentMesh panel = sleeve(wrist + 0.1);
+    TriangleMesh panel = sleeve(wrist + 0.1);
     panel.triangles.conservativeResize(panel.triangles.rows() / 2, 3);
     std::vector<int> kept;  // half of each ring
     for (Eigen::Index f = 0; f < panel.triangles.rows(); ++f)
@@ -93,7 +97,7 @@ TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
     for (int v = 0; v < int(panel.positions.rows()); ++v)
         if (v % 24 <= 12)
             half.push_back(v);
-    GarmentMesh given { panel.positions(half, Eigen::all), Triangles(Eigen::Index(kept.size()), 3) };
+    TriangleMesh given { panel.positions(half, Eigen::all), Triangles(Eigen::Index(kept.size()), 3) };
     for (std::size_t f = 0; f < kept.size(); ++f)
         for (int k = 0; k < 3; ++k) {
             const int v = panel.triangles(kept[f], k);
@@ -104,14 +108,43 @@ TEST_F(Sleeve, IsNotWhatHangsBesideAHand)
 
 TEST_F(Sleeve, TakesItsButtonsAlong)
 {
-    const GarmentMesh plain = sleeve(wrist + 0.1);
+    const TriangleMesh plain = sleeve(wrist + 0.1);
     const Vec3 axis = joints.direction(lradius), side = axis.unitOrthogonal();
     const Vec3 on_cuff = joints.head(lradius) + (wrist + 0.08) * axis + 0.064 * side;
-    const GarmentMesh given = with_button(plain, on_cuff, axis, axis.cross(side));
+    const TriangleMesh given = with_button(plain, on_cuff, axis, axis.cross(side));
     const SleeveRetraction retraction(joints, given);
     ASSERT_TRUE(retraction.is_any());
     for (Eigen::Index v = plain.positions.rows(); v < given.positions.rows(); ++v)
         EXPECT_LT(along(retraction.positions(), v), 0.8 * wrist);
+}
+
+/// Cut lengthwise: the faces of either half of each ring, 2 mm apart.
+TriangleMesh in_two_halves(const TriangleMesh& sleeve, const Vec3& apart)
+{
+    TriangleMesh halves[2];
+    for (const bool second : { false, true }) {
+        std::vector<int> faces;
+        for (int f = 0; f < int(sleeve.triangles.rows()); ++f)
+            if ((f / 2 % 24 >= 12) == second)
+                faces.push_back(f);
+        const GarmentMesh half { sleeve.positions, sleeve.triangles(faces, Eigen::all) };
+        const GarmentMesh alone = Weld(half).gather(half);  // without the other half's vertices
+        halves[second] = { alone.positions, alone.triangles };
+        halves[second].positions.rowwise() += (second ? 0.001 : -0.001) * apart.transpose();
+    }
+    return joined(halves[0], halves[1]);
+}
+
+TEST_F(Sleeve, MayBeSewnFromTwoHalves)
+{
+    const Vec3 axis = joints.direction(lradius), apart = -axis.cross(axis.unitOrthogonal());
+    const TriangleMesh given = in_two_halves(sleeve(wrist + 0.1), apart);
+    const MeshTopology topology(given.triangles, int(given.positions.rows()));
+    const SewnPieces sewn = find_sewn_pieces({ given.positions, given.triangles }, topology);
+    EXPECT_FALSE(SleeveRetraction(joints, given).is_any()) << "neither half goes round the arm";
+    const SleeveRetraction retraction(joints, given, sewn.ties);
+    ASSERT_TRUE(retraction.is_any());
+    EXPECT_LT(furthest(retraction.positions()), 0.8 * wrist);
 }
 
 TEST_F(Sleeve, SetsFreeTheHandThatItCovered)
