@@ -100,8 +100,8 @@ inline constexpr double k_elbow_share = 0.42, k_wrist_share = 0.75, k_knee_share
 /// Dimensionless, a share of the usual place of the last joint of a limb: nearer to the first one it is the middle one,
 /// whatever its name. fitted: guess, on one figure; elbows and knees lie at 0.56 and 0.49 of it.
 inline constexpr double k_middle_called_last = 0.65;
-/// Dimensionless, shares of the way along the limb: within the first a joint without a name is taken for the one that is missing; half
-/// width of the transition of skin at an elbow or knee that is added. fitted: guess, on three figures.
+/// Dimensionless, shares of the way along the limb: within the first a joint without a name is taken for the one that is
+/// missing; half width of the transition of skin at an elbow or knee that is added. fitted: guess, on three figures.
 inline constexpr double k_near_share = 0.2, k_middle_blend = 0.06;
 /// Dimensionless, shares of the farthest skin: between them it lies along the bone. fitted: guess, on one figure each.
 inline constexpr double k_limb_middle[] = { 0.2, 0.7 };

@@ -453,14 +453,18 @@ TEST_F(SkinnedGltf, TakesHandsFeetAndHeadWithoutSkinFromTheNodesBelowJoints)
         EXPECT_LT((read.skeleton.tips[e] - rig.skeleton.tips[e]).norm(), 1e-5) << e;
 }
 
-/// Hands, feet and the head have neither skin nor names.
-void forget_ends(json& document)
+/// These joints have neither skin nor names.
+template <class Joints>
+void forget(json& document, const Joints& joints)
 {
-    for (const char* end : k_ends) {
-        take_out(document, end);
-        document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
+    for (const char* joint : joints) {
+        take_out(document, joint);
+        document["nodes"][std::size_t(node_called(document, joint))]["name"] = "end";
     }
 }
+
+/// Hands, feet and the head.
+void forget_ends(json& document) { forget(document, k_ends); }
 
 TEST_F(SkinnedGltf, PlacesHandsFeetAndHeadThatTheFileLacksByTheSkin)
 {
@@ -565,10 +569,7 @@ TEST_F(SkinnedGltf, DividesLimbsOfOneBone)
 /// Joints for shoulder and elbow, hip and knee, as in "Arm.L" and "Hand.L" of figures of games.
 void call_middles_ends(json& document)
 {
-    for (const char* end : k_limb_ends) {
-        take_out(document, end);
-        document["nodes"][std::size_t(node_called(document, end))]["name"] = "end";
-    }
+    forget(document, k_limb_ends);
     for (const auto& [middle, end] : std::map<std::string, std::string> {
              { "lradius", "lhand" }, { "rradius", "rhand" }, { "ltibia", "lfoot" }, { "rtibia", "rfoot" } })
         document["nodes"][std::size_t(node_called(document, middle))]["name"] = end;
