@@ -48,7 +48,7 @@ bool take_size_in_unit(Scene& scene);
 /// Gives a garment a size, as a share of its own. What is the most probable way of wearing it is asked anew.
 void take_size(GarmentInput& garment, double share);
 
-/// Takes the four before back. What was made of changed garments stays.
+/// Takes the four before back, and a fabric that was guessed. What was made of changed garments stays.
 void take_as_given(GarmentInput& garment);
 
 /// Enlarges the garments that are put on, but found too small in the end, until their fabric allows the rest. @return whether
