@@ -90,9 +90,8 @@ inline constexpr double k_longest_share = 0.86, k_shortest_share = 0.1, k_length
 inline constexpr double k_tallest_wearer = 1.9;
 
 /// Of the body's stature: how tall the people are whom a garment fits, by the median of its measures; a unit in which
-/// it is smaller is not its own. guess: children that stand and wear such clothes are taller; a shirt of a program for
-/// dressing, 5.95 units wide, was read in decimetres as that of people of 0.47
-inline constexpr double k_least_wearer = 0.5;
+/// it is smaller is not its own. fitted: guess, that of the fit's refusals
+inline constexpr double k_least_wearer = 0.45;
 /// Likewise; where a smaller one lies round the body, that is chance. fitted: guess; of 29 clothes of one collection on
 /// their own body, parts of bikinis and a camisole have the least, 0.68 to 0.71; two that lay in a man by chance, in
 /// decimetres, have 0.41 and 0.56

@@ -316,7 +316,7 @@ inline constexpr double k_max_length = 10, k_min_length = 0.01;
 
 /// Heights of people whom a garment's parts would fit, over the body's: outside of the first two its unit is wrong
 /// rather than its size, below the third it is too small. guess: units differ by 2.5 and more, sizes by 1.5 at most
-inline constexpr double k_wrong_unit_small = 0.5, k_wrong_unit_large = 2, k_plainly_small = 0.85;
+inline constexpr double k_wrong_unit_small = 0.45, k_wrong_unit_large = 2, k_plainly_small = 0.85;
 /// Of the body's height; no garment that one can put on is longer or shorter. guess
 inline constexpr double k_longest_garment = 1.5, k_shortest_garment = 0.08;
 

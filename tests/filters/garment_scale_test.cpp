@@ -200,7 +200,6 @@ TEST(GarmentScale, AUnitInWhichAGarmentIsADollsIsNotItsOwn)
         { 0.38, 0.14 }, { 1.08, 0.19 }, { 0.69, 0.18 }, { 0.74, 0.19 }, { 0.46, 0.37 }
     };
     EXPECT_GT(guess_scale(wearers, 0.25, height, 0.1, 0.1).factor, 1.5);
-    EXPECT_GT(guess_scale(wearers, 0.25, 1.47, 0.1, 0.1).factor, 1.5) << "nobody stands that is half as tall";
     EXPECT_EQ(guess_scale(wearers, 0.25, 0.9, 0.1, 0.1).factor, 1) << "a child's";
 }
 
