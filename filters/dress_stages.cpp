@@ -197,6 +197,14 @@ bool has_own_figures(const ClothOptions& cloth)
         || cloth.weft_to_warp || cloth.shear_stiffness;
 }
 
+/// None where most garments of the type are woven, or may be either.
+std::optional<Fabric> usual_knit(GarmentType type)
+{
+    const auto found = std::find_if(k_usual_knits.begin(), k_usual_knits.end(),
+                                    [&](const UsualKnit& knit) { return knit.type == type; });
+    return found != k_usual_knits.end() ? std::optional(found->fabric) : std::nullopt;
+}
+
 /// The options of one garment among several.
 DrapeOptions options_for(const GarmentInput& garment, DrapeOptions options)
 {
@@ -593,15 +601,12 @@ void take_usual_knits(Scene& scene, const Parameters& parameters)
     const Dressing* end = final_dressing(scene);
     if (!end || cloth.fabric != ClothOptions().fabric || has_own_figures(cloth))
         return;
-    for (std::size_t i = 0; i < scene.garments.size(); ++i) {
+    for (std::size_t i = 0; i < scene.fits.size(); ++i) {
         GarmentInput& garment = scene.garments[i];
-        const auto usual = std::find_if(k_usual_knits.begin(), k_usual_knits.end(), [&](const UsualKnit& knit) {
-            return i < scene.fits.size() && knit.type == scene.fits[i].type;
-        });
-        if (garment.fabric || usual == k_usual_knits.end() || !is_too_small(*end, i))
+        if (garment.fabric || !is_too_small(*end, i))
             continue;
-        garment.fabric = usual->fabric;
-        garment.fabric_is_guessed = true;
+        garment.fabric = usual_knit(scene.fits[i].type);
+        garment.fabric_is_guessed = garment.fabric.has_value();
     }
 }
 

@@ -116,9 +116,12 @@ void run_stages_once(const std::vector<Stage>& stages, Scene& scene, const Param
 /// Runs draping and recovering again after a change of the scene. It stays so where that tells more.
 /// @param change  @return whether there is anything to change
 /// @param worst  outcome with which it stays so
+/// @param stays  whether it does with such an outcome
 /// @return whether it stays so
-bool run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene,
-                 const Parameters& parameters, const Progress& progress, Outcome worst = Outcome::too_small)
+bool run_changed(
+    const std::function<bool(Scene&)>& change, std::vector<Stage> stages, Scene& scene, const Parameters& parameters,
+    const Progress& progress, Outcome worst = Outcome::too_small,
+    const std::function<bool(const Scene&)>& stays = [](const Scene&) { return true; })
 {
     Scene other = scene;
     if (progress.is_late() || !change(other))
@@ -129,7 +132,7 @@ bool run_changed(const std::function<bool(Scene&)>& change, std::vector<Stage> s
     if (stages.front() == Stage::drape)
         other.draped.reset();
     const bool is_better = succeeds([&] { run_stages_once(stages, other, parameters, progress); })
-        && outcome_of(*final_dressing(other)) <= worst;
+        && outcome_of(*final_dressing(other)) <= worst && stays(other);
     if (is_better)
         scene = std::move(other);
     return is_better;
@@ -160,14 +163,14 @@ void run_wider(const std::vector<Stage>& stages, Scene& scene, const Parameters&
 /// for their type, where nothing was said of their fabric.
 void run_softly(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)
 {
-    if (!may_be_worn_in_the_end(scene))
-        return;
-    Scene soft = scene;
-    take_usual_knits(soft, parameters);
-    const auto nothing = [](Scene&) { return true; };
-    if (run_changed(nothing, stages, soft, putting_on_softly(parameters), progress, Outcome::done)
-        && !is_knit_stretched_all_over(soft))
-        scene = std::move(soft);
+    const auto change = [&](Scene& other) {
+        if (!may_be_worn_in_the_end(other))
+            return false;
+        take_usual_knits(other, parameters);
+        return true;
+    };
+    run_changed(change, stages, scene, putting_on_softly(parameters), progress, Outcome::done,
+                [](const Scene& other) { return !is_knit_stretched_all_over(other); });
 }
 
 void run_changes(const std::vector<Stage>& stages, Scene& scene, const Parameters& parameters, const Progress& progress)

@@ -55,8 +55,8 @@ void take_as_given(GarmentInput& garment);
 /// there are any, and all may be enlarged so far
 bool enlarge_too_small(Scene& scene, const Parameters& parameters);
 
-/// Whether what did not end well may do so if it is put on otherwise: nothing helps where the body crosses itself, or far
-/// too much girth is missing.
+/// Whether what did not end well may do so if it is put on otherwise: nothing helps where the part that is held back
+/// furthest crosses another part of the body, or far too much girth is missing.
 bool may_be_worn_in_the_end(const Scene& scene);
 /// Takes garments that are too small, and of whose fabric nothing was said, to be of the knit that is usual for their type,
 /// if one is. @param parameters  as given
